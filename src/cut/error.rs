@@ -1,4 +1,4 @@
-//! Why no cut plan or no parts could be made.
+//! Obstacles and errors of planning and cutting.
 
 use crate::{
     base::{toml_text::TextFault, verdict::Verdict},
@@ -6,8 +6,8 @@ use crate::{
     mesh::ClipError,
 };
 
-/// Why a body has no plan, or a plan no parts: an answer, not a failure. The message counts voids
-/// from 0.
+/// The reason why a body has no plan, or a plan no parts: an answer, not a failure. The message
+/// counts voids from 0.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Obstacle {
@@ -21,7 +21,7 @@ pub enum Obstacle {
         voids: Vec<VoidId>,
         /// The widest opening found for the worst of them, mm.
         widest_mm: f64,
-        /// The opening asked for, mm.
+        /// The required opening, mm.
         needed_mm: f64,
     },
     /// A part would enclose a cavity.
@@ -31,7 +31,7 @@ pub enum Obstacle {
     ClosedCavity {
         /// The part.
         part: PartId,
-        /// How many cavities.
+        /// The number of cavities.
         cavities: usize,
     },
     /// A pin of the plan does not stand on a cut face.
@@ -44,7 +44,7 @@ pub enum Obstacle {
     },
 }
 
-/// Why planning or cutting failed.
+/// The reason why planning or cutting failed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum CutError {
@@ -56,12 +56,12 @@ pub enum CutError {
         /// Its value.
         value: f64,
     },
-    /// More voids than a plan can tell apart.
+    /// There are more voids than a plan can tell apart.
     #[error("there are {voids} voids, but a plan handles at most {limit}; fill the smallest")]
     TooManyVoids {
-        /// How many there are.
+        /// The number of voids.
         voids: usize,
-        /// How many a plan handles.
+        /// The greatest number that a plan handles.
         limit: usize,
     },
     /// A cut of the plan has a normal without length or a point that is not finite.
@@ -72,23 +72,24 @@ pub enum CutError {
         /// The cut's id.
         cut: CutId,
     },
-    /// Cuts that are made within each other, on both sides of one, or within one that is not there.
+    /// Cuts that limit each other, a cut limited to both sides of another, or a limit to a cut that
+    /// is not in the plan.
     #[error(
         "a cut is kept to a side of one that is not there, or to both sides of one, or two wait for each other; name in `within` one side of cuts that can be made before"
     )]
     CircularCuts,
-    /// There is no plan or there are no parts, where there must be.
+    /// There is no plan or there are no parts, but the caller needs them.
     #[error(transparent)]
     Obstacle(#[from] Obstacle),
     /// The catalogue of rods cannot be read.
     #[error(transparent)]
     Rods(#[from] TextFault),
-    /// A boolean failed.
+    /// A boolean operation failed.
     #[error(transparent)]
     Clip(#[from] ClipError),
 }
 
-/// The indices with commas between them.
+/// Joins the indices with commas.
 fn list(voids: &[VoidId]) -> String {
     voids
         .iter()
@@ -97,7 +98,7 @@ fn list(voids: &[VoidId]) -> String {
         .join(", ")
 }
 
-/// Makes an obstacle the answer no; other errors stay errors.
+/// Turns an obstacle into the answer no; other errors stay errors.
 pub(crate) fn verdict<T>(result: Result<T, CutError>) -> Result<Verdict<T, Obstacle>, CutError> {
     match result {
         Ok(found) => Ok(Verdict::Found(found)),

@@ -4,11 +4,11 @@ use crate::cut::request::{GoalAxis, LabelStyle, PinSettings, PlanRequest, PosePr
 use crate::printer::{Grid, PrintPose, Printer, Quantity};
 
 impl PlanRequest {
-    /// Share of all voids' walls that a cut for cleaning alone must bring into sight. Below it a
-    /// kit gets joints and crumbs for nothing.
+    /// Least share of all voids' walls that a cut for cleaning alone must bring into sight. Below
+    /// it a kit gets extra joints and tiny parts for no gain.
     pub const WORTH_RATIO: f64 = 0.02;
 
-    /// Returns the request for a model whose longest side is `size_mm`, in the printer's walls,
+    /// Returns the request for a model whose longest side is `size_mm`, with the printer's walls,
     /// openings, pins and grid.
     ///
     /// Cuts keep away from the point of `axis`. Pins are printed, and ids are sunk into the cut
@@ -28,7 +28,8 @@ impl PlanRequest {
                 min_diameter_mm: printer.pin_min_diameter_mm.value,
                 length_ratio: printer.pin_length_ratio.value,
                 clearance_mm: printer.clearance_per_side_mm.value,
-                // The mouth of a socket on the plate must be wider than what spreads there.
+                // The chamfer must be wider than the elephant foot at the mouth of a socket on the
+                // plate.
                 chamfer_mm: printer.chamfer_mm.value.max(elephant_foot_mm),
                 bottom_relief_mm: printer.socket_extra_depth_mm.value,
             },
@@ -51,8 +52,8 @@ impl PlanRequest {
 }
 
 impl LabelStyle {
-    /// Returns strokes as wide as the printer's least detail, or two pixels, and as deep in whole
-    /// layers.
+    /// Returns strokes as wide as the printer's least detail, or two pixels if that is more. They
+    /// are as deep as the least detail, in whole layers.
     pub fn for_printer(printer: &Printer) -> Self {
         let pixel_mm = printer.pixel_x_mm.value.max(printer.pixel_y_mm.value);
         let feature_mm = printer.min_feature_mm.value;

@@ -7,8 +7,8 @@ use crate::{
 
 /// An outer surface and the voids inside it.
 ///
-/// Holds (the voids stage's promise): the voids are solids (oriented outward, as bodies of air),
-/// disjoint, and lie inside `outer`, nowhere nearer to it than the wall.
+/// Guaranteed by the voids stage: the voids are solids (oriented outward, as bodies of air) and
+/// disjoint. They lie inside `outer`, nowhere nearer to it than the wall thickness.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Hollowed {
     /// The outside of the model.
@@ -35,8 +35,8 @@ impl Hollowed {
         }
     }
 
-    /// One mesh that bounds the remaining material: the outer surface and every void turned inside
-    /// out.
+    /// Returns one mesh that bounds the remaining material: the outer surface and every void turned
+    /// inside out.
     pub fn to_mesh(&self) -> TriMesh {
         let outer = self.outer.mesh().clone();
         self.voids
@@ -44,7 +44,7 @@ impl Hollowed {
             .fold(outer, |mesh, void| mesh.joined(&void.mesh().reversed()))
     }
 
-    /// The same solid with only those voids that hold a part.
+    /// Returns the solid with only those voids that hold a part.
     pub(crate) fn without_empty_voids(&self) -> Self {
         let holds_part = |void: &&Void| void.holds.is_some();
         Self {
@@ -53,7 +53,7 @@ impl Hollowed {
         }
     }
 
-    /// The seats of the parts that voids hold, in the order of the voids.
+    /// Returns the seats of the parts that voids hold, in the order of the voids.
     pub(crate) fn seats(&self) -> impl Iterator<Item = &Seat> {
         self.voids.iter().filter_map(|void| void.holds.as_ref())
     }
@@ -65,13 +65,14 @@ impl Void {
         Self { body, holds: None }
     }
 
-    /// Its surface, facing outward as that of a body of air.
+    /// Returns its surface, facing outward as that of a body of air.
     pub fn mesh(&self) -> &TriMesh {
         self.body.mesh()
     }
 
-    /// Diameter of the disc that must pass through its opening, mm: the part that it holds, all of
-    /// it in sight once it is open, must go in; an empty void must let itself be cleaned.
+    /// Returns the diameter of the disc that must pass through its opening, mm. A part that it
+    /// holds must go in, so all of it lies in sight once the void is open. An empty void must be
+    /// wide enough to be cleaned.
     pub fn least_opening_mm(&self, request: &PlanRequest) -> f64 {
         self.holds
             .as_ref()

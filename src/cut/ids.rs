@@ -1,23 +1,24 @@
 //! The ids of cuts, pins, parts, joints and voids.
 //!
 //! Parts, joints and voids are counted, and their ids are copied like numbers. Cuts and pins carry
-//! names, because a person may call them anything in a file of cuts; the planner counts its own.
+//! names, because a user may name them freely in a file of cuts. The planner counts its own cuts
+//! and pins.
 
 use std::{convert::Infallible, fmt, str::FromStr};
 
 use serde::{Deserialize, Serialize};
 
-/// A text that is no id of the asked kind.
+/// The error for a text that is no id of the expected kind.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{text} is no id such as {example}")]
 pub struct IdError {
     /// The text.
     pub text: String,
-    /// An id of that kind.
+    /// An example of that kind.
     pub example: String,
 }
 
-/// Defines an id that counts: a letter, and a number from 1 of at least so many digits.
+/// Defines a counted id: a letter, and a number from 1 with at least the given number of digits.
 macro_rules! counted_id {
     ($(#[$doc:meta])* $name:ident, $letter:literal, $digits:literal) => {
         $(#[$doc])*
@@ -26,12 +27,12 @@ macro_rules! counted_id {
         pub struct $name(usize);
 
         impl $name {
-            /// The id of the one with this index, from 0.
+            /// Returns the id of the item with this index, from 0.
             pub const fn of(index: usize) -> Self {
                 Self(index)
             }
 
-            /// The index, from 0.
+            /// Returns the index, from 0.
             pub const fn index(self) -> usize {
                 self.0
             }
@@ -49,7 +50,7 @@ macro_rules! counted_id {
             fn from_str(text: &str) -> Result<Self, IdError> {
                 let number = text.strip_prefix($letter).and_then(|number| number.parse().ok());
                 let id = number.and_then(|number: usize| number.checked_sub(1)).map(Self);
-                // Only the text that the id is written as: not "P1" for "P01".
+                // Accept only the text that the id is written as: not "P1" for "P01".
                 id.filter(|id| id.to_string() == text).ok_or_else(|| IdError {
                     text: text.to_owned(),
                     example: Self(0).to_string(),
@@ -73,7 +74,8 @@ macro_rules! counted_id {
     };
 }
 
-/// Defines an id that a person may choose freely; the planner's are a letter and a number from 1.
+/// Defines an id that a user may choose freely. The planner's own ids are a letter and a number
+/// from 1.
 macro_rules! named_id {
     ($(#[$doc:meta])* $name:ident, $letter:literal) => {
         $(#[$doc])*
@@ -84,7 +86,7 @@ macro_rules! named_id {
         pub struct $name(String);
 
         impl $name {
-            /// The planner's id of the one with this index, from 0.
+            /// Returns the planner's id of the item with this index, from 0.
             pub fn of(index: usize) -> Self {
                 Self(format!("{}{}", $letter, index + 1))
             }
@@ -113,15 +115,15 @@ macro_rules! named_id {
 }
 
 counted_id! {
-    /// A void by its place among those of the hollowed body: V1, V2, …
+    /// The id of a void, by its place among those of the hollowed body: V1, V2, …
     VoidId, 'V', 1
 }
 counted_id! {
-    /// A part by its place in the order of pieces: P01, P02, …
+    /// The id of a part, by its place in the order of pieces: P01, P02, …
     PartId, 'P', 2
 }
 counted_id! {
-    /// A joint by its place in a plan: J1, J2, …
+    /// The id of a joint, by its place in a plan: J1, J2, …
     JointId, 'J', 1
 }
 named_id! {
@@ -129,7 +131,7 @@ named_id! {
     CutId, 'C'
 }
 named_id! {
-    /// The name of a pin: N1, N2, … for those of the planner; empty before a plan has numbered it.
+    /// The name of a pin: N1, N2, … for those of the planner; empty before the plan numbers it.
     PinId, 'N'
 }
 
@@ -149,7 +151,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_id_is_refused() {
+    fn texts_that_are_no_ids_are_refused() {
         for text in [
             "", "P", "P0", "P00", "P1", "p01", "V01", "C1", "P-1", "P+01",
         ] {

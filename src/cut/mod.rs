@@ -1,45 +1,72 @@
-//! Cuts: the fewest planes that open every void, the pins that align the parts, and the parts
-//! themselves.
+//! Cuts: the planes that open the voids of a hollowed model, the pins that align its parts, and the
+//! parts themselves.
+//!
+//! [`plan()`] searches the fewest planes that open every void of a [`Hollowed`] body wide enough,
+//! and places pins in the joints. [`plan_by`] follows a [`CutOrder`] that a user has written.
+//! [`parts`] cuts the body by a [`CutPlan`] into solids with pins, sockets and labels, posed for
+//! the printer.
+//!
+//! | file or folder | holds |
+//! |---|---|
+//! | `hollowed`, `seat` | the input: a solid with voids, and the seats of parts that voids hold |
+//! | `request`, `for_printer` | the requirements of a plan, and how a printer sets them |
+//! | `order` | the cuts and pins of a user: read, checked and written |
+//! | `plan`, `ids`, `side` | the plan as plain data, with the ids and sides that it names |
+//! | `remark`, `error` | notes for the user, obstacles and errors |
+//! | `geometry` | sections, outlines and the tree of cuts |
+//! | `access` | the openings of voids, and the share of their walls in sight |
+//! | `pieces` | the pieces between the cuts, their poses, and the finished parts |
+//! | `joints` | pins, dowels, bosses and labels |
+//! | `planner` | the search for the fewest cuts, and the way from cuts to a plan |
 
-mod access;
 mod error;
 mod for_printer;
-mod geometry;
 mod hollowed;
 mod ids;
-mod joints;
 mod order;
-mod pieces;
 mod plan;
-mod planner;
 mod remark;
 mod request;
-#[cfg(test)]
-mod scenes;
 mod seat;
 mod side;
+
+mod access;
+mod geometry;
+mod joints;
+mod pieces;
+mod planner;
+
+#[cfg(test)]
+mod scenes;
 #[cfg(test)]
 mod tests;
 
-pub use access::uncleanable::{Unclean, beyond, closed, unclean};
-pub use access::void_access::VoidAccess;
-pub use error::{CutError, Obstacle};
-pub use geometry::chart::Point2;
-pub use geometry::section::{Ring, Section};
-pub use geometry::tree::reached;
+// The input.
 pub use hollowed::{Hollowed, Void};
+pub use order::{CutOrder, Namer, OrderError, PinFault};
+pub use request::{GoalAxis, LabelStyle, PinSettings, PlanRequest, PosePreference};
+pub use seat::Seat;
+
+// The plan.
+pub use error::{CutError, Obstacle};
 pub use ids::{CutId, IdError, JointId, PartId, PinId, VoidId};
+pub use plan::{Cut, CutMove, CutPlan, JointNote, SolidEnd, UncutFace};
+pub use planner::{plan, plan_around, plan_by, plan_of};
+pub use remark::{PinLack, Proof, Remark, SightGain, Term, UncleanCause};
+pub use side::{CutSide, Side};
+
+// The parts and their joints.
 pub use joints::boss::{Boss, BossOrder, JointName, MaterialPrice};
 pub use joints::bosses::bosses;
 pub use joints::label::Label;
 pub use joints::pin_shape::PinSite;
 pub use joints::rod::{Dowel, Rod, RodSource, rods};
-pub use order::{CutOrder, Namer, OrderError, PinFault};
 pub use pieces::part::{Part, parts, parts_and_faces};
 pub use pieces::pose::{Lie, Pose, apply};
-pub use plan::{Cut, CutMove, CutPlan, JointNote, SolidEnd, UncutFace};
-pub use planner::{plan, plan_around, plan_by, plan_of};
-pub use remark::{PinLack, Proof, Remark, SightGain, Term, UncleanCause};
-pub use request::{GoalAxis, LabelStyle, PinSettings, PlanRequest, PosePreference};
-pub use seat::Seat;
-pub use side::{CutSide, Side};
+
+// The voids after the cuts, and sections.
+pub use access::uncleanable::{Unclean, beyond, closed, unclean};
+pub use access::void_access::VoidAccess;
+pub use geometry::chart::Point2;
+pub use geometry::section::{Ring, Section};
+pub use geometry::tree::reached;

@@ -1,4 +1,4 @@
-//! Cuts and pins ordered by a person: the part of a plan that is written to a file, edited, and
+//! Cuts and pins ordered by a user: the part of a plan that can be written to a file, edited, and
 //! read again.
 
 use std::fmt;
@@ -14,33 +14,32 @@ use crate::{
     },
 };
 
-/// The head of every written file.
-const REMARK: &str = r#"# Cuts and pins, mm, in the frame of the scaled model. Edit, then: equipoise prepare … --cut FILE
+/// The header of every written file.
+const FILE_HEADER: &str = r#"# Cuts and pins, mm, in the frame of the scaled model. Edit, then: equipoise prepare … --cut FILE
 # Without pins they are placed anew; `pins = []` makes none. Faces listed as uncut stay whole where a cut passes; a cut with
 # `within = [{ cut = "C1", side = "above" }]` is made on that side only. Of the interior stays solid what hangs together with
 # `at_mm` between the corners of the box of a `[[solid]]`.
 
 "#;
 
-/// What a person orders of a plan: the cuts, and, where given, the pins. What follows from them is
-/// not part of it.
+/// The cuts that a user orders and, if given, the pins. What follows from them is not part of it.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "Given")]
 pub struct CutOrder {
-    /// The pins; placed by the planner where none are given.
+    /// The pins; `None` if the planner is to place them.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pins: Option<Vec<PinSite>>,
-    /// The cuts, each through the whole model but where it is kept to sides of others.
+    /// The cuts, each through the whole model unless it is limited to sides of others.
     pub cuts: Vec<Cut>,
-    /// Where a cut leaves the body whole.
+    /// Faces at which a cut leaves the body whole.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub uncut: Vec<UncutFace>,
-    /// What of the interior stays solid.
+    /// Regions of the interior that stay solid.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub solid: Vec<SolidEnd>,
 }
 
-/// An order as it stands in a file, before it is looked at.
+/// An order as it stands in a file, before it is checked.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Given {
@@ -53,44 +52,44 @@ struct Given {
     solid: Vec<SolidEnd>,
 }
 
-/// Why an order makes no sense.
+/// The reason why an order makes no sense.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum OrderError {
-    /// Two cuts of one name.
+    /// Two cuts have the same name.
     #[error("cut {0} is there twice; remedy: give each its own id")]
     TwinCuts(CutId),
-    /// Two pins of one name.
+    /// Two pins have the same name.
     #[error("pin {0} is there twice; remedy: give each its own id")]
     TwinPins(PinId),
-    /// A plane that is none.
+    /// The plane of a cut is degenerate or not finite.
     #[error(
         "cut {0} has no direction, or numbers that are not finite; remedy: give a normal X, Y, Z and a point in mm"
     )]
     NoPlane(CutId),
-    /// A pin, an uncut face or a cut that names a cut that is not in the order.
+    /// A pin, an uncut face or a cut names a cut that is not in the order.
     #[error("{by} names cut {cut}, which is not there; remedy: name one of the cuts")]
     NoCut {
-        /// What names the cut.
+        /// The entry that names the cut.
         by: Namer,
         /// The cut it names.
         cut: CutId,
     },
-    /// Cuts that are made within each other, or beyond both sides of one.
+    /// Cuts limit each other, or one is limited to both sides of another.
     #[error(
         "cuts are kept to sides of each other, so that none can be made first, or one to both sides of another, so that it is made nowhere; remedy: take one of them out of the other's `within`"
     )]
     Circular,
-    /// A region that is none.
+    /// A solid region has no volume, or its point lies outside.
     #[error(
         "solid region {0} is none; remedy: give `low_mm` below `high_mm` on each axis, and `at_mm` between them"
     )]
     NoRegion(usize),
-    /// A pin that cannot be made.
+    /// A pin cannot be made.
     #[error("pin {id}: {reason}")]
     BadPin {
         /// The pin's id.
         id: PinId,
-        /// What is wrong with it.
+        /// The fault.
         reason: PinFault,
     },
 }
@@ -98,7 +97,7 @@ pub enum OrderError {
 /// An entry of an order that names a cut.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Namer {
-    /// A cut that is made on a side of another.
+    /// A cut that is limited to a side of another.
     Cut(CutId),
     /// A face that is left whole.
     UncutFace,
@@ -116,32 +115,32 @@ impl fmt::Display for Namer {
     }
 }
 
-/// Why a pin cannot be made.
+/// The reason why a pin cannot be made.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum PinFault {
     /// Its centre or direction is not finite, or its direction has no length.
     #[error("its centre and direction must be finite, and the direction have a length")]
     NoPlace,
-    /// A diameter, its length or its depth is no positive number.
+    /// A diameter, its length or its depth is not a positive number.
     #[error("its diameters, length and depth must be positive numbers, mm")]
     NoSize,
     /// A chamfer is negative.
     #[error("its chamfers must be zero or positive, mm")]
     NegativeChamfer,
-    /// The density of its dowel is no positive number.
+    /// The density of its dowel is not a positive number.
     #[error("its dowel's density must be a positive number, g/cm³")]
     NoDensity,
     /// Its dowel is longer than both sockets are deep.
     #[error("its dowel must be no longer than both sockets are deep")]
     LongDowel,
-    /// Its chamfer takes all of its tip.
+    /// Its chamfer takes up all of its tip.
     #[error("its chamfer must be less than its radius and its length")]
     WideChamfer,
-    /// The chamfer of its socket takes all of the socket.
+    /// The chamfer of its socket takes up all of the socket.
     #[error("its socket's chamfer must be less than the socket's depth")]
     DeepChamfer,
-    /// Its socket does not hold it.
+    /// Its socket is too narrow or too shallow for it.
     #[error(
         "its socket must be wider than it and as deep as it is long; remedy: add the printer's clearance"
     )]
@@ -149,7 +148,7 @@ pub enum PinFault {
 }
 
 impl CutOrder {
-    /// The order of exactly this plan, its pins included.
+    /// Returns the order of exactly this plan, its pins included.
     pub fn of(plan: &CutPlan) -> Self {
         Self {
             pins: Some(plan.pins.clone()),
@@ -159,35 +158,41 @@ impl CutOrder {
         }
     }
 
-    /// The same order with its cuts called as the planner calls them: C1, C2, …
+    /// Returns the order with its cuts named as the planner names them: C1, C2, …
     pub(crate) fn numbered(&self) -> Self {
         let number = |id: &mut CutId| {
             if let Some(index) = index_of(&self.cuts, id) {
                 *id = CutId::of(index);
             }
         };
-        let mut own = self.clone();
-        own.cuts
+        let mut renamed = self.clone();
+        renamed
+            .cuts
             .iter_mut()
             .flat_map(|cut| &mut cut.within)
             .for_each(|side| number(&mut side.cut));
-        own.cuts.iter_mut().for_each(|cut| number(&mut cut.id));
-        own.uncut.iter_mut().for_each(|face| number(&mut face.cut));
-        own.pins
+        renamed.cuts.iter_mut().for_each(|cut| number(&mut cut.id));
+        renamed
+            .uncut
+            .iter_mut()
+            .for_each(|face| number(&mut face.cut));
+        renamed
+            .pins
             .iter_mut()
             .flatten()
             .for_each(|pin| number(&mut pin.cut));
-        own
+        renamed
     }
 
-    /// The order that the TOML `text` says, which messages call `file`.
+    /// Reads an order from the TOML `text` of the file that messages call `file`. Returns an error
+    /// with its place if the text is not TOML or not a valid order.
     pub fn from_toml(file: &str, text: &str) -> Result<Self, TextFault> {
         toml_text::read(file, text)
     }
 
-    /// The order as a file to edit. Reads back equal, to the bit.
+    /// Returns the order as the text of a file to edit. It reads back equal, to the bit.
     pub fn to_toml(&self) -> Result<String, toml::ser::Error> {
-        Ok(format!("{REMARK}{}", toml::to_string(self)?))
+        Ok(format!("{FILE_HEADER}{}", toml::to_string(self)?))
     }
 }
 
@@ -201,10 +206,10 @@ impl TryFrom<Given> for CutOrder {
             uncut,
             solid,
         } = given;
-        if let Some(id) = twin(cuts.iter().map(|cut| &cut.id)) {
+        if let Some(id) = find_duplicate(cuts.iter().map(|cut| &cut.id)) {
             return Err(OrderError::TwinCuts(id.clone()));
         }
-        if let Some(id) = twin(pins.iter().flatten().map(|pin| &pin.id)) {
+        if let Some(id) = find_duplicate(pins.iter().flatten().map(|pin| &pin.id)) {
             return Err(OrderError::TwinPins(id.clone()));
         }
         if let Some(cut) = cuts.iter().find(|cut| cut.plane().is_err()) {
@@ -253,15 +258,15 @@ impl TryFrom<Given> for CutOrder {
     }
 }
 
-/// The least id that stands there twice; `None` if each is there once.
-fn twin<'a, T: Ord>(ids: impl Iterator<Item = &'a T>) -> Option<&'a T> {
+/// Returns the least id that occurs twice; `None` if every id is unique.
+fn find_duplicate<'a, T: Ord>(ids: impl Iterator<Item = &'a T>) -> Option<&'a T> {
     let mut ids: Vec<&T> = ids.collect();
     ids.sort_unstable();
     let mut pairs = ids.windows(2);
     pairs.find(|pair| pair[0] == pair[1]).map(|pair| pair[0])
 }
 
-/// What keeps a pin from being made.
+/// Returns an error if the pin cannot be made.
 fn check_pin(pin: &PinSite) -> Result<(), PinFault> {
     let sizes = [
         pin.diameter_mm,
@@ -308,7 +313,7 @@ mod tests {
     use super::*;
     use crate::cut::scenes::{ball, plan, plan_by, request, with_balls};
 
-    fn planned() -> (crate::cut::Hollowed, CutPlan) {
+    fn ball_and_plan() -> (crate::cut::Hollowed, CutPlan) {
         let body = with_balls(ball([0.0; 3], 25.0), &[[0.0, 0.0, 0.0, 12.0]]);
         let plan = plan(&body, &request()).unwrap();
         (body, plan)
@@ -316,7 +321,7 @@ mod tests {
 
     #[test]
     fn a_plan_written_as_an_order_and_read_again_is_made_again_to_the_bit() {
-        let (body, plan) = planned();
+        let (body, plan) = ball_and_plan();
         let text = CutOrder::of(&plan).to_toml().unwrap();
         let order = CutOrder::from_toml("cuts.toml", &text).unwrap();
         assert_eq!(order, CutOrder::of(&plan));
@@ -328,8 +333,8 @@ mod tests {
     }
 
     #[test]
-    fn what_is_to_stay_solid_is_read_as_it_was_written_and_a_box_without_volume_is_refused() {
-        let (body, plan) = planned();
+    fn solid_regions_are_read_as_written_and_a_box_without_volume_is_refused() {
+        let (body, plan) = ball_and_plan();
         let end = SolidEnd {
             at_mm: [0.5, 1.0 / 3.0, 8.0],
             low_mm: [0.0; 3],
@@ -364,8 +369,8 @@ mod tests {
     }
 
     #[test]
-    fn a_cut_keeps_the_name_it_was_given_wherever_the_plan_speaks_of_it() {
-        let (body, plan) = planned();
+    fn a_cut_keeps_its_given_name_everywhere_in_the_plan() {
+        let (body, plan) = ball_and_plan();
         let text = CutOrder::of(&plan)
             .to_toml()
             .unwrap()
@@ -383,7 +388,7 @@ mod tests {
 
     #[test]
     fn pins_not_given_are_placed_and_an_empty_list_makes_none() {
-        let (body, plan) = planned();
+        let (body, plan) = ball_and_plan();
         let cuts = CutOrder {
             pins: None,
             ..CutOrder::of(&plan)
@@ -397,8 +402,8 @@ mod tests {
     }
 
     #[test]
-    fn two_equal_pins_of_ones_own_fit_in_two_ways_and_the_plan_says_so() {
-        let (body, plan) = planned();
+    fn two_equal_ordered_pins_fit_in_two_ways_and_the_plan_says_so() {
+        let (body, plan) = ball_and_plan();
         let mut order = CutOrder::of(&plan);
         let mut pins = plan.pins[..2].to_vec();
         let first = pins[0].clone();
@@ -419,7 +424,7 @@ mod tests {
         );
     }
 
-    /// What to replace in a written order, by what, and what the message must say.
+    /// Text to replace in a written order, its replacement, and words of the expected message.
     const BROKEN: [(&str, &str, &str); 9] = [
         (
             "id = \"C1\"\npoint",
@@ -462,7 +467,7 @@ mod tests {
 
     #[test]
     fn every_broken_order_is_refused_with_its_reason() {
-        let whole = CutOrder::of(&planned().1).to_toml().unwrap();
+        let whole = CutOrder::of(&ball_and_plan().1).to_toml().unwrap();
         for (from, to, reason) in BROKEN {
             assert!(whole.contains(from), "{from} in\n{whole}");
             let refused = CutOrder::from_toml("cuts.toml", &whole.replacen(from, to, 1));

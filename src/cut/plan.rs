@@ -1,4 +1,4 @@
-//! A cut plan as plain data: which planes, where the pins go, what is left whole.
+//! The cut plan as plain data: the planes, the pins and the faces left whole.
 
 use crate::{
     cut::{
@@ -20,32 +20,32 @@ use crate::{
 };
 use serde::{Deserialize, Serialize};
 
-/// The cuts, pins and joints of a kit: plain data, to be written, edited and read again.
+/// The cuts, pins and joints of a kit: plain data that can be written, edited and read again.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct CutPlan {
     /// The cuts.
     pub cuts: Vec<Cut>,
     /// The pins that align the parts.
     pub pins: Vec<PinSite>,
-    /// Which parts meet where.
+    /// The joints between the parts.
     pub joints: Vec<JointNote>,
-    /// The ids sunk into its faces.
+    /// The ids sunk into its cut faces.
     #[serde(default)]
     pub labels: Vec<Label>,
-    /// How each void is opened, in the order of the hollowed body's voids.
+    /// The access to each void, in the order of the hollowed body's voids.
     pub voids: Vec<VoidAccess>,
-    /// Where a cut leaves the body whole.
+    /// Faces at which a cut leaves the body whole.
     #[serde(default)]
     pub uncut: Vec<UncutFace>,
-    /// What of the interior stays solid, so that joints have room for their pins.
+    /// Regions of the interior that stay solid, so that joints have room for their pins.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub solid: Vec<SolidEnd>,
-    /// Which cuts were moved to a whole layer of the printer: how the plan came about, and no part
-    /// of its file.
+    /// The cuts that were moved to a whole layer of the printer. They record how the plan was found
+    /// and are not written to its file.
     #[serde(skip)]
     pub moves: Vec<CutMove>,
-    /// What a person should know: the proof that fewer cuts do not do, joints without room for
-    /// pins.
+    /// Notes for the user, such as the proof that fewer cuts do not suffice, or joints without room
+    /// for pins.
     pub notes: Vec<Remark>,
 }
 
@@ -59,13 +59,13 @@ pub struct Cut {
     pub point_mm: [f64; 3],
     /// The unit normal.
     pub normal: [f64; 3],
-    /// The sides of other cuts on which alone it cuts; everywhere where there are none.
+    /// The sides of other cuts to which it is limited; everywhere if there are none.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub within: Vec<CutSide>,
 }
 
-/// A face that a cut leaves whole: the plane passes through an ear or a finger there, but nothing
-/// would be opened.
+/// A face that a cut leaves whole: the plane passes through an ear or a finger, but would open
+/// nothing there.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct UncutFace {
@@ -82,18 +82,18 @@ pub struct JointNote {
     pub cut: CutId,
     /// The ids of the parts below and above the cut.
     pub parts: [PartId; 2],
-    /// The area to be glued, sockets not taken off, mm².
+    /// The area to be glued, sockets not subtracted, mm².
     pub area_mm2: f64,
     /// The ids of the pins between them.
     pub pins: Vec<PinId>,
-    /// Whether the pins let the parts together one way only.
+    /// `true` if the pins let the parts together in one way only.
     pub one_way: bool,
-    /// Where the parts touch: the section less the mouths of the sockets.
+    /// The face in which the parts touch: the section less the mouths of the sockets.
     pub face: FlatFace,
 }
 
-/// A part of the interior that is not emptied: what of it hangs together with a point within a box
-/// of the model frame.
+/// A region of the interior that is not emptied: what is connected to a point, within a box of the
+/// model frame.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SolidEnd {
@@ -110,29 +110,29 @@ pub struct SolidEnd {
 pub struct CutMove {
     /// The cut's id.
     pub cut: CutId,
-    /// The part whose face decided.
+    /// The part whose face decided the move.
     pub part: PartId,
-    /// How far the plane was moved along its normal, mm: half a layer at most.
+    /// The distance by which the plane was moved along its normal, mm: half a layer at most.
     pub moved_mm: f64,
 }
 
-/// A place on a cut where the body is left whole.
+/// A place on a cut at which the body is left whole.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Bridge {
     pub(crate) cut: usize,
-    /// A point well inside the face that is not cut, in the plane's coordinates.
+    /// A point well inside the uncut face, in the plane's coordinates.
     pub(crate) at: Point2,
 }
 
 impl JointNote {
-    /// Whether at least two pins let the parts together one way only.
+    /// Returns whether at least two pins let the parts together in one way only.
     pub fn is_aligned(&self) -> bool {
         self.pins.len() >= 2 && self.one_way
     }
 }
 
 impl CutPlan {
-    /// The plan that cuts nothing and leaves every void closed.
+    /// Returns the plan that cuts nothing and leaves every void closed.
     pub fn uncut(hollowed: &Hollowed) -> Self {
         let closed = |(index, void): (usize, &Void)| VoidAccess::closed(VoidId::of(index), void);
         Self {
@@ -148,14 +148,15 @@ impl CutPlan {
         }
     }
 
-    /// One mesh of what the pins add and, turned inside out, of what the sockets and labels take
-    /// away: its moments are what the assembled parts have more than the uncut body.
+    /// Returns one mesh of the material that pins add and, turned inside out, of what sockets and
+    /// labels remove. Its moments are the difference between the assembled parts and the uncut
+    /// body.
     pub fn pegs(&self) -> TriMesh {
-        let second = |pin: &PinSite| match pin.dowel {
+        let second_socket = |pin: &PinSite| match pin.dowel {
             Some(_) => pin.mirrored().taken_away(),
             None => TriMesh::default(),
         };
-        let sockets = |pin: &PinSite| pin.taken_away().joined(&second(pin)).reversed();
+        let sockets = |pin: &PinSite| pin.taken_away().joined(&second_socket(pin)).reversed();
         let peg = |pin: &PinSite| pin.standing_out().joined(&sockets(pin));
         let pegs = self
             .pins
@@ -166,7 +167,7 @@ impl CutPlan {
         })
     }
 
-    /// The cuts in which a part meets others.
+    /// Returns the cuts at which a part meets others.
     pub fn cuts_of(&self, part: PartId) -> impl Iterator<Item = &Cut> {
         let meets = move |joint: &JointNote| joint.parts.contains(&part);
         let joints = move || self.joints.iter().filter(move |joint| meets(joint));
@@ -180,28 +181,29 @@ impl CutPlan {
         self.notes.iter().filter(|note| note.is_proof())
     }
 
-    /// Its cuts as they are made, in their order.
+    /// Returns its cuts with the half-spaces within which they are made, in their order. Errors as
+    /// [`Cut::plane`], and if limits are circular.
     pub fn partings(&self) -> Result<Vec<Parting>, CutError> {
         Ok(self.tree()?.partings().collect())
     }
 
-    /// The planes of its cuts, and where each cuts.
+    /// Returns the planes of its cuts and their limits.
     pub(crate) fn tree(&self) -> Result<CutTree, CutError> {
         tree_of(&self.cuts)
     }
 
-    /// The faces left whole, in the coordinates of the cuts' planes.
+    /// Returns the faces left whole, in the coordinates of the cuts' planes.
     pub(crate) fn bridges(&self, planes: &[Plane]) -> Vec<Bridge> {
         bridges_on(planes, &self.cuts, &self.uncut)
     }
 }
 
-/// The index of the cut with an id; `None` if there is none.
+/// Returns the index of the cut with an id; `None` if there is none.
 pub(crate) fn index_of(cuts: &[Cut], id: &CutId) -> Option<usize> {
     cuts.iter().position(|cut| cut.id == *id)
 }
 
-/// The planes of cuts, and where each cuts.
+/// Returns the planes of cuts and their limits.
 pub(crate) fn tree_of(cuts: &[Cut]) -> Result<CutTree, CutError> {
     let planes = cuts.iter().map(Cut::plane).collect::<Result<Vec<_>, _>>()?;
     let limit = |side: &CutSide| {
@@ -219,8 +221,8 @@ pub(crate) fn tree_of(cuts: &[Cut]) -> Result<CutTree, CutError> {
     CutTree::new(planes, limits).ok_or(CutError::CircularCuts)
 }
 
-/// Faces left whole, in the coordinates of the cuts' planes; faces on none of the cuts are left
-/// out.
+/// Returns faces left whole, in the coordinates of the cuts' planes, without those on none of the
+/// cuts.
 pub(crate) fn bridges_on(planes: &[Plane], cuts: &[Cut], uncut: &[UncutFace]) -> Vec<Bridge> {
     let bridge = |face: &UncutFace| {
         let cut = index_of(cuts, &face.cut)?;
@@ -233,7 +235,7 @@ pub(crate) fn bridges_on(planes: &[Plane], cuts: &[Cut], uncut: &[UncutFace]) ->
 }
 
 impl Cut {
-    /// The cut's plane, or why it is none.
+    /// Returns the cut's plane; an error if its normal has no length or a number is not finite.
     pub fn plane(&self) -> Result<Plane, CutError> {
         let (point, normal) = (Point::from(self.point_mm), Vector::from(self.normal));
         let plane = Plane::through(&point, &normal);
@@ -258,7 +260,7 @@ impl SolidEnd {
         }
     }
 
-    /// The box.
+    /// Returns the box.
     pub fn aabb(&self) -> Aabb {
         Aabb {
             min: self.low_mm.into(),
@@ -266,7 +268,7 @@ impl SolidEnd {
         }
     }
 
-    /// Whether the point lies in a box that has a volume.
+    /// Returns whether the box has a volume and contains the point.
     pub(crate) fn is_sound(&self) -> bool {
         let sides = self.low_mm.iter().zip(self.high_mm).zip(self.at_mm);
         sides.into_iter().all(|((&low, high), at)| {

@@ -1,4 +1,4 @@
-//! Facts of a plan that a person is told, worded only when they are shown.
+//! Facts of a plan for the user, put into words only when they are shown.
 
 use std::fmt;
 
@@ -12,8 +12,8 @@ use crate::{
     },
 };
 
-/// Terms of a score below this are not shown.
-const SHOWN_PENALTY: f64 = 0.005;
+/// Least value of a term of a score that is shown.
+const LEAST_VISIBLE_PENALTY: f64 = 0.005;
 
 /// A note on a plan of cuts and pins.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -22,7 +22,7 @@ const SHOWN_PENALTY: f64 = 0.005;
 pub enum Remark {
     /// The number of cuts that open every void, and its proof.
     Fewest(Proof),
-    /// A further cut lets voids be cleaned.
+    /// An extra cut makes voids cleanable.
     CleaningCut {
         /// The cut.
         cut: CutId,
@@ -33,19 +33,19 @@ pub enum Remark {
     Score {
         /// The cut.
         cut: CutId,
-        /// The weighed terms, each 0 at best.
+        /// The weighted terms, each 0 at best.
         terms: Vec<(Term, f64)>,
     },
-    /// A further cut makes parts fit the build volume.
+    /// An extra cut makes parts fit the build volume.
     FittingCut(CutId),
-    /// A cut is made on sides of others only.
+    /// A cut is limited to sides of others.
     LimitedCut {
         /// The cut.
         cut: CutId,
         /// The sides.
         sides: Vec<CutSide>,
     },
-    /// A joint lacks two pins that fit one way only.
+    /// A joint lacks two pins that fit in one way only.
     LacksPins {
         /// The parts below and above the joint.
         parts: [PartId; 2],
@@ -58,7 +58,7 @@ pub enum Remark {
         void: VoidId,
         /// Diameter of its narrowest mouth, mm.
         opening_mm: f64,
-        /// Diameter that is asked for, mm.
+        /// Required diameter, mm.
         least_opening_mm: f64,
     },
     /// A cut face has no room for the id of its part.
@@ -71,7 +71,7 @@ pub enum Remark {
 }
 
 impl Remark {
-    /// Returns whether it says how the cuts were found, and not what follows from them.
+    /// Returns whether the remark says how the cuts were found, rather than what follows from them.
     pub fn is_proof(&self) -> bool {
         match self {
             Self::Fewest(_)
@@ -94,19 +94,21 @@ impl fmt::Display for Remark {
                 write!(
                     f,
                     "cut {cut}: so that voids can be cleaned ({})",
-                    joined(gains, "; ")
+                    join(gains, "; ")
                 )
             }
             Self::Score { cut, terms } => {
                 let sum: f64 = terms.iter().map(|(_, value)| value).sum();
-                let shown = terms.iter().filter(|(_, value)| *value >= SHOWN_PENALTY);
-                let shown: Vec<String> = shown
+                let visible = terms
+                    .iter()
+                    .filter(|(_, value)| *value >= LEAST_VISIBLE_PENALTY);
+                let visible: Vec<String> = visible
                     .map(|(term, value)| format!("{term} {value:.2}"))
                     .collect();
                 write!(
                     f,
                     "cut {cut}: score {sum:.2}, 0 at best ({})",
-                    shown.join(", ")
+                    visible.join(", ")
                 )
             }
             Self::FittingCut(cut) => {
@@ -116,7 +118,7 @@ impl fmt::Display for Remark {
                 write!(
                     f,
                     "cut {cut}: only {}; beyond it nothing needs it",
-                    joined(sides, " and ")
+                    join(sides, " and ")
                 )
             }
             Self::LacksPins {
@@ -140,22 +142,22 @@ impl fmt::Display for Remark {
     }
 }
 
-/// Words with a separator between them.
-fn joined<T: ToString>(things: &[T], separator: &str) -> String {
+/// Joins words with a separator.
+fn join<T: ToString>(things: &[T], separator: &str) -> String {
     let words: Vec<String> = things.iter().map(T::to_string).collect();
     words.join(separator)
 }
 
-/// A number of cuts, and whether fewer would do.
+/// A number of cuts, and the proof or search that fewer do not suffice.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Proof {
     /// Number of cuts.
     pub cuts: usize,
     /// Number of planes in the family that was searched.
     pub family: usize,
-    /// Number of partial choices that were looked at.
+    /// Number of partial choices that were visited.
     pub nodes: u64,
-    /// Whether fewer cuts were proved impossible in that family.
+    /// `true` if fewer cuts were proved impossible in that family.
     pub is_proved: bool,
 }
 
@@ -177,7 +179,7 @@ impl fmt::Display for Proof {
     }
 }
 
-/// The share of a void's wall that a further cut brings into sight.
+/// The share of a void's wall that an extra cut brings into sight.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct SightGain {
     /// The void.
@@ -204,21 +206,21 @@ impl fmt::Display for SightGain {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Term {
-    /// The room for pins in the joint with least.
+    /// Too little room for pins in the joint with least.
     RoomForPins,
-    /// The share of the smallest part.
+    /// Too small a share of the smallest part.
     SmallestPart,
-    /// The pieces beyond two.
+    /// The number of pieces beyond two.
     Parts,
     /// The distance from the contact point.
     Contact,
     /// The length of the seam.
     Seam,
-    /// The turning of the seam.
+    /// The turning of the seam, beyond that of a convex one.
     Detail,
     /// The area to be glued.
     Glue,
-    /// The halves that do not fit the build volume.
+    /// The number of halves that do not fit the build volume.
     BuildVolume,
     /// The surface that hangs over the plate.
     Overhang,
@@ -240,7 +242,7 @@ impl fmt::Display for Term {
     }
 }
 
-/// Why a joint lacks two pins that fit one way only.
+/// The reason why a joint lacks two pins that fit in one way only.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum PinLack {
@@ -253,7 +255,7 @@ pub enum PinLack {
     },
     /// The material behind the cut is too thin for any socket.
     TooThin,
-    /// There is room for one pin.
+    /// It has room for one pin only.
     OnePin,
     /// The pins fit in more than one way.
     Ambiguous,
@@ -280,7 +282,7 @@ impl fmt::Display for PinLack {
     }
 }
 
-/// Why a void cannot be cleaned.
+/// The reason why a void cannot be cleaned.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum UncleanCause {
@@ -288,14 +290,14 @@ pub enum UncleanCause {
     Hidden {
         /// Share in sight.
         sight_ratio: f64,
-        /// Share that the planner asks for.
+        /// Share that the planner requires.
         asked_ratio: f64,
     },
     /// It opens too narrowly.
     Narrow {
         /// Diameter of its opening, mm.
         opening_mm: f64,
-        /// Diameter that is asked for, mm.
+        /// Required diameter, mm.
         least_opening_mm: f64,
     },
     /// No cut opens it.
@@ -342,7 +344,7 @@ mod tests {
     }
 
     #[test]
-    fn remarks_tell_how_cuts_were_found_from_what_follows() {
+    fn remarks_on_how_cuts_were_found_are_told_from_consequences() {
         let side = CutSide {
             cut: CutId::of(0),
             side: Side::Below,

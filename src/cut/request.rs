@@ -1,4 +1,4 @@
-//! What a cut plan is asked for.
+//! The request for a cut plan.
 
 use serde::{Deserialize, Serialize};
 
@@ -8,42 +8,41 @@ use crate::{
     printer::Cleaning,
 };
 
-/// What the printer, the material and the goal ask of cuts, pins and parts.
+/// Requirements of the printer, the material and the goal for cuts, pins and parts.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlanRequest {
     /// Diameter of the disc that must pass through the opening of every void, mm.
     pub min_opening_mm: f64,
-    /// When a void counts as clean, besides its opening.
+    /// The rule by which a void counts as clean, besides its opening.
     pub cleaning: Cleaning,
-    /// The least share of all voids' walls that a cut for their cleaning alone must bring into
-    /// sight: what less would open is left unclean, to be kept solid. 0: any cut is worth its
-    /// joint.
+    /// Least share of all voids' walls that a cut for cleaning alone must bring into sight.
+    /// Whatever only a cut with a smaller gain would open stays unclean, to be kept solid. With 0,
+    /// every cut is worth its joint.
     pub worth_ratio: f64,
-    /// Whether the room for pins counts as it is with the voids filled, so that bosses have it
-    /// beside the opening, and not as the walls alone give it: for another plan, where the first
-    /// leaves joints without pins.
+    /// `true` to rate the room for pins with the voids filled, so that bosses have room beside the
+    /// opening. `false` rates the walls alone. Meant for a second plan, if the first leaves joints
+    /// without pins.
     pub wants_wide_joints: bool,
-    /// What fits into the printer: x, y and z, mm. Unset: anything fits.
+    /// The build volume: x, y and z, mm. `None`: anything fits.
     pub build_volume_mm: Option<[f64; 3]>,
     /// Least thickness of material around a socket and under a pin, mm.
     pub wall_mm: f64,
-    /// How pins and sockets are made.
+    /// The sizes of pins and sockets.
     pub pins: PinSettings,
     /// The contact point and the spin axis (or up): cuts keep away from the point.
     pub axis: GoalAxis,
     /// Pin diameters are whole multiples of this, mm.
     pub pixel_mm: f64,
-    /// Socket diameters are whole multiples of this, mm; zero where holes are not made of steps, as
-    /// with lines of filament.
+    /// Socket diameters are whole multiples of this, mm; 0 if holes are not made of steps, as with
+    /// lines of filament.
     pub hole_step_mm: f64,
-    /// Pin lengths, socket depths and the heights of faces that look up are whole multiples of
-    /// this, mm.
+    /// Pin lengths, socket depths and the heights of upward faces are whole multiples of this, mm.
     pub layer_mm: f64,
-    /// How parts are laid in the printer.
+    /// The preferred pose of parts in the printer.
     pub pose: PosePreference,
-    /// The rods that dowels are cut from, in place of printed pins; none for printed ones.
+    /// The rods that dowels are cut from, in place of printed pins; empty for printed pins.
     pub rods: Vec<Rod>,
-    /// How part ids are sunk into cut faces; none where they are not.
+    /// The style in which part ids are sunk into cut faces; `None` for no ids.
     pub labels: Option<LabelStyle>,
 }
 
@@ -67,26 +66,26 @@ pub struct PinSettings {
     pub clearance_mm: f64,
     /// Height and width of the chamfers at the pin's tip and the socket's mouth, mm.
     pub chamfer_mm: f64,
-    /// How much deeper a socket is than its pin is long, mm.
+    /// Depth of a socket beyond the length of its pin, mm.
     pub bottom_relief_mm: f64,
 }
 
-/// Which way a cut part is laid in the printer.
+/// The preferred pose of a part in the printer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum PosePreference {
-    /// The largest cut face without pins on the plate; where every cut face has pins, the largest
-    /// looks up.
+    /// The largest cut face without pins lies on the plate. If every cut face has pins, the largest
+    /// faces up.
     CutFaceDown,
-    /// The opened hollows look up, so that support can be washed out of them (PolyJet).
+    /// The opened hollows face up, so that support can be washed out of them (PolyJet).
     OpenHollowUp,
 }
 
-/// How ids are sunk into cut faces.
+/// The style in which ids are sunk into cut faces.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LabelStyle {
     /// The width of a stroke, mm: the smallest detail that prints.
     pub stroke_mm: f64,
-    /// How deep it is, mm.
+    /// The depth of a stroke, mm.
     pub depth_mm: f64,
 }

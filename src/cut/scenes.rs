@@ -10,7 +10,7 @@ use crate::{
     printer::Cleaning,
 };
 
-/// A solid box.
+/// Returns a solid box.
 pub(crate) fn cuboid(min: [f64; 3], max: [f64; 3]) -> Solid {
     let pick = |i: usize, axis: usize| {
         if i >> axis & 1 == 0 {
@@ -37,7 +37,8 @@ pub(crate) fn cuboid(min: [f64; 3], max: [f64; 3]) -> Solid {
     Solid::new(TriMesh::new(vertices, triangles).unwrap()).unwrap()
 }
 
-/// A ball of 24 × 12 faces, its poles along z; inscribed, so a little smaller than the true ball.
+/// Returns a ball of 24 × 12 faces, its poles along z. It is inscribed, so a little smaller than
+/// the true ball.
 pub(crate) fn ball(center: [f64; 3], radius: f64) -> Solid {
     let (around, rows) = (24u32, 12u32);
     let center = Point::from(center);
@@ -72,7 +73,7 @@ pub(crate) fn ball(center: [f64; 3], radius: f64) -> Solid {
     Solid::new(TriMesh::new(vertices, triangles).unwrap()).unwrap()
 }
 
-/// A body with balls of air in it, each (x, y, z, radius).
+/// Returns a body with balls of air in it, each (x, y, z, radius).
 pub(crate) fn with_balls(outer: Solid, balls: &[[f64; 4]]) -> Hollowed {
     let voids = balls
         .iter()
@@ -81,7 +82,7 @@ pub(crate) fn with_balls(outer: Solid, balls: &[[f64; 4]]) -> Hollowed {
     Hollowed::new(outer, voids)
 }
 
-/// Settings like those of a PolyJet printer, about an axis along z through a point below
+/// Returns settings like those of a PolyJet printer. The axis runs along z through a point below
 /// everything.
 pub(crate) fn request() -> PlanRequest {
     PlanRequest {
@@ -111,12 +112,12 @@ pub(crate) fn request() -> PlanRequest {
     }
 }
 
-/// A plan as in [`cut::plan`], an obstacle being an error.
+/// Returns a plan as in [`cut::plan`], with an obstacle as an error.
 pub(crate) fn plan(hollowed: &Hollowed, request: &PlanRequest) -> Result<CutPlan, CutError> {
     cut::plan(hollowed, request)?.or_error()
 }
 
-/// A plan as in [`cut::plan_by`], an obstacle being an error.
+/// Returns a plan as in [`cut::plan_by`], with an obstacle as an error.
 pub(crate) fn plan_by(
     hollowed: &Hollowed,
     request: &PlanRequest,
@@ -125,7 +126,7 @@ pub(crate) fn plan_by(
     cut::plan_by(hollowed, request, order)?.or_error()
 }
 
-/// The parts as in [`cut::parts`], an obstacle being an error.
+/// Returns the parts as in [`cut::parts`], with an obstacle as an error.
 pub(crate) fn parts(
     hollowed: &Hollowed,
     plan: &CutPlan,

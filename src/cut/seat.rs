@@ -1,4 +1,4 @@
-//! Voids that hold a part: a cut must open them so that the part can be laid in.
+//! Voids that hold a part: a cut must open them so that the part can be inserted.
 
 use crate::geom::{Plane, Point, Vector};
 
@@ -7,7 +7,7 @@ use crate::geom::{Plane, Point, Vector};
 pub struct Seat {
     /// Its centre, model frame, mm.
     pub center: Point,
-    /// The unit axis of a cylinder and half its height, mm; none for a ball.
+    /// The unit axis of a cylinder and half its height, mm; `None` for a ball.
     pub axis: Option<(Vector, f64)>,
     /// The radius of the void, mm.
     pub radius_mm: f64,
@@ -16,29 +16,30 @@ pub struct Seat {
 }
 
 impl Seat {
-    /// Whether a plane opens the void so that the part goes in: through a ball near enough to its
-    /// middle, through a cylinder by its side all around, so that the part slides out along the
-    /// axis.
+    /// Returns whether a plane opens the void so that the part goes in. A ball must be cut near
+    /// enough to its middle. A cylinder must be cut through its side all around, so that the part
+    /// slides out along the axis.
     pub(crate) fn is_opened_by(&self, plane: &Plane) -> bool {
         let distance_mm = plane.distance(&self.center).abs();
         let Some((axis, half_mm)) = self.axis else {
             let slack2 = self.radius_mm * self.radius_mm - self.opening_mm * self.opening_mm / 4.0;
             return distance_mm * distance_mm <= slack2;
         };
-        // The plane meets the axis at distance/cos, and the side as much higher and lower as it
-        // leans over the radius.
+        // The plane meets the axis at distance/cos. Over the radius its slope takes it higher and
+        // lower by radius·sin/cos.
         let cos = plane.normal.dot(&axis).abs();
         let sin = (1.0 - cos * cos).max(0.0).sqrt();
         distance_mm + self.opening_mm / 2.0 * sin <= half_mm * cos
     }
 
-    /// Its middle's height along a direction, mm.
+    /// Returns the height of its centre along a direction, mm.
     pub(crate) fn height_mm(&self, normal: &Vector) -> f64 {
         normal.dot(&self.center.coords)
     }
 }
 
-/// Normals of planes that pass through the middles of several seats, and across the seats' axes.
+/// Returns normals of planes that pass through the centres of several seats, and of planes across
+/// the seats' axes.
 pub(crate) fn normals(seats: &[&Seat]) -> Vec<Vector> {
     let axes = seats
         .iter()
@@ -63,7 +64,7 @@ pub(crate) fn normals(seats: &[&Seat]) -> Vec<Vector> {
         .collect()
 }
 
-/// A normal shorter than this is rounding: seats in one place, or on one line, mm or mm².
+/// Length below which a normal is rounding, mm or mm²: seats in one place or on one line.
 const LEAST_NORMAL_MM: f64 = 1e-6;
 
 #[cfg(test)]
@@ -78,7 +79,7 @@ mod tests {
     }
 
     #[test]
-    fn a_ball_goes_in_where_the_opening_is_as_wide_as_itself() {
+    fn a_ball_goes_in_through_an_opening_as_wide_as_itself() {
         let seat = Seat {
             center: Point::origin(),
             axis: None,
@@ -106,7 +107,7 @@ mod tests {
                 && !seat.is_opened_by(&plane(Vector::z(), 6.1))
         );
         assert!(!seat.is_opened_by(&plane(Vector::x(), 0.0)));
-        // Leaning by 1 in 16 it rises by half a millimetre over the coin.
+        // With a slope of 1 in 16, the plane rises by half a millimetre over the coin.
         assert!(seat.is_opened_by(&plane(Vector::new(1.0, 0.0, 16.0), 5.0)));
         assert!(!seat.is_opened_by(&plane(Vector::new(1.0, 0.0, 7.0), 5.0 * 7.0 / 50f64.sqrt())));
     }

@@ -6,13 +6,13 @@ use serde::{Deserialize, Serialize};
 
 use crate::cut::ids::CutId;
 
-/// What lies on one side of a cut, where another cut is made.
+/// A side of a cut to which another cut is limited.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct CutSide {
     /// The cut's id.
     pub cut: CutId,
-    /// Which side of it.
+    /// The side of it.
     pub side: Side,
 }
 
@@ -26,9 +26,9 @@ impl fmt::Display for CutSide {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Side {
-    /// Where its normal points to.
+    /// The side to which its normal points.
     Above,
-    /// Where its normal points away from.
+    /// The side from which its normal points away.
     Below,
 }
 
@@ -37,7 +37,7 @@ impl Side {
         if is_above { Self::Above } else { Self::Below }
     }
 
-    /// `above` or `below`.
+    /// Returns `above` or `below`.
     pub fn word(self) -> &'static str {
         match self {
             Self::Above => "above",

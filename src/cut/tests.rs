@@ -1,4 +1,4 @@
-//! What cut plans and parts promise, on bodies whose answer is known.
+//! Promises of cut plans and parts, on bodies whose answer is known.
 
 use crate::{
     cut::{
@@ -15,8 +15,8 @@ fn volume(solid: &Solid) -> f64 {
     moments_of_mesh(solid.mesh()).volume()
 }
 
-/// Plans and cuts, and checks what every kit promises: voids opened wide enough, parts without
-/// cavities that rest on the plate, volumes that add up.
+/// Plans and cuts, and checks the promises of every kit. Voids open wide enough, parts have no
+/// cavities and rest on the plate, and volumes add up.
 pub(crate) fn kit(hollowed: &Hollowed, request: &PlanRequest) -> (CutPlan, Vec<Part>) {
     let plan = plan(hollowed, request).unwrap();
     let parts = parts(hollowed, &plan, request).unwrap();
@@ -42,7 +42,7 @@ pub(crate) fn kit(hollowed: &Hollowed, request: &PlanRequest) -> (CutPlan, Vec<P
     (plan, parts)
 }
 
-/// An order of these cuts, pins to be placed.
+/// Returns an order of these cuts; the planner places the pins.
 pub(crate) fn cuts(cuts: Vec<Cut>) -> CutOrder {
     CutOrder {
         cuts,
@@ -109,7 +109,7 @@ fn no_two_joints_can_be_confused() {
 }
 
 #[test]
-fn a_pin_stands_in_its_socket_with_the_clearance_on_every_side_and_the_wall_around() {
+fn a_pin_has_its_clearance_on_every_side_and_its_socket_the_wall_around() {
     let request = request();
     let body = with_balls(ball([0.0; 3], 25.0), &[[0.0, 0.0, 0.0, 12.0]]);
     let (plan, parts) = kit(&body, &request);

@@ -1,11 +1,11 @@
-//! Points of a plane in the plane's own coordinates.
+//! Conversion between points in space and coordinates in a plane.
 
 use crate::geom::{Plane, Point, Vector};
 
 /// A point of the cutting plane in the coordinates of [`Plane::basis`], mm.
 pub type Point2 = nalgebra::Point2<f64>;
 
-/// The plane's coordinates of a point of space.
+/// The coordinate system of a plane: the two vectors of [`Plane::basis`].
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Chart {
     u: Vector,
@@ -22,7 +22,7 @@ impl Chart {
         Point2::new(self.u.dot(&point.coords), self.v.dot(&point.coords))
     }
 
-    /// The point of `plane` with these coordinates.
+    /// Returns the point of `plane` with these coordinates.
     pub(crate) fn lift(&self, plane: &Plane, point: &Point2) -> Point {
         plane.foot() + self.u * point.x + self.v * point.y
     }

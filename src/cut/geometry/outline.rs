@@ -4,8 +4,8 @@ use std::collections::BinaryHeap;
 
 use crate::cut::geometry::chart::Point2;
 
-/// The boundary of a flat region: segments that form closed rings, in any order; inside is by even
-/// and odd.
+/// The boundary of a flat region: segments that form closed rings, in any order. The even-odd rule
+/// tells inside from outside.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Outline {
     segments: Vec<[Point2; 2]>,
@@ -18,12 +18,12 @@ pub(crate) struct Disc {
     pub(crate) radius_mm: f64,
 }
 
-/// How near to the best the largest disc is, as a part of the region's size: a tenth of that costs
-/// three times the work, ten times that is visible in the openings.
+/// Tolerance of the largest disc, relative to the size of the region. A tenth of it costs three
+/// times the work; ten times it shows in the openings.
 const DISC_PRECISION_RATIO: f64 = 2e-3;
 
-/// Most cells looked at for one disc; a bound on time for degenerate outlines, a hundred times the
-/// usual.
+/// Most cells visited for one disc: a limit on time for degenerate outlines, a hundred times the
+/// usual number.
 const MAX_CELLS: usize = 20_000;
 
 impl Outline {
@@ -31,7 +31,7 @@ impl Outline {
         Self { segments }
     }
 
-    /// The distance to the boundary, mm; negative outside.
+    /// Returns the distance to the boundary, mm; negative outside.
     pub(crate) fn signed_distance(&self, p: &Point2) -> f64 {
         let (mut inside, mut least) = (false, f64::INFINITY);
         for [a, b] in &self.segments {
@@ -47,15 +47,15 @@ impl Outline {
         self.signed_distance(p) > 0.0
     }
 
-    /// The point of the boundary nearest to `p`; `p` itself where there is no boundary.
+    /// Returns the point of the boundary nearest to `p`; `p` itself if there is no boundary.
     pub(crate) fn nearest(&self, p: &Point2) -> Point2 {
         let on = self.segments.iter().map(|[a, b]| nearest_on(p, a, b));
         on.min_by(|a, b| (a - p).norm_squared().total_cmp(&(b - p).norm_squared()))
             .unwrap_or(*p)
     }
 
-    /// The corners of the bounding box; `None` when there is no segment or a coordinate is not
-    /// finite.
+    /// Returns the corners of the bounding box; `None` if there is no segment or a coordinate is
+    /// not finite.
     pub(crate) fn bounds(&self) -> Option<(Point2, Point2)> {
         let points = || self.segments.iter().flatten();
         let first = points().next()?;
@@ -63,10 +63,11 @@ impl Outline {
         (min.coords.sum().is_finite() && max.coords.sum().is_finite()).then_some((min, max))
     }
 
-    /// The largest disc in the region, to [`DISC_PRECISION_RATIO`] of its size: best-first search
-    /// over a quadtree (Agafonkin, "A new algorithm for finding a visual center of a polygon",
-    /// 2016). `None` when it is no larger than `floor_mm`; a floor saves most of the work on thin
-    /// rings.
+    /// Returns the largest disc in the region, to [`DISC_PRECISION_RATIO`] of the region's size;
+    /// `None` if it is no larger than `floor_mm`.
+    ///
+    /// Best-first search over a quadtree (Agafonkin, "A new algorithm for finding a visual center
+    /// of a polygon", 2016). A floor saves most of the work on thin rings.
     pub(crate) fn largest_disc(&self, floor_mm: f64) -> Option<Disc> {
         let (min, max) = self.bounds()?;
         let size = max - min;
@@ -85,7 +86,7 @@ impl Outline {
         self.refine(cells, [floor_mm, precision_mm])
     }
 
-    /// Splits the most promising cell until none can hold a disc better by `precision_mm`.
+    /// Splits the most promising cell until no cell can hold a disc better by `precision_mm`.
     fn refine(
         &self,
         mut cells: BinaryHeap<Cell>,
@@ -121,7 +122,7 @@ impl Outline {
     }
 }
 
-/// A square of the search, with the distance from its centre to the boundary.
+/// A square of the search, with the signed distance from its centre to the boundary.
 struct Cell {
     center: Point2,
     half: f64,
@@ -129,7 +130,7 @@ struct Cell {
 }
 
 impl Cell {
-    /// No point of the square is deeper inside than this.
+    /// Returns an upper bound of the signed distance over the square, mm.
     fn bound(&self) -> f64 {
         self.distance + self.half * std::f64::consts::SQRT_2
     }
@@ -160,12 +161,12 @@ impl Ord for Cell {
     }
 }
 
-/// The squared distance from a point to a segment.
+/// Returns the squared distance from a point to a segment.
 fn distance_squared(p: &Point2, a: &Point2, b: &Point2) -> f64 {
     (p - nearest_on(p, a, b)).norm_squared()
 }
 
-/// The point of a segment nearest to `p`.
+/// Returns the point of a segment nearest to `p`.
 fn nearest_on(p: &Point2, a: &Point2, b: &Point2) -> Point2 {
     let along = b - a;
     let length_squared = along.norm_squared();
@@ -203,8 +204,8 @@ mod tests {
         ]
         .concat();
         let disc = Outline::new(frame).largest_disc(0.0).unwrap();
-        // The disc in a corner touches both outer sides (r from each) and the inner corner: r +
-        // r·√½ ... solved by √2·(1 − r) = r, so r = 2 − √2, a little more than half the width.
+        // The disc in a corner touches both outer sides (r from each) and the inner corner. From
+        // √2·(1 − r) = r follows r = 2 − √2. That is a little more than half the width.
         assert!((disc.radius_mm - (2.0 - 2f64.sqrt())).abs() < DISC_PRECISION_RATIO * 14.2);
     }
 

@@ -1,5 +1,4 @@
-//! What of a cut face lies on one side of other planes: where cuts kept to different sides of its
-//! own end in it.
+//! Cut faces clipped by other planes: other cuts may end on a face from either side.
 
 use std::collections::BTreeMap;
 
@@ -9,8 +8,8 @@ use crate::{
     mesh::union_find::UnionFind,
 };
 
-/// A flat face reaches past a plane by more than this, mm, or it ends there: caps are flat to
-/// 1e-13, and ends of faces are as exact.
+/// Tolerance for a face that ends at a plane, mm: only a face that reaches farther crosses it. Caps
+/// are flat to 1e-13 mm, and their ends are as exact.
 const PAST_MM: f64 = 1e-7;
 
 /// A flat region as triangles that share corners.
@@ -21,7 +20,7 @@ pub(crate) struct Flat {
 }
 
 impl Flat {
-    /// The region of these triangles; equal corners are one.
+    /// Returns the region of these triangles, with equal corners merged.
     pub(crate) fn of(triangles: &[[Point2; 3]]) -> Self {
         let mut flat = Self::default();
         let mut known: BTreeMap<[u64; 2], u32> = BTreeMap::new();
@@ -39,7 +38,7 @@ impl Flat {
         flat
     }
 
-    /// The triangles by their corners.
+    /// Returns the triangles by their corners.
     pub(crate) fn shapes(&self) -> Vec<[Point2; 3]> {
         self.triangles
             .iter()
@@ -47,7 +46,7 @@ impl Flat {
             .collect()
     }
 
-    /// Its connected pieces.
+    /// Returns the connected pieces of the region.
     pub(crate) fn pieces(&self) -> Vec<Self> {
         let mut sets = UnionFind::new(self.corners.len());
         for &[a, b, c] in &self.triangles {
@@ -68,14 +67,14 @@ impl Flat {
         pieces.into_values().map(piece).collect()
     }
 
-    /// Whether the region, in the plane `own`, reaches past another on both sides.
+    /// Returns whether the region, in the plane `own`, reaches past another plane on both sides.
     pub(crate) fn is_crossed_by(&self, own: &Plane, other: &Plane) -> bool {
         let heights = self.heights(own, other);
         heights.iter().any(|&h| h > PAST_MM) && heights.iter().any(|&h| h < -PAST_MM)
     }
 
-    /// Whether the region, in the plane `own`, lies above another plane; none where it reaches past
-    /// it on both sides, or nowhere.
+    /// Returns whether the region, in the plane `own`, lies above another plane. `None` if it
+    /// reaches past that plane on both sides, or on neither.
     pub(crate) fn side_of(&self, own: &Plane, other: &Plane) -> Option<bool> {
         let heights = self.heights(own, other);
         let [above, below] = [1.0, -1.0].map(|sign| heights.iter().any(|h| sign * h > PAST_MM));
@@ -90,17 +89,18 @@ impl Flat {
             .collect()
     }
 
-    /// What of it lies above another plane, or below it; sides of triangles that cross it get a
-    /// corner there, the same one from both triangles (Sutherland and Hodgman, "Reentrant polygon
-    /// clipping", CACM 17, 1974).
-    pub(crate) fn on_side(&self, own: &Plane, other: &Plane, is_above: bool) -> Self {
+    /// Returns the part of the region above another plane, or below it.
+    ///
+    /// A triangle side that crosses the plane gets a corner there, the same one from both of its
+    /// triangles. Source: Sutherland and Hodgman, "Reentrant polygon clipping", CACM 17, 1974.
+    pub(crate) fn clip_to_side(&self, own: &Plane, other: &Plane, is_above: bool) -> Self {
         let sign = if is_above { 1.0 } else { -1.0 };
         let heights: Vec<f64> = self
             .heights(own, other)
             .into_iter()
             .map(|h| sign * h)
             .collect();
-        let mut kept = Self {
+        let mut clipped = Self {
             corners: self.corners.clone(),
             triangles: Vec::new(),
         };
@@ -118,15 +118,16 @@ impl Flat {
                     ring.push(*crossings.entry([a, b]).or_insert_with(|| {
                         let [g, h] = [a, b].map(|v| heights[v as usize]);
                         let [p, q] = [a, b].map(|v| self.corners[v as usize]);
-                        kept.corners.push(p + (q - p) * (g / (g - h)));
-                        kept.corners.len() as u32 - 1
+                        clipped.corners.push(p + (q - p) * (g / (g - h)));
+                        clipped.corners.len() as u32 - 1
                     }));
                 }
             }
-            kept.triangles
+            clipped
+                .triangles
                 .extend((2..ring.len()).map(|i| [ring[0], ring[i - 1], ring[i]]));
         }
-        kept
+        clipped
     }
 }
 
@@ -142,7 +143,7 @@ mod tests {
         }
     }
 
-    /// A square of 4 mm about the origin of the plane z = 0, of four triangles about its middle.
+    /// Returns a square of 4 mm about the origin of the plane z = 0, made of four triangles.
     fn square() -> Flat {
         let chart = Chart::of_plane(&level());
         let at = |x: f64, y: f64| chart.flat(&crate::geom::Point::new(x, y, 0.0));
@@ -167,7 +168,8 @@ mod tests {
             (across(1.0, 1.0, 0.0), 8.0),
             (across(0.3, 1.0, -0.2), f64::NAN),
         ] {
-            let sides = [true, false].map(|is_above| square().on_side(&level(), &plane, is_above));
+            let sides =
+                [true, false].map(|is_above| square().clip_to_side(&level(), &plane, is_above));
             let areas = sides.each_ref().map(|side| cap_of(side, 0).area_mm2);
             assert!((areas[0] + areas[1] - 16.0).abs() < 1e-12, "{areas:?}");
             assert!(
@@ -193,8 +195,8 @@ mod tests {
     }
 
     #[test]
-    fn what_a_plane_leaves_in_two_is_two_pieces() {
-        // A fork: two prongs above y = 0.
+    fn a_fork_clipped_to_its_prongs_is_two_pieces() {
+        // A fork with two prongs above y = 0.
         let chart = Chart::of_plane(&level());
         let at = |x: f64, y: f64| chart.flat(&crate::geom::Point::new(x, y, 0.0));
         let block = |x: f64, y: f64, w: f64, h: f64| {
@@ -212,7 +214,7 @@ mod tests {
         let all = Flat::of(&[fork.concat(), prongs.concat()].concat());
         assert_eq!(all.pieces().len(), 1);
         assert_eq!(
-            all.on_side(&level(), &across(0.0, 1.0, 0.5), true)
+            all.clip_to_side(&level(), &across(0.0, 1.0, 0.5), true)
                 .pieces()
                 .len(),
             2

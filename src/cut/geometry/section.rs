@@ -1,4 +1,4 @@
-//! The flat section of a closed mesh by a plane.
+//! The section of a closed mesh by a plane.
 
 use crate::{
     cut::geometry::{
@@ -13,8 +13,8 @@ use geo::{LineString, MultiPolygon, Polygon};
 /// The closed rings in which a plane meets a mesh, in the coordinates (u, v) of [`Plane::basis`].
 ///
 /// For an outward solid, outer rings run counter-clockwise and holes clockwise. A vertex on the
-/// plane counts as above it, which is as good as moving the plane by less than any distance: every
-/// ring closes, whatever lies in the plane.
+/// plane counts as above it, as if the plane were moved by an infinitesimal distance. So every ring
+/// closes, whatever lies in the plane.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Section {
     /// The rings, each without its first point repeated, in the order of their first triangles.
@@ -32,16 +32,16 @@ pub struct Ring {
     pub below: u32,
 }
 
-/// A triangle that crosses the plane: the edge that goes down through it and the edge that comes
-/// up.
+/// A triangle that crosses the plane: the edge that goes down through the plane and the edge that
+/// comes up.
 struct Crossing {
     down: (u32, u32),
     up: (u32, u32),
 }
 
 impl Section {
-    /// The section of a closed mesh; one pass over the triangles. Edges of an open mesh end a ring
-    /// early.
+    /// Returns the section of a closed mesh, in one pass over the triangles. In an open mesh, a
+    /// ring ends early at the rim.
     pub fn of_mesh(mesh: &TriMesh, plane: &Plane) -> Self {
         let heights: Vec<f64> = mesh.vertices().iter().map(|p| plane.distance(p)).collect();
         let mut crossings: Vec<Crossing> = mesh
@@ -59,7 +59,7 @@ impl Section {
             );
             chart.flat(&(p + (q - p) * (a / (a - b))))
         };
-        let rings = chains(&crossings)
+        let rings = link_chains(&crossings)
             .into_iter()
             .filter(|chain| chain.len() > 2);
         Self {
@@ -67,7 +67,8 @@ impl Section {
         }
     }
 
-    /// The rings grouped into polygons: the index of an outer ring, then those of its holes.
+    /// Returns the rings grouped into polygons: the index of an outer ring, then those of its
+    /// holes.
     pub fn groups(&self) -> Vec<Vec<usize>> {
         let areas: Vec<f64> = self.rings.iter().map(Ring::area_mm2).collect();
         let outer: Vec<usize> = (0..areas.len()).filter(|&i| areas[i] > 0.0).collect();
@@ -85,7 +86,7 @@ impl Section {
         groups
     }
 
-    /// The section as polygons with holes.
+    /// Returns the section as polygons with holes.
     pub fn polygons(&self) -> MultiPolygon<f64> {
         let line = |&i: &usize| {
             self.rings[i]
@@ -100,7 +101,7 @@ impl Section {
         MultiPolygon(self.groups().iter().map(polygon).collect())
     }
 
-    /// The outline of some of the rings.
+    /// Returns the outline of some of the rings.
     pub(crate) fn outline(&self, rings: &[usize]) -> Outline {
         Outline::new(
             rings
@@ -110,7 +111,7 @@ impl Section {
         )
     }
 
-    /// Centre and diameter (mm) of the largest disc in each of its polygons.
+    /// Returns centre and diameter (mm) of the largest disc in each polygon.
     pub fn largest_discs(&self) -> Vec<(Point2, f64)> {
         let discs = self
             .groups()
@@ -121,7 +122,7 @@ impl Section {
             .collect()
     }
 
-    /// The area, mm².
+    /// Returns the area, mm².
     pub fn area_mm2(&self) -> f64 {
         self.rings.iter().map(Ring::area_mm2).sum()
     }
@@ -137,7 +138,7 @@ impl Ring {
         }
     }
 
-    /// The enclosed area, mm²; negative for a hole.
+    /// Returns the enclosed area, mm²; negative for a hole.
     pub fn area_mm2(&self) -> f64 {
         let origin = self.points[0];
         self.segments()
@@ -146,12 +147,12 @@ impl Ring {
             / 2.0
     }
 
-    /// The length around, mm.
+    /// Returns the length around, mm.
     pub fn length_mm(&self) -> f64 {
         self.segments().map(|[a, b]| (b - a).norm()).sum()
     }
 
-    /// The edges of the ring, in order.
+    /// Returns the edges of the ring, in order.
     pub fn segments(&self) -> impl Iterator<Item = [Point2; 2]> + '_ {
         let next = self.points.iter().cycle().skip(1);
         self.points.iter().zip(next).map(|(&a, &b)| [a, b])
@@ -162,7 +163,8 @@ impl Ring {
     }
 }
 
-/// How a triangle crosses the plane, if it does; edges are named (vertex above, vertex below).
+/// Returns the crossing of a triangle with the plane; `None` if it does not cross. Edges are named
+/// (vertex above, vertex below).
 fn crossing(&[a, b, c]: &[u32; 3], heights: &[f64]) -> Option<Crossing> {
     let above = |v: u32| heights[v as usize] >= 0.0;
     let edges = [(a, b), (b, c), (c, a)];
@@ -178,9 +180,9 @@ fn crossing(&[a, b, c]: &[u32; 3], heights: &[f64]) -> Option<Crossing> {
     })
 }
 
-/// The crossed edges in the order in which the section runs through them; `crossings` are sorted by
-/// `down`.
-fn chains(crossings: &[Crossing]) -> Vec<Vec<(u32, u32)>> {
+/// Returns the crossed edges, linked in the order in which the section passes them; `crossings` are
+/// sorted by `down`.
+fn link_chains(crossings: &[Crossing]) -> Vec<Vec<(u32, u32)>> {
     let mut used = vec![false; crossings.len()];
     let mut chains = Vec::new();
     for start in 0..crossings.len() {

@@ -1,5 +1,4 @@
-//! What a plane makes of a body without cutting it: which surfaces hang together on each side, and
-//! how much they hold.
+//! The pieces that a plane would divide a body into, and their volumes, without cutting it.
 
 use crate::{
     cut::geometry::section::{Ring, Section},
@@ -14,13 +13,13 @@ pub(crate) struct Sides<'a> {
     pub(crate) section: Section,
     /// The polygons of the section, as indices of rings.
     pub(crate) polygons: Vec<Vec<usize>>,
-    /// The piece of each vertex, named by a vertex of it.
+    /// The piece of each vertex, named by one of its vertices.
     piece_of: Vec<u32>,
 }
 
 impl<'a> Sides<'a> {
-    /// Finds the pieces, given the section of the mesh by the plane: surfaces on one side belong
-    /// together when they share an edge there or a polygon of the section. Linear in the triangles.
+    /// Finds the pieces, given the section of the mesh by the plane. Surfaces on one side belong to
+    /// one piece if they share an edge there or a polygon of the section. Linear in the triangles.
     pub(crate) fn new(mesh: &'a TriMesh, plane: Plane, section: Section) -> Self {
         let polygons = section.groups();
         let mut sets = UnionFind::new(mesh.vertices().len());
@@ -55,7 +54,7 @@ impl<'a> Sides<'a> {
         }
     }
 
-    /// The pieces above and below that polygon `group` of the section joins.
+    /// Returns the pieces above and below the plane that polygon `group` of the section joins.
     pub(crate) fn neighbours(&self, group: usize) -> [u32; 2] {
         let ring = &self.section.rings[self.polygons[group][0]];
         [
@@ -64,7 +63,8 @@ impl<'a> Sides<'a> {
         ]
     }
 
-    /// The diameter of the largest disc in polygon `group`, mm; 0 when it is at most `floor_mm`.
+    /// Returns the diameter of the largest disc in polygon `group`, mm; 0 if it is at most
+    /// `floor_mm`.
     pub(crate) fn disc_diameter_mm(&self, group: usize, floor_mm: f64) -> f64 {
         let disc = self
             .section
@@ -73,8 +73,8 @@ impl<'a> Sides<'a> {
         disc.map_or(0.0, |disc| 2.0 * disc.radius_mm)
     }
 
-    /// The diameter of the largest disc in polygon `group` where it is filled but for the holes
-    /// that `is_kept` keeps, mm.
+    /// Returns the diameter of the largest disc in polygon `group`, mm. Only those holes count that
+    /// `is_kept` accepts; the others are filled.
     pub(crate) fn filled_disc_diameter_mm(
         &self,
         group: usize,
@@ -89,7 +89,7 @@ impl<'a> Sides<'a> {
         disc.map_or(0.0, |disc| 2.0 * disc.radius_mm)
     }
 
-    /// The greatest distance of a vertex of `piece` from the plane, mm.
+    /// Returns the greatest distance of a vertex of `piece` from the plane, mm.
     pub(crate) fn depth_mm(&self, piece: u32) -> f64 {
         let vertices = self.mesh.vertices().iter().zip(&self.piece_of);
         vertices
@@ -98,8 +98,8 @@ impl<'a> Sides<'a> {
             .fold(0.0, f64::max)
     }
 
-    /// The pieces the plane leaves with their volumes, mm³; the shells of cavities it misses are
-    /// left out with the cavities they bound.
+    /// Returns the pieces that the plane leaves, with their volumes, mm³. Shells of cavities that
+    /// the plane misses are left out, so these cavities count as material.
     ///
     /// Each piece is summed from tetrahedra with a corner in the plane, to which its flat cap adds
     /// nothing.

@@ -1,5 +1,7 @@
-//! The planes of a plan, and where each of them cuts: a binary space partition (Fuchs, Kedem and
-//! Naylor, "On visible surface generation by a priori tree structures", SIGGRAPH 1980).
+//! The planes of a plan and the region in which each of them cuts: a binary space partition.
+//!
+//! Source: Fuchs, Kedem and Naylor, "On visible surface generation by a priori tree structures",
+//! SIGGRAPH 1980.
 
 use crate::{
     cut::{
@@ -11,8 +13,8 @@ use crate::{
     mesh::{Csg, TriMesh},
 };
 
-/// What of a closed mesh lies in the half-spaces within which a plane parts it, closed where they
-/// end.
+/// Returns the part of a closed mesh within the half-spaces to which a cut is limited, closed by
+/// caps at their planes.
 pub fn reached(parting: &Parting, mesh: &TriMesh) -> Result<TriMesh, CutError> {
     if parting.within.is_empty() {
         return Ok(mesh.clone());
@@ -28,16 +30,16 @@ pub fn reached(parting: &Parting, mesh: &TriMesh) -> Result<TriMesh, CutError> {
     Ok(body.to_mesh()?)
 }
 
-/// The side of a cut on which alone another cuts.
+/// A side of a cut to which another cut is limited.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Limit {
-    /// The cut whose side it is.
+    /// The cut that limits.
     pub(crate) cut: usize,
     pub(crate) is_above: bool,
 }
 
 impl Limit {
-    /// The side in the ids of the planner.
+    /// Returns the side, in the planner's ids.
     pub(crate) fn side(&self) -> CutSide {
         CutSide {
             cut: CutId::of(self.cut),
@@ -46,7 +48,7 @@ impl Limit {
     }
 }
 
-/// Planes, each with the sides of others on which alone it cuts; without any it cuts everything.
+/// Planes, each limited to sides of others; a plane without limits cuts everything.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct CutTree {
     pub(crate) planes: Vec<Plane>,
@@ -56,12 +58,12 @@ pub(crate) struct CutTree {
 /// A body between cuts.
 struct Cell {
     body: Csg,
-    /// For every cut whether the cell lies above it; none where the cut does not act.
+    /// For each cut, `true` if the cell lies above it; `None` if the cut does not act on the cell.
     sides: Vec<Option<bool>>,
 }
 
 impl CutTree {
-    /// Planes that cut everything.
+    /// Returns planes that cut everything.
     pub(crate) fn everywhere(planes: &[Plane]) -> Self {
         Self {
             planes: planes.to_vec(),
@@ -69,11 +71,11 @@ impl CutTree {
         }
     }
 
-    /// Planes with their limits, and those of the cuts that they are kept to; none where a cut
-    /// waits, be it through others, for itself, or is kept to both sides of another.
+    /// Returns planes with their limits, each cut inheriting the limits of the cuts that limit it.
+    /// `None` if limits form a circle, or limit a cut to both sides of another.
     pub(crate) fn new(planes: Vec<Plane>, limits: Vec<Vec<Limit>>) -> Option<Self> {
         let mut tree = Self { planes, limits };
-        let order = tree.order();
+        let order = tree.order_by_limits();
         if order.len() < tree.planes.len() {
             return None;
         }
@@ -95,8 +97,8 @@ impl CutTree {
         Some(tree)
     }
 
-    /// The same with a cut, and those kept to a side of it, kept to a side of another; none where
-    /// it is kept to a side of that already, or that cut to a side of it.
+    /// Returns the tree with one more limit on a cut, inherited by the cuts that it limits. `None`
+    /// as in [`CutTree::new`], or if the cut is limited by that other one already.
     pub(crate) fn kept_to(&self, cut: usize, limit: Limit) -> Option<Self> {
         let mut limits = self.limits.clone();
         let is_new = limits[cut].iter().all(|known| known.cut != limit.cut);
@@ -104,7 +106,7 @@ impl CutTree {
         Self::new(self.planes.clone(), limits).filter(|_| is_new)
     }
 
-    /// The same with other planes in the place of its own.
+    /// Returns the tree with other planes in place of its own.
     pub(crate) fn moved(&self, planes: Vec<Plane>) -> Self {
         Self {
             planes,
@@ -112,22 +114,22 @@ impl CutTree {
         }
     }
 
-    /// Whether every cut goes through everything.
+    /// Returns whether every cut goes through everything.
     pub(crate) fn is_everywhere(&self) -> bool {
         self.limits.iter().all(Vec::is_empty)
     }
 
-    /// The sides to which a cut is kept, those that it is kept to through others with them.
+    /// Returns the sides to which a cut is limited, inherited ones included.
     pub(crate) fn limits(&self, cut: usize) -> &[Limit] {
         &self.limits[cut]
     }
 
-    /// The cuts as they are made.
+    /// Returns the cuts, each with the half-spaces within which it is made.
     pub(crate) fn partings(&self) -> impl Iterator<Item = Parting> {
         (0..self.planes.len()).map(|cut| self.parting(cut))
     }
 
-    /// A cut as it is made.
+    /// Returns a cut with the half-spaces within which it is made.
     pub(crate) fn parting(&self, cut: usize) -> Parting {
         let side = |limit: &Limit| (self.planes[limit.cut], limit.is_above);
         Parting {
@@ -136,20 +138,20 @@ impl CutTree {
         }
     }
 
-    /// How many cuts are made before this one, where it is kept to sides of them: more than before
-    /// any of these.
+    /// Returns the number of cuts that limit this one, inherited ones included. For each of those
+    /// it is smaller.
     pub(crate) fn depth(&self, cut: usize) -> usize {
         self.limits[cut].len()
     }
 
-    /// Whether the plane of a cut would cut at a point of it.
+    /// Returns whether a cut reaches a point of its plane.
     pub(crate) fn acts_at(&self, cut: usize, at: &Point) -> bool {
         let holds = |limit: &Limit| (self.planes[limit.cut].distance(at) > 0.0) == limit.is_above;
         self.limits[cut].iter().all(holds)
     }
 
-    /// The cuts, each after those that it is kept to a side of; without those in a circle.
-    fn order(&self) -> Vec<usize> {
+    /// Returns the cuts, each after those that limit it, without those in a circle.
+    fn order_by_limits(&self) -> Vec<usize> {
         let mut order: Vec<usize> = Vec::new();
         for _ in 0..self.planes.len() {
             let is_next = |cut: &usize| {
@@ -163,20 +165,20 @@ impl CutTree {
         order
     }
 
-    /// What a body is cut into: every cell may hold several pieces.
+    /// Returns the cells that a body is cut into; a cell may hold several pieces.
     pub(crate) fn cells(&self, body: &Csg) -> Result<Vec<Csg>, CutError> {
         let mut cells = vec![Cell {
             body: body.clone(),
             sides: vec![None; self.planes.len()],
         }];
-        for cut in self.order() {
+        for cut in self.order_by_limits() {
             let mut after = Vec::new();
             for cell in cells {
                 if self.limits[cut]
                     .iter()
                     .all(|limit| cell.sides[limit.cut] == Some(limit.is_above))
                 {
-                    after.extend(self.halves(cell, cut)?);
+                    after.extend(self.split_cell(cell, cut)?);
                 } else {
                     after.push(cell);
                 }
@@ -186,7 +188,7 @@ impl CutTree {
         Ok(cells.into_iter().map(|cell| cell.body).collect())
     }
 
-    fn halves(&self, cell: Cell, cut: usize) -> Result<impl Iterator<Item = Cell>, CutError> {
+    fn split_cell(&self, cell: Cell, cut: usize) -> Result<impl Iterator<Item = Cell>, CutError> {
         let (above, below) = cell.body.split_by_plane(&self.planes[cut])?;
         let half = move |(body, is_above)| {
             let mut sides = cell.sides.clone();
@@ -205,8 +207,8 @@ mod tests {
     use super::*;
     use crate::{cut::scenes::cuboid, geom::Vector};
 
-    /// The planes x = 0 and y = 0 through a cube of 20 mm.
-    fn quartered() -> (CutTree, Csg) {
+    /// Returns the planes x = 0 and y = 0 through a cube of 20 mm, and the cube.
+    fn two_planes_and_a_cube() -> (CutTree, Csg) {
         let across = [Vector::x(), Vector::y()].map(|normal| Plane {
             normal,
             offset_mm: 0.0,
@@ -225,8 +227,8 @@ mod tests {
     }
 
     #[test]
-    fn a_cut_kept_to_a_side_leaves_the_other_whole() {
-        let (tree, body) = quartered();
+    fn a_limited_cut_leaves_the_other_side_whole() {
+        let (tree, body) = two_planes_and_a_cube();
         assert_eq!(tree.cells(&body).unwrap().len(), 4);
         let kept = tree.kept_to(1, above(0)).unwrap();
         let mut volumes: Vec<f64> = kept
@@ -240,7 +242,7 @@ mod tests {
             volumes.iter().map(|v| v.round()).collect::<Vec<_>>(),
             [2000.0, 2000.0, 4000.0]
         );
-        // The first may as well be kept to a side of the second, though it stands before it.
+        // The first may be limited to a side of the second, although it comes before it.
         assert_eq!(
             tree.kept_to(0, above(1))
                 .unwrap()
@@ -252,7 +254,7 @@ mod tests {
     }
 
     #[test]
-    fn what_lies_beyond_the_first_of_several_sides_is_reached_by_nothing() {
+    fn nothing_is_left_of_a_body_beyond_one_of_several_limits() {
         let [x, y] = [Vector::x(), Vector::y()].map(|normal| Plane {
             normal,
             offset_mm: 0.0,
@@ -275,7 +277,7 @@ mod tests {
     }
 
     #[test]
-    fn a_cut_kept_to_both_sides_of_another_through_a_third_is_none() {
+    fn a_cut_limited_to_both_sides_of_another_through_a_third_is_refused() {
         let planes = [Vector::x(), Vector::y(), Vector::z()].map(|normal| Plane {
             normal,
             offset_mm: 0.0,
@@ -301,8 +303,8 @@ mod tests {
     }
 
     #[test]
-    fn cuts_that_wait_for_each_other_are_none() {
-        let (tree, _) = quartered();
+    fn cuts_that_limit_each_other_are_refused() {
+        let (tree, _) = two_planes_and_a_cube();
         let kept = tree.kept_to(1, above(0)).unwrap();
         assert!(kept.kept_to(0, above(1)).is_none() && kept.kept_to(1, above(1)).is_none());
         assert!(
@@ -320,7 +322,7 @@ mod tests {
     }
 
     #[test]
-    fn a_cut_acts_where_those_act_that_it_is_kept_to() {
+    fn a_cut_acts_only_where_the_cuts_that_limit_it_act() {
         let planes = [Vector::x(), Vector::y(), Vector::z()].map(|normal| Plane {
             normal,
             offset_mm: 0.0,

@@ -1,4 +1,5 @@
-//! The parts: the pieces of the cut body with pins and sockets, each a solid, laid for printing.
+//! The parts: the pieces of the cut body with pins and sockets, each a solid and posed for
+//! printing.
 
 use std::collections::HashMap;
 
@@ -31,12 +32,12 @@ pub struct Part {
     pub id: PartId,
     /// The part in the model frame, mm.
     pub solid: Solid,
-    /// How it is laid in the printer.
+    /// Its pose in the printer.
     pub pose: Pose,
-    /// The pins that stand out of it.
+    /// The printed pins that stand out of it.
     pub pins: Vec<PinSite>,
-    /// The pins of other parts that its sockets receive, and the dowels that stand in it, seen from
-    /// the cut into this part.
+    /// The sockets, as sites seen from the cut into this part: for pins of other parts, and for the
+    /// dowels that stand in it.
     pub sockets: Vec<PinSite>,
     /// The ids sunk into its cut faces.
     pub labels: Vec<Label>,
@@ -45,11 +46,11 @@ pub struct Part {
 }
 
 impl Part {
-    /// What its pins add to the piece of the hollowed body, less what its sockets and labels take
-    /// away, mm³.
+    /// Returns the volume that its pins add to the piece of the hollowed body, less the volume of
+    /// its sockets and labels, mm³.
     ///
-    /// Summed over the parts and the hollowed body's volume, this is the volume of all parts to
-    /// 1e-6 relative.
+    /// Summed over the parts and added to the hollowed body's volume, this gives the volume of all
+    /// parts to 1e-6 relative.
     pub fn added_volume_mm3(&self) -> f64 {
         let pins: f64 = self.pins.iter().map(PinSite::pin_volume_mm3).sum();
         let sockets: f64 = self.sockets.iter().map(PinSite::socket_volume_mm3).sum();
@@ -58,19 +59,20 @@ impl Part {
     }
 }
 
-/// The pieces that carry a pin and its socket.
-struct SeatedPin<'a> {
+/// A pin with the pieces that carry it and receive it.
+struct PinPieces<'a> {
     site: &'a PinSite,
     carrier: usize,
     receiver: usize,
     cut: usize,
 }
 
-/// The parts of the hollowed body cut by the plan: every part is closed, oriented and 2-manifold,
-/// and encloses no cavity, unless the plan has no cuts at all.
+/// Cuts the hollowed body by the plan and returns its parts, with pins, sockets and labels. Every
+/// part is closed, oriented and 2-manifold. No part encloses a cavity, unless the plan has no cuts
+/// at all.
 ///
-/// The body may differ a little from the one the plan was made for, as when voids were solved for
-/// again: cuts, pins and parts keep their names.
+/// The body may differ a little from the one that was planned, for example after its voids were
+/// solved again. Cuts, pins and parts keep their names.
 pub fn parts(
     hollowed: &Hollowed,
     plan: &CutPlan,
@@ -80,7 +82,8 @@ pub fn parts(
     Ok(parts.map(|(parts, _)| parts))
 }
 
-/// The parts, and the plan with the faces of its joints as they are in this body.
+/// Returns the parts as in [`parts`], and the plan with the faces of its joints measured in this
+/// body.
 pub fn parts_and_faces(
     hollowed: &Hollowed,
     plan: &CutPlan,
@@ -102,11 +105,12 @@ fn make_parts(
         tree: &tree,
         request,
     };
-    let parts = maker.parts(&pieces)?;
+    let parts = maker.make_parts(&pieces)?;
     Ok((parts, refaced(&pieces, &tree, plan.clone())))
 }
 
-/// The pieces that the plan leaves, none of which encloses a cavity where there are cuts.
+/// Returns the pieces that the plan leaves. If there are cuts, a piece with a closed cavity is an
+/// error.
 pub(crate) fn pieces(
     hollowed: &Hollowed,
     plan: &CutPlan,
@@ -129,31 +133,31 @@ struct PartMaker<'a> {
 }
 
 impl PartMaker<'_> {
-    fn parts(&self, pieces: &[Piece]) -> Result<Vec<Part>, CutError> {
+    fn make_parts(&self, pieces: &[Piece]) -> Result<Vec<Part>, CutError> {
         let Self { plan, request, .. } = *self;
         let planes = &self.tree.planes;
-        let seats = plan
+        let pin_pieces = plan
             .pins
             .iter()
-            .map(|pin| seat(plan, planes, pieces, pin))
+            .map(|pin| find_pin_pieces(plan, planes, pieces, pin))
             .collect::<Result<Vec<_>, _>>()?;
-        let void_of = void_vertices(self.hollowed);
+        let void_of = voids_by_vertex(self.hollowed);
         let part = |(index, piece): (usize, &Piece)| {
-            let carried = || seats.iter().filter(move |seat| seat.carrier == index);
-            let received = || seats.iter().filter(move |seat| seat.receiver == index);
-            let standing = carried().filter(|seat| seat.site.dowel.is_none());
-            let pin_cuts: Vec<usize> = standing.map(|seat| seat.cut).collect();
-            let is_printed = |seat: &&SeatedPin| seat.site.dowel.is_none();
+            let carried = || pin_pieces.iter().filter(move |pin| pin.carrier == index);
+            let received = || pin_pieces.iter().filter(move |pin| pin.receiver == index);
+            let printed = carried().filter(|pin| pin.site.dowel.is_none());
+            let pin_cuts: Vec<usize> = printed.map(|pin| pin.cut).collect();
+            let is_printed = |pin: &&PinPieces| pin.site.dowel.is_none();
             let pins: Vec<PinSite> = carried()
                 .filter(is_printed)
-                .map(|seat| seat.site.clone())
+                .map(|pin| pin.site.clone())
                 .collect();
-            let second = carried()
-                .filter(|seat| !is_printed(seat))
-                .map(|seat| seat.site.mirrored());
+            let dowel_sockets = carried()
+                .filter(|pin| !is_printed(pin))
+                .map(|pin| pin.site.mirrored());
             let sockets: Vec<PinSite> = received()
-                .map(|seat| seat.site.clone())
-                .chain(second)
+                .map(|pin| pin.site.clone())
+                .chain(dowel_sockets)
                 .collect();
             let labels: Vec<Label> = plan
                 .labels
@@ -161,7 +165,7 @@ impl PartMaker<'_> {
                 .filter(|label| label.part == PartId::of(index))
                 .cloned()
                 .collect();
-            let solid = fitted(piece, (&pins, &sockets), &labels)?;
+            let solid = add_pins_and_sockets(piece, (&pins, &sockets), &labels)?;
             Ok(Part {
                 id: PartId::of(index),
                 pose: laid(
@@ -180,22 +184,22 @@ impl PartMaker<'_> {
     }
 }
 
-/// Which pieces a pin joins.
-fn seat<'a>(
+/// Finds the pieces that a pin joins; an error if one side of the pin is on no cut face.
+fn find_pin_pieces<'a>(
     plan: &CutPlan,
     planes: &[Plane],
     pieces: &[Piece],
     site: &'a PinSite,
-) -> Result<SeatedPin<'a>, CutError> {
-    let lost = || Obstacle::PinOffFace {
+) -> Result<PinPieces<'a>, CutError> {
+    let off_face = || Obstacle::PinOffFace {
         pin: site.id.clone(),
     };
-    let cut = index_of(&plan.cuts, &site.cut).ok_or_else(lost)?;
+    let cut = index_of(&plan.cuts, &site.cut).ok_or_else(off_face)?;
     let at = Chart::of_plane(&planes[cut]).flat(&Point::from(site.center_mm));
     let is_upward = planes[cut].normal.dot(&Vector::from(site.direction)) > 0.0;
-    let carrier = piece_at(pieces, cut, !is_upward, &at).ok_or_else(lost)?;
-    let receiver = piece_at(pieces, cut, is_upward, &at).ok_or_else(lost)?;
-    Ok(SeatedPin {
+    let carrier = piece_at(pieces, cut, !is_upward, &at).ok_or_else(off_face)?;
+    let receiver = piece_at(pieces, cut, is_upward, &at).ok_or_else(off_face)?;
+    Ok(PinPieces {
         site,
         carrier,
         receiver,
@@ -203,8 +207,8 @@ fn seat<'a>(
     })
 }
 
-/// The piece with its pins united, and its sockets and labels taken away.
-fn fitted(
+/// Unites the piece with its pins, and subtracts its sockets and labels.
+fn add_pins_and_sockets(
     piece: &Piece,
     (pins, sockets): (&[PinSite], &[PinSite]),
     labels: &[Label],
@@ -219,20 +223,20 @@ fn fitted(
     for label in labels {
         body = body.subtract(&Csg::of_mesh(&label.cutter())?)?;
     }
-    without_short_edges(&body)
+    drop_short_edges(&body)
 }
 
-/// Edges shorter than this may vanish when a file stores coordinates in 32 bits, mm: at 100 mm
-/// their step is 7.6e-6 mm, at 250 mm 1.5e-5 mm.
+/// Length below which an edge may vanish when a file stores coordinates in 32 bits, mm. Their step
+/// is 7.6e-6 mm at 100 mm, and 1.5e-5 mm at 250 mm.
 const SHORT_EDGE_MM: f64 = 3e-5;
 
-/// The most that the removal of short edges may change a part's volume, relative to it: a tenth of
-/// what the parts' sum is held to.
+/// Greatest change of a part's volume by the removal of short edges, relative to it. It is a tenth
+/// of the tolerance of the parts' sum.
 const VOLUME_CHANGE_RATIO: f64 = 1e-7;
 
-/// The solid, freed of edges that would vanish in a file, if it has any and stays the same solid:
-/// of the same volume, and not folded into itself.
-fn without_short_edges(body: &Csg) -> Result<Solid, CutError> {
+/// Returns the solid without the edges that would vanish in a file. Keeps the solid as it is if
+/// their removal would change its volume or fold it into itself.
+fn drop_short_edges(body: &Csg) -> Result<Solid, CutError> {
     let solid = body.to_solid()?;
     if !has_short_edge(solid.mesh()) {
         return Ok(solid);
@@ -255,8 +259,8 @@ fn has_short_edge(mesh: &TriMesh) -> bool {
     })
 }
 
-/// Which void each vertex of a void belongs to, by the bits of its coordinates.
-fn void_vertices(hollowed: &Hollowed) -> HashMap<[u64; 3], VoidId> {
+/// Returns the void that each vertex of a void belongs to, by the bits of its coordinates.
+fn voids_by_vertex(hollowed: &Hollowed) -> HashMap<[u64; 3], VoidId> {
     let voids = hollowed.voids.iter().enumerate();
     voids
         .flat_map(|(i, void)| {
@@ -272,7 +276,7 @@ fn bits(p: &Point) -> [u64; 3] {
     [p.x, p.y, p.z].map(f64::to_bits)
 }
 
-/// The voids whose vertices the piece has, ascending.
+/// Returns the voids whose vertices the piece has, ascending.
 fn voids_of(piece: &Piece, void_of: &HashMap<[u64; 3], VoidId>) -> Vec<VoidId> {
     let mut voids: Vec<VoidId> = piece
         .mesh

@@ -1,4 +1,4 @@
-//! How a part is laid in the printer.
+//! The pose of a part in the printer.
 
 use std::fmt;
 
@@ -12,29 +12,29 @@ use crate::{
     mesh::TriMesh,
 };
 
-/// A part laid in the printer.
+/// The pose of a part in the printer.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Pose {
     /// The rigid motion from the model frame to the print frame, as rows of a 4×4 matrix.
     pub print_from_model: [[f64; 4]; 4],
     /// The part's extents in the printer: x, y, z, mm.
     pub size_mm: [f64; 3],
-    /// Whether that fits the build volume.
+    /// `true` if that fits the build volume.
     pub fits: bool,
-    /// How the part lies.
+    /// The side on which the part lies.
     pub lies: Lie,
 }
 
-/// How a part lies on the build plate.
+/// The side on which a part lies on the build plate.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Lie {
     /// On the face of this cut.
     CutFaceDown(CutId),
     /// With the face of this cut up.
     CutFaceUp(CutId),
-    /// As the model stands.
+    /// Upright as the model stands.
     Upright,
-    /// As the model stands on its head.
+    /// Upside down.
     UpsideDown,
     /// On a side of the model.
     OnItsSide,
@@ -52,32 +52,32 @@ impl fmt::Display for Lie {
     }
 }
 
-/// Turns about the vertical that are tried when a part does not fit as it stands, degrees.
+/// Turns about the vertical, in the order tried until the part fits, degrees.
 const TURNS_DEG: [f64; 12] = [
     0.0, 90.0, 15.0, 30.0, 45.0, 60.0, 75.0, 105.0, 120.0, 135.0, 150.0, 165.0,
 ];
 
-/// A side of a part that may look down in the printer.
+/// A side of a part that may face down in the printer.
 #[derive(Debug, Clone)]
 pub(crate) struct Underside {
-    /// The direction of the model that looks down.
+    /// The direction in the model frame that then points down.
     down: Vector,
-    /// How the part lies then.
+    /// The name of that pose.
     lies: Lie,
 }
 
-/// A cut face of a part for choosing its pose.
-struct Rest {
+/// A cut face of a part, as far as it decides the pose.
+struct CutFace {
     area_mm2: f64,
-    /// The direction the face looks, out of the part.
+    /// The normal of the face, out of the part.
     outward: Vector,
     has_pins: bool,
     cut: usize,
 }
 
-impl Rest {
-    /// The face looking down (sign 1) or up (sign −1).
-    fn laid(&self, sign: f64, lies: fn(CutId) -> Lie) -> Underside {
+impl CutFace {
+    /// Returns the pose with the face down (sign 1) or up (sign −1).
+    fn underside(&self, sign: f64, lies: fn(CutId) -> Lie) -> Underside {
         Underside {
             down: self.outward * sign,
             lies: lies(CutId::of(self.cut)),
@@ -85,25 +85,27 @@ impl Rest {
     }
 }
 
-/// The sides of the piece that may look down in the printer, the preferred first: the cut faces by
-/// area, as the request prefers, then the sides of the axis. `pin_cuts` are the cuts on whose faces
-/// pins stand out.
+/// Returns the sides of the piece that may face down in the printer, the preferred first. The cut
+/// faces come first, by area and as the request prefers, then the sides of the axis. `pin_cuts` are
+/// the cuts on whose faces pins stand out.
 pub(crate) fn sides_down(
     piece: &Piece,
     planes: &[Plane],
     pin_cuts: &[usize],
     request: &PlanRequest,
 ) -> Vec<Underside> {
-    let mut rests = rests(piece, planes, pin_cuts);
-    rests.sort_by(|a, b| b.area_mm2.total_cmp(&a.area_mm2));
-    let flat = rests
+    let mut cut_faces = cut_faces(piece, planes, pin_cuts);
+    cut_faces.sort_by(|a, b| b.area_mm2.total_cmp(&a.area_mm2));
+    let face_down = cut_faces
         .iter()
-        .filter(|rest| !rest.has_pins)
-        .map(|rest| rest.laid(1.0, Lie::CutFaceDown));
-    let up = rests.iter().map(|rest| rest.laid(-1.0, Lie::CutFaceUp));
+        .filter(|face| !face.has_pins)
+        .map(|face| face.underside(1.0, Lie::CutFaceDown));
+    let face_up = cut_faces
+        .iter()
+        .map(|face| face.underside(-1.0, Lie::CutFaceUp));
     let mut sides: Vec<Underside> = match request.pose {
-        PosePreference::CutFaceDown => flat.chain(up).collect(),
-        PosePreference::OpenHollowUp => up.chain(flat).collect(),
+        PosePreference::CutFaceDown => face_down.chain(face_up).collect(),
+        PosePreference::OpenHollowUp => face_up.chain(face_down).collect(),
     };
     let axis = request.axis.direction.normalize();
     let (u, v) = orthonormal_basis(&axis);
@@ -120,8 +122,8 @@ pub(crate) fn sides_down(
     sides
 }
 
-/// The mesh laid on the first of the sides (at least one) with which it fits the build volume; on
-/// the first of all if none does.
+/// Returns the pose of the mesh on the first of `sides` (at least one) with which it fits the build
+/// volume. If none fits, returns the pose on the first of all.
 pub(crate) fn laid(mesh: &TriMesh, sides: &[Underside], request: &PlanRequest) -> Pose {
     let mut choices = sides
         .iter()
@@ -131,7 +133,7 @@ pub(crate) fn laid(mesh: &TriMesh, sides: &[Underside], request: &PlanRequest) -
     fitting.unwrap_or_else(|| lay(mesh, &sides[0], 0.0, request))
 }
 
-/// Whether the piece fits the build volume in some pose.
+/// Returns whether the piece fits the build volume in some pose.
 pub(crate) fn fits(piece: &Piece, planes: &[Plane], request: &PlanRequest) -> bool {
     laid(
         &piece.mesh,
@@ -141,9 +143,9 @@ pub(crate) fn fits(piece: &Piece, planes: &[Plane], request: &PlanRequest) -> bo
     .fits
 }
 
-/// The cut faces of the piece, one for each cut and side.
-fn rests(piece: &Piece, planes: &[Plane], pin_cuts: &[usize]) -> Vec<Rest> {
-    let mut rests = Vec::new();
+/// Returns the cut faces of the piece, one for each cut and side.
+fn cut_faces(piece: &Piece, planes: &[Plane], pin_cuts: &[usize]) -> Vec<CutFace> {
+    let mut cut_faces = Vec::new();
     for (cut, plane) in planes.iter().enumerate() {
         for is_above in [false, true] {
             let caps = piece
@@ -157,7 +159,7 @@ fn rests(piece: &Piece, planes: &[Plane], pin_cuts: &[usize]) -> Vec<Rest> {
                 } else {
                     plane.normal
                 };
-                rests.push(Rest {
+                cut_faces.push(CutFace {
                     area_mm2,
                     outward,
                     has_pins: pin_cuts.contains(&cut),
@@ -166,13 +168,13 @@ fn rests(piece: &Piece, planes: &[Plane], pin_cuts: &[usize]) -> Vec<Rest> {
             }
         }
     }
-    rests
+    cut_faces
 }
 
-/// The mesh turned so that the side looks down and turned about the vertical, resting on z = 0, in
-/// the middle of the build plate.
+/// Returns the pose with the side down, turned about the vertical. The mesh rests on z = 0, in the
+/// middle of the build plate.
 fn lay(mesh: &TriMesh, side: &Underside, turn_deg: f64, request: &PlanRequest) -> Pose {
-    let rotation = upright(&side.down, turn_deg);
+    let rotation = rotation_to_print(&side.down, turn_deg);
     let turned = mesh
         .vertices()
         .iter()
@@ -204,12 +206,12 @@ fn lay(mesh: &TriMesh, side: &Underside, turn_deg: f64, request: &PlanRequest) -
     }
 }
 
-/// The rotation that takes `down` to −z, then turns by `turn_deg` about z.
-fn upright(down: &Vector, turn_deg: f64) -> Matrix {
+/// Returns the rotation that takes `down` to −z, then turns by `turn_deg` about z.
+fn rotation_to_print(down: &Vector, turn_deg: f64) -> Matrix {
     let up = -down.normalize();
     let (u, v) = if up.z.abs() > 1.0 - f64::EPSILON {
-        // The model's own up or down: keep its x axis, so that an upright model is not turned for
-        // nothing.
+        // The model's own up or down: keep its x axis, so that an upright model is not turned
+        // needlessly.
         (Vector::x(), up.cross(&Vector::x()))
     } else {
         orthonormal_basis(&up)
@@ -222,7 +224,7 @@ fn upright(down: &Vector, turn_deg: f64) -> Matrix {
     ])
 }
 
-/// The rotated position, each coordinate summed in the order of [`apply`].
+/// Returns the rotated position, each coordinate summed in the order of [`apply`].
 fn rotate(rotation: &Matrix, p: &Point) -> Vector {
     Vector::from([0, 1, 2].map(|i| dot([rotation[(i, 0)], rotation[(i, 1)], rotation[(i, 2)]], p)))
 }
@@ -231,8 +233,8 @@ fn dot(row: [f64; 3], p: &Point) -> f64 {
     row[0] * p.x + row[1] * p.y + row[2] * p.z
 }
 
-/// A point moved by a rigid motion given as rows of a 4×4 matrix. For the motion of a [`Pose`], the
-/// lowest point of its part lands on z = 0 exactly.
+/// Returns a point moved by a rigid motion, given as rows of a 4×4 matrix. With the motion of a
+/// [`Pose`], the lowest point of its part comes to z = 0 exactly.
 pub fn apply(motion: &[[f64; 4]; 4], p: &Point) -> Point {
     Point::from([0, 1, 2].map(|i| {
         let [x, y, z, shift] = motion[i];

@@ -1,5 +1,5 @@
-//! Pieces that a cut parts needlessly are joined again: a plane through a body also slices what
-//! merely reaches across it.
+//! Joins the pieces again that a cut separates needlessly: a plane also slices what merely reaches
+//! across it.
 
 use crate::{
     cut::{
@@ -12,7 +12,7 @@ use crate::{
         hollowed::Hollowed,
         pieces::{
             pose::{laid, sides_down},
-            split::{Cap, Joint, Piece, in_order, joints, piece, piece_at},
+            split::{Cap, Joint, Piece, joints, piece, piece_at, sort_pieces},
         },
         plan::Bridge,
         request::PlanRequest,
@@ -23,19 +23,19 @@ use crate::{
 };
 use rayon::prelude::*;
 
-/// Corners of a void's mouth lie this near to the outline of the cut face, mm: they are the same
-/// points but for rounding, and a wall lies between different mouths.
+/// Distance within which a corner of a void's mouth lies on the outline of the cut face, mm. They
+/// are the same points but for rounding, and a wall separates different mouths.
 const MOUTH_TOLERANCE_MM: f64 = 1e-6;
 
-/// Corners of two faces that meet lie this near to each other, mm: both are made by the same cut,
-/// with a rounding of 1e-13; a model's own corners are farther apart.
+/// Distance within which corners of two meeting faces are the same, mm. One cut makes both, with a
+/// rounding of 1e-13; the model's own corners are farther apart.
 const SEAM_TOLERANCE_MM: f64 = 1e-9;
 
-/// Cells a side of the grid on which the way out of a part is checked. A coarser grid joins fewer
+/// Cells on a side of the height map that checks the way out of a part. A coarser map joins fewer
 /// pieces.
-const SHADOW_CELLS: usize = 96;
+const MAP_CELLS: usize = 96;
 
-/// What is cut, by what, for which printer.
+/// The body, the cuts and the request.
 pub(crate) struct Cutting<'a> {
     pub(crate) hollowed: &'a Hollowed,
     pub(crate) tree: &'a CutTree,
@@ -43,23 +43,25 @@ pub(crate) struct Cutting<'a> {
 }
 
 impl Cutting<'_> {
-    /// Whether a piece lies where a cut is made; beyond, it is off before that cut's sides come
-    /// apart.
-    fn parts(&self, cut: usize, piece: &Piece) -> bool {
+    /// Returns whether a cut acts on a piece. A piece beyond the cut's limits is removed before the
+    /// two sides of that cut come apart.
+    fn acts_on(&self, cut: usize, piece: &Piece) -> bool {
         let holds = |limit: &Limit| piece.is_above(&self.tree.planes[limit.cut]) == limit.is_above;
         self.tree.limits(cut).iter().all(holds)
     }
 }
 
-/// Where pieces had better stay joined: a piece that touches a single other one, where
+/// Returns the faces over which pieces had better stay joined. A piece stays joined if it touches a
+/// single other one, and
+///
 /// * no void opens in the face between them,
-/// * the piece is not in the way of what is taken off on its side of the cut,
+/// * the piece does not block what is removed on its side of the cut,
 /// * both together fit the build volume.
 ///
-/// A piece thinner than the wall stays joined even where a void opens beside it: it is a bump of
-/// the void's wall that the plane grazes, or a sliver of the outside, and no part to print.
+/// A piece thinner than the wall stays joined even if a void opens beside it. It is a bump of the
+/// void's wall that the plane grazes, or a sliver of the outside, and no part to print.
 ///
-/// The smallest pieces are offered first; a piece that others stay joined to is not joined to a
+/// The smallest pieces are tried first. A piece that others stay joined to is not joined to a
 /// third.
 pub(crate) fn bridges(cutting: &Cutting, pieces: &[Piece]) -> Vec<Bridge> {
     let joints = joints(pieces, cutting.tree);
@@ -78,9 +80,9 @@ pub(crate) fn bridges(cutting: &Cutting, pieces: &[Piece]) -> Vec<Bridge> {
         let host = joint.other(index);
         if !is_host[index]
             && !is_guest[host]
-            && (is_flake(cutting, &pieces[index], joint) || !has_mouth(joint, &mouths))
-            && comes_free(cutting, pieces, joint, index)
-            && fit_together(cutting, &pieces[index], &pieces[host])
+            && (is_sliver(cutting, &pieces[index], joint) || !has_mouth(joint, &mouths))
+            && lets_others_out(cutting, pieces, joint, index)
+            && fits_together(cutting, &pieces[index], &pieces[host])
         {
             (is_guest[index], is_host[host]) = (true, true);
             let at = |face: &Cap| Bridge {
@@ -93,7 +95,8 @@ pub(crate) fn bridges(cutting: &Cutting, pieces: &[Piece]) -> Vec<Bridge> {
     bridges
 }
 
-/// The pieces with those made one that meet at a bridge. A bridge on no cut face changes nothing.
+/// Returns the pieces, with those united that meet at a bridge. A bridge on no cut face changes
+/// nothing.
 pub(crate) fn rejoined(
     pieces: Vec<Piece>,
     tree: &CutTree,
@@ -113,11 +116,11 @@ pub(crate) fn rejoined(
     groups.retain(|group| !group.is_empty());
     let united = groups
         .into_par_iter()
-        .map(|group| united(group, tree, bridges));
-    Ok(in_order(united.collect::<Result<_, _>>()?))
+        .map(|group| unite(group, tree, bridges));
+    Ok(sort_pieces(united.collect::<Result<_, _>>()?))
 }
 
-/// The corners of every void's section by every plane.
+/// Returns, for each plane, the corners of its sections of all voids.
 fn mouths(cutting: &Cutting) -> Vec<Vec<Point2>> {
     let corners = |plane: &Plane| {
         let sections = cutting
@@ -133,7 +136,7 @@ fn mouths(cutting: &Cutting) -> Vec<Vec<Point2>> {
     cutting.tree.planes.par_iter().map(corners).collect()
 }
 
-/// Whether a void opens in one of the joint's faces.
+/// Returns whether a void opens in one of the joint's faces.
 fn has_mouth(joint: &Joint, mouths: &[Vec<Point2>]) -> bool {
     let on_edge = |cap: &Cap| {
         let Some((min, max)) = cap.outline.bounds() else {
@@ -148,8 +151,9 @@ fn has_mouth(joint: &Joint, mouths: &[Vec<Point2>]) -> bool {
     joint.faces.iter().any(on_edge)
 }
 
-/// Whether a piece is thinner than the least wall over the face that it would be glued by.
-fn is_flake(cutting: &Cutting, piece: &Piece, joint: &Joint) -> bool {
+/// Returns whether a piece is thinner than the least wall: its volume over the area of the face
+/// that would be glued.
+fn is_sliver(cutting: &Cutting, piece: &Piece, joint: &Joint) -> bool {
     let face_mm2: f64 = piece
         .caps
         .iter()
@@ -159,21 +163,22 @@ fn is_flake(cutting: &Cutting, piece: &Piece, joint: &Joint) -> bool {
     piece.volume_mm3 < cutting.request.wall_mm * face_mm2
 }
 
-/// Whether what lies on the piece's side of the cut can be taken off along the normal while the
-/// piece stays.
-fn comes_free(cutting: &Cutting, pieces: &[Piece], joint: &Joint, index: usize) -> bool {
+/// Returns whether everything else on the piece's side of the cut can be removed along the normal
+/// while the piece stays.
+fn lets_others_out(cutting: &Cutting, pieces: &[Piece], joint: &Joint, index: usize) -> bool {
     let plane = &cutting.tree.planes[joint.cut];
     let is_above = joint.above == index;
     let sign = if is_above { 1.0 } else { -1.0 };
-    let shadow = Shadow::new(&pieces[index].mesh, plane, sign);
-    let is_parted = |i: usize| cutting.parts(joint.cut, &pieces[i]);
-    let moves = |i: &usize| *i != index && is_parted(*i) && pieces[*i].is_above(plane) == is_above;
+    let map = HeightMap::new(&pieces[index].mesh, plane, sign);
+    let is_cut_apart = |i: usize| cutting.acts_on(joint.cut, &pieces[i]);
+    let moves =
+        |i: &usize| *i != index && is_cut_apart(*i) && pieces[*i].is_above(plane) == is_above;
     (0..pieces.len())
         .filter(moves)
-        .all(|i| !shadow.holds_back(&pieces[i].mesh))
+        .all(|i| !map.blocks(&pieces[i].mesh))
 }
 
-fn fit_together(cutting: &Cutting, a: &Piece, b: &Piece) -> bool {
+fn fits_together(cutting: &Cutting, a: &Piece, b: &Piece) -> bool {
     let both = a.mesh.clone().joined(&b.mesh);
     laid(
         &both,
@@ -183,40 +188,41 @@ fn fit_together(cutting: &Cutting, a: &Piece, b: &Piece) -> bool {
     .fits
 }
 
-/// One piece of several that touch at bridges.
-fn united(mut members: Vec<Piece>, tree: &CutTree, bridges: &[Bridge]) -> Result<Piece, CutError> {
+/// Returns one piece made of several that touch at bridges.
+fn unite(mut members: Vec<Piece>, tree: &CutTree, bridges: &[Bridge]) -> Result<Piece, CutError> {
     if members.len() == 1 {
         return Ok(members.remove(0));
     }
-    let mesh = match stitched(&members, bridges) {
+    let mesh = match stitch(&members, bridges) {
         Some(mesh) => mesh,
-        None => unioned(members)?,
+        None => union_all(members)?,
     };
     Ok(piece(mesh, tree))
 }
 
-/// The members without the faces in which they meet, sewn together along the rims of those; none
-/// where the rims have not the same corners.
+/// Returns the members without the faces in which they meet, sewn together along the rims of these
+/// faces. `None` if the rims do not have the same corners.
 ///
-/// A union would find the faces' planes 1e-14 mm apart, and at times leaves a sheet between them.
-fn stitched(members: &[Piece], bridges: &[Bridge]) -> Option<TriMesh> {
+/// A union would find the planes of the faces 1e-14 mm apart, and sometimes leaves a sheet between
+/// them.
+fn stitch(members: &[Piece], bridges: &[Bridge]) -> Option<TriMesh> {
     let is_bridge = |cap: &Cap| {
         bridges
             .iter()
             .any(|bridge| bridge.cut == cap.cut && cap.holds(&bridge.at))
     };
     let open = |member: &Piece| {
-        let mut stays = vec![true; member.mesh.triangles().len()];
+        let mut is_kept = vec![true; member.mesh.triangles().len()];
         for cap in member.caps.iter().filter(|cap| is_bridge(cap)) {
-            cap.faces.iter().for_each(|&face| stays[face] = false);
+            cap.faces.iter().for_each(|&face| is_kept[face] = false);
         }
-        let left = member
+        let remaining = member
             .mesh
             .triangles()
             .iter()
-            .zip(stays)
-            .filter_map(|(t, stays)| stays.then_some(*t));
-        TriMesh::new(member.mesh.vertices().to_vec(), left.collect()).ok()
+            .zip(is_kept)
+            .filter_map(|(t, is_kept)| is_kept.then_some(*t));
+        TriMesh::new(member.mesh.vertices().to_vec(), remaining.collect()).ok()
     };
     let all = members.iter().try_fold(TriMesh::default(), |all, member| {
         Some(all.joined(&open(member)?))
@@ -224,8 +230,8 @@ fn stitched(members: &[Piece], bridges: &[Bridge]) -> Option<TriMesh> {
     Some(Solid::new(sewn(&all, SEAM_TOLERANCE_MM)).ok()?.into_mesh())
 }
 
-/// The union of the members; the smaller are united first, which is cheap.
-fn unioned(mut members: Vec<Piece>) -> Result<TriMesh, CutError> {
+/// Returns the union of the members. The smaller ones are united first, which is cheap.
+fn union_all(mut members: Vec<Piece>) -> Result<TriMesh, CutError> {
     members.sort_by(|a, b| a.volume_mm3.total_cmp(&b.volume_mm3));
     let mut body = Csg::of_mesh(&TriMesh::default())?;
     for member in &members {
@@ -234,9 +240,9 @@ fn unioned(mut members: Vec<Piece>) -> Result<TriMesh, CutError> {
     Ok(body.to_mesh()?)
 }
 
-/// The height of a piece over a grid on the plane, to tell whether another can be drawn out past
-/// it.
-struct Shadow {
+/// The height of a piece over a grid on the plane. It shows whether another piece can be drawn out
+/// past it.
+struct HeightMap {
     chart: Chart,
     plane: Plane,
     sign: f64,
@@ -246,15 +252,15 @@ struct Shadow {
     top: Vec<f64>,
 }
 
-impl Shadow {
+impl HeightMap {
     fn new(mesh: &TriMesh, plane: &Plane, sign: f64) -> Self {
         let chart = Chart::of_plane(plane);
         let flat = mesh.vertices().iter().map(|p| chart.flat(p));
         let all = Point2::new(f64::INFINITY, f64::INFINITY);
         let (min, max) = flat.fold((all, -all), |(min, max), p| (min.inf(&p), max.sup(&p)));
-        let cell = (max - min) / SHADOW_CELLS as f64;
-        let top = vec![f64::NEG_INFINITY; SHADOW_CELLS * SHADOW_CELLS];
-        let mut shadow = Self {
+        let cell = (max - min) / MAP_CELLS as f64;
+        let top = vec![f64::NEG_INFINITY; MAP_CELLS * MAP_CELLS];
+        let mut map = Self {
             chart,
             plane: *plane,
             sign,
@@ -263,23 +269,24 @@ impl Shadow {
             top,
         };
         for corners in mesh.iter_corners() {
-            let (_, high, cells) = shadow.span(&corners);
+            let (_, high, cells) = map.span(&corners);
             for cell in cells {
-                shadow.top[cell] = shadow.top[cell].max(high);
+                map.top[cell] = map.top[cell].max(high);
             }
         }
-        shadow
+        map
     }
 
-    /// Whether a triangle of the mesh lies under the shadow's body.
-    fn holds_back(&self, mesh: &TriMesh) -> bool {
+    /// Returns whether a triangle of the mesh lies below the mapped piece, which then blocks its
+    /// way.
+    fn blocks(&self, mesh: &TriMesh) -> bool {
         mesh.iter_corners().any(|corners| {
             let (low, _, mut cells) = self.span(&corners);
             cells.any(|cell| low < self.top[cell])
         })
     }
 
-    /// The least and greatest height of a triangle, and the cells it meets.
+    /// Returns the least and greatest height of a triangle, and the cells that it meets.
     fn span(&self, corners: &[Point; 3]) -> (f64, f64, impl Iterator<Item = usize> + use<>) {
         let heights = corners.map(|p| self.sign * self.plane.distance(&p));
         let places = corners.map(|p| (self.chart.flat(&p) - self.min).component_div(&self.cell));
@@ -287,17 +294,17 @@ impl Shadow {
             let (from, to) = extent(places.map(|p| p[axis]));
             // Casts saturate: a triangle beside the grid has an empty range.
             let first = if to < 0.0 {
-                SHADOW_CELLS
+                MAP_CELLS
             } else {
                 from.max(0.0) as usize
             };
-            first..((to.max(0.0) as usize).saturating_add(1)).min(SHADOW_CELLS)
+            first..((to.max(0.0) as usize).saturating_add(1)).min(MAP_CELLS)
         };
         let (columns, rows) = (range(0), range(1));
         let cells = columns.flat_map(move |i| rows.clone().map(move |j| [i, j]));
         let met = cells
             .filter(move |cell| meets(&places, *cell))
-            .map(|[i, j]| i * SHADOW_CELLS + j);
+            .map(|[i, j]| i * MAP_CELLS + j);
         let (low, high) = extent(heights);
         (low, high, met)
     }
@@ -310,8 +317,8 @@ fn extent(values: [f64; 3]) -> (f64, f64) {
     )
 }
 
-/// Whether a triangle meets a unit cell whose box its own box meets: no side of it has all of the
-/// cell beyond it.
+/// Returns whether a triangle meets a unit cell, given that their bounding boxes meet: no side of
+/// the triangle has the whole cell beyond it.
 fn meets(places: &[nalgebra::Vector2<f64>; 3], cell: [usize; 2]) -> bool {
     let middle = nalgebra::Vector2::new(cell[0] as f64 + 0.5, cell[1] as f64 + 0.5);
     let area = (places[1] - places[0]).perp(&(places[2] - places[0]));
@@ -345,7 +352,7 @@ mod tests {
             .unwrap()
     }
 
-    /// The pieces that the plane z = 15 leaves and those left after joining again.
+    /// Returns the number of pieces that the plane z = 15 leaves, and the pieces after joining.
     fn cut_at_15(hollowed: &Hollowed) -> (usize, Vec<Piece>) {
         let tree = CutTree::everywhere(&[Plane {
             normal: Vector::z(),
@@ -374,16 +381,16 @@ mod tests {
             leg(40.0, 40.0),
         ]);
         let hollowed = Hollowed::new(outer, vec![cuboid([2.0, 2.0, 4.0], [8.0, 8.0, 25.0])]);
-        let (cut, left) = cut_at_15(&hollowed);
-        assert_eq!((cut, left.len()), (5, 2));
-        let volume: f64 = left.iter().map(|piece| piece.volume_mm3).sum();
+        let (cut, remaining) = cut_at_15(&hollowed);
+        assert_eq!((cut, remaining.len()), (5, 2));
+        let volume: f64 = remaining.iter().map(|piece| piece.volume_mm3).sum();
         assert!((volume - hollowed.to_mesh().signed_volume_mm3()).abs() < 1e-9 * volume);
     }
 
     #[test]
     fn a_bump_of_a_voids_floor_that_the_plane_grazes_is_no_part() {
         let outer = cuboid([0.0; 3], [30.0; 3]);
-        // A post in the void that reaches `over` mm beyond the plane z = 15.
+        // A post in the void that rises `over` mm above the plane z = 15.
         let post = |over: f64| {
             let void = Csg::of_solid(&cuboid([5.0; 3], [25.0; 3])).unwrap();
             let post =
@@ -393,17 +400,17 @@ mod tests {
                 vec![void.subtract(&post).unwrap().to_solid().unwrap()],
             )
         };
-        let (cut, left) = cut_at_15(&post(0.05));
-        assert_eq!((cut, left.len()), (3, 2));
-        // What is as thick as a wall can be printed and stays a part of its own.
-        let (cut, left) = cut_at_15(&post(2.0 * request().wall_mm));
-        assert_eq!((cut, left.len()), (3, 3));
+        let (cut, remaining) = cut_at_15(&post(0.05));
+        assert_eq!((cut, remaining.len()), (3, 2));
+        // A piece as thick as a wall can be printed and stays a part of its own.
+        let (cut, remaining) = cut_at_15(&post(2.0 * request().wall_mm));
+        assert_eq!((cut, remaining.len()), (3, 3));
     }
 
     #[test]
-    fn a_bump_is_held_back_only_by_what_lies_over_it_and_not_by_what_has_it_in_its_box() {
-        // A void with a post that reaches past a level cut, and a cut askew beside it: the boxes
-        // about the large triangles of the faces hold the post.
+    fn a_bump_is_blocked_by_what_lies_over_it_and_not_by_a_bounding_box() {
+        // A void with a post through a level cut, and a slanted cut beside it. The bounding boxes
+        // of the faces' large triangles contain the post.
         let void = Csg::of_solid(&cuboid([5.0; 3], [30.0, 30.0, 25.0])).unwrap();
         let post = Csg::of_solid(&cuboid([12.0, 12.0, 4.0], [18.0, 18.0, 15.05])).unwrap();
         let voids = vec![void.subtract(&post).unwrap().to_solid().unwrap()];
@@ -412,8 +419,8 @@ mod tests {
             normal: Vector::z(),
             offset_mm: 15.0,
         };
-        let askew = Plane::through(&Point::new(46.0, 0.0, 0.0), &Vector::new(1.0, 0.5, 0.0));
-        let tree = CutTree::everywhere(&[level, askew]);
+        let slanted = Plane::through(&Point::new(46.0, 0.0, 0.0), &Vector::new(1.0, 0.5, 0.0));
+        let tree = CutTree::everywhere(&[level, slanted]);
         let pieces = split(&hollowed.to_mesh(), &tree).unwrap();
         let bridges = bridges(
             &Cutting {
@@ -423,8 +430,8 @@ mod tests {
             },
             &pieces,
         );
-        let left = rejoined(pieces.clone(), &tree, &bridges).unwrap();
-        assert_eq!((pieces.len(), left.len()), (5, 4));
+        let remaining = rejoined(pieces.clone(), &tree, &bridges).unwrap();
+        assert_eq!((pieces.len(), remaining.len()), (5, 4));
     }
 
     #[test]
@@ -447,7 +454,7 @@ mod tests {
     }
 
     #[test]
-    fn a_solid_hook_over_the_hollow_tower_is_cut_or_the_tower_could_not_be_lifted() {
+    fn a_solid_hook_over_a_hollow_tower_is_cut_off_so_that_the_tower_lifts() {
         let outer = union(&[
             ([0.0, 0.0, 0.0], [50.0, 10.0, 5.0]),
             ([0.0, 0.0, 0.0], [10.0, 10.0, 30.0]),
@@ -455,7 +462,7 @@ mod tests {
             ([5.0, 0.0, 35.0], [50.0, 10.0, 40.0]),
         ]);
         let hollowed = Hollowed::new(outer, vec![cuboid([2.0, 2.0, 10.0], [8.0, 8.0, 25.0])]);
-        let (cut, left) = cut_at_15(&hollowed);
-        assert_eq!((cut, left.len()), (3, 3));
+        let (cut, remaining) = cut_at_15(&hollowed);
+        assert_eq!((cut, remaining.len()), (3, 3));
     }
 }

@@ -1,4 +1,4 @@
-//! The body cut by all planes: its pieces, their cut faces, and which faces meet.
+//! The pieces of the body cut by all planes, their cut faces and the joints between them.
 
 use std::cmp::Reverse;
 
@@ -17,12 +17,12 @@ use crate::{
     mesh::{Csg, TriMesh, bodies, shells, union_find::UnionFind},
 };
 
-/// Pieces below this volume are sheets left where a plane runs along a face, mm³: a real crumb of
-/// that size would be a hundredth of a millimetre across, and no printer makes it.
+/// Volume below which a piece is a sheet left by a plane along a face, mm³. A real piece of that
+/// size would be a hundredth of a millimetre across, and no printer makes it.
 const SHEET_VOLUME_MM3: f64 = 1e-6;
 
-/// Vertices this near to a plane lie on the cut face, mm. Caps are flat to 1e-13, and a planned cut
-/// keeps 1e-6 away from the model's own vertices.
+/// Distance within which a vertex lies on the cut face, mm. Caps are flat to 1e-13, and a planned
+/// cut keeps 1e-6 away from the model's own vertices.
 const ON_PLANE_MM: f64 = 1e-7;
 
 /// A piece of the cut body, bounded by its own surface and by cut faces.
@@ -33,16 +33,16 @@ pub(crate) struct Piece {
     pub(crate) caps: Vec<Cap>,
 }
 
-/// A connected flat face that a cut has left on a piece.
+/// A connected flat face that a cut leaves on a piece.
 #[derive(Clone)]
 pub(crate) struct Cap {
-    /// Which cut.
+    /// The index of the cut.
     pub(crate) cut: usize,
-    /// Whether the piece lies above the plane, so that the face looks against the plane's normal.
+    /// `true` if the piece lies above the plane, so that the face looks against the plane's normal.
     pub(crate) is_above: bool,
     pub(crate) outline: Outline,
     pub(crate) area_mm2: f64,
-    /// Its triangles in the piece's mesh, as indices into them, ascending.
+    /// The indices of its triangles in the piece's mesh, ascending.
     pub(crate) faces: Vec<usize>,
     pub(crate) triangles: Vec<[Point2; 3]>,
 }
@@ -54,28 +54,28 @@ pub(crate) struct Joint {
     pub(crate) below: usize,
     /// The piece above it.
     pub(crate) above: usize,
-    /// The faces in which they meet, as the piece below has them; of a cap that meets several what
-    /// is shared.
+    /// The faces in which they meet, as the piece below has them; of a cap that meets several
+    /// pieces, the shared region.
     pub(crate) faces: Vec<Cap>,
 }
 
 impl Joint {
-    /// Whether a piece is one of the two.
+    /// Returns whether a piece is one of the two.
     pub(crate) fn touches(&self, piece: usize) -> bool {
         self.below == piece || self.above == piece
     }
 
-    /// The ids of the parts that the pieces below and above become.
+    /// Returns the ids of the parts that the pieces below and above become.
     pub(crate) fn parts(&self) -> [PartId; 2] {
         [self.below, self.above].map(PartId::of)
     }
 
-    /// The area of the faces in which the two meet, mm².
+    /// Returns the area of the faces in which the two meet, mm².
     pub(crate) fn area_mm2(&self) -> f64 {
         self.faces.iter().map(|face| face.area_mm2).sum()
     }
 
-    /// The other piece of the two.
+    /// Returns the other piece of the two.
     pub(crate) fn other(&self, piece: usize) -> usize {
         if self.below == piece {
             self.above
@@ -86,19 +86,19 @@ impl Joint {
 }
 
 impl Piece {
-    /// Whether the piece lies above a plane that does not pass through it.
+    /// Returns whether the piece lies above a plane that does not pass through it.
     pub(crate) fn is_above(&self, plane: &Plane) -> bool {
         let heights = self.mesh.vertices().iter().map(|p| plane.distance(p));
         heights.fold(0.0, |far: f64, h| if h.abs() > far.abs() { h } else { far }) > 0.0
     }
 }
 
-/// The pieces of a closed mesh between the cuts, in the order of [`in_order`].
+/// Returns the pieces of a closed mesh between the cuts, in the order of [`sort_pieces`].
 pub(crate) fn split(mesh: &TriMesh, tree: &CutTree) -> Result<Vec<Piece>, CutError> {
     split_body(&Csg::of_mesh(mesh)?, tree)
 }
 
-/// The same of a body that is at hand.
+/// Returns the pieces as in [`split`], of a body that is loaded already.
 pub(crate) fn split_body(body: &Csg, tree: &CutTree) -> Result<Vec<Piece>, CutError> {
     let mut pieces = Vec::new();
     for cell in &tree.cells(body)? {
@@ -109,24 +109,24 @@ pub(crate) fn split_body(body: &Csg, tree: &CutTree) -> Result<Vec<Piece>, CutEr
         );
     }
     pieces.retain(|piece| piece.volume_mm3 > SHEET_VOLUME_MM3);
-    Ok(in_order(pieces))
+    Ok(sort_pieces(pieces))
 }
 
-/// Puts pieces in the order in which parts are numbered: along a direction askew to everything, so
-/// that solving again and cutting slightly different voids by the same plan keeps the numbers,
-/// which an order by volume would not for the halves of a symmetric model.
-pub(crate) fn in_order(pieces: Vec<Piece>) -> Vec<Piece> {
-    let askew = Vector::new(0.331, 0.497, 0.802);
-    let place = |piece: &Piece| askew.dot(&piece.mesh.aabb().center().coords);
+/// Sorts pieces into the order in which parts are numbered: along a direction slanted to every
+/// axis. So parts keep their numbers when the plan cuts slightly different voids. An order by
+/// volume would not keep them for the halves of a symmetric model.
+pub(crate) fn sort_pieces(pieces: Vec<Piece>) -> Vec<Piece> {
+    let slanted = Vector::new(0.331, 0.497, 0.802);
+    let position = |piece: &Piece| slanted.dot(&piece.mesh.aabb().center().coords);
     let mut placed: Vec<(f64, Piece)> = pieces
         .into_iter()
-        .map(|piece| (place(&piece), piece))
+        .map(|piece| (position(&piece), piece))
         .collect();
     placed.sort_by(|a, b| b.0.total_cmp(&a.0));
     placed.into_iter().map(|(_, piece)| piece).collect()
 }
 
-/// Refuses a piece that encloses a cavity.
+/// Returns an error if a piece encloses a cavity.
 pub(crate) fn check_no_cavity(pieces: &[Piece]) -> Result<(), CutError> {
     for (part, piece) in pieces.iter().enumerate() {
         let cavities = shells(&piece.mesh)
@@ -141,7 +141,8 @@ pub(crate) fn check_no_cavity(pieces: &[Piece]) -> Result<(), CutError> {
     Ok(())
 }
 
-/// A piece with its cut faces: of two cuts in one plane each has those where it is made.
+/// Returns a piece with its cut faces. If two cuts lie in one plane, each has the faces in its own
+/// region.
 pub(crate) fn piece(mesh: TriMesh, tree: &CutTree) -> Piece {
     let of_cut = |(cut, plane): (usize, &Plane)| {
         let chart = Chart::of_plane(plane);
@@ -159,7 +160,7 @@ pub(crate) fn piece(mesh: TriMesh, tree: &CutTree) -> Piece {
     }
 }
 
-/// The faces that the plane has left on a piece, in the order of their first triangles.
+/// Returns the faces that the plane has left on a piece, in the order of their first triangles.
 fn caps(mesh: &TriMesh, plane: &Plane, cut: usize) -> Vec<Cap> {
     let on_plane: Vec<bool> = mesh
         .vertices()
@@ -202,7 +203,7 @@ fn cap(mesh: &TriMesh, faces: Vec<usize>, chart: &Chart, cut: usize) -> Cap {
     }
 }
 
-/// The cut face of a flat region; of no triangles of a piece.
+/// Returns the cut face of a flat region, without triangles of a piece.
 pub(crate) fn cap_of(flat: &Flat, cut: usize) -> Cap {
     let at = |v: u32| flat.corners[v as usize];
     let boundary = boundary_edges(&flat.triangles)
@@ -225,7 +226,7 @@ pub(crate) fn cap_of(flat: &Flat, cut: usize) -> Cap {
     }
 }
 
-/// The directed edges without an opposite among the triangles, sorted.
+/// Returns the directed edges without an opposite among the triangles, sorted.
 fn boundary_edges(triangles: &[[u32; 3]]) -> Vec<(u32, u32)> {
     let mut edges: Vec<(u32, u32)> = triangles
         .iter()
@@ -245,7 +246,7 @@ impl Cap {
         self.area_mm2 > 0.0
     }
 
-    /// Whether the face holds a point of the plane.
+    /// Returns whether the face contains a point of the plane.
     pub(crate) fn holds(&self, p: &Point2) -> bool {
         self.triangles.iter().any(|[a, b, c]| {
             let signs = [(a, b), (b, c), (c, a)].map(|(from, to)| (to - from).perp(&(p - from)));
@@ -253,7 +254,7 @@ impl Cap {
         })
     }
 
-    /// The centroid of the largest triangle: a point well inside the face.
+    /// Returns the centroid of the largest triangle: a point well inside the face.
     pub(crate) fn inner_point(&self) -> Point2 {
         let area = |[a, b, c]: &[Point2; 3]| (b - a).perp(&(c - a)).abs();
         let largest = self
@@ -266,7 +267,7 @@ impl Cap {
     }
 }
 
-/// The piece whose face of this cut, on this side, holds the point.
+/// Returns the piece whose face of this cut, on this side, contains the point.
 pub(crate) fn piece_at(pieces: &[Piece], cut: usize, is_above: bool, p: &Point2) -> Option<usize> {
     pieces.iter().position(|piece| {
         piece
@@ -276,8 +277,8 @@ pub(crate) fn piece_at(pieces: &[Piece], cut: usize, is_above: bool, p: &Point2)
     })
 }
 
-/// All pairs of pieces that meet at a cut, ordered so that they can be closed one after the other:
-/// those of cuts that others must be made before first; then by cut, then by the pieces.
+/// Returns all pairs of pieces that meet at a cut, in an order in which they can be glued one after
+/// the other. Cuts with more limits come first; then by cut, then by the pieces.
 pub(crate) fn joints(pieces: &[Piece], tree: &CutTree) -> Vec<Joint> {
     let caps = |is_above: bool| {
         let all = pieces
@@ -289,7 +290,7 @@ pub(crate) fn joints(pieces: &[Piece], tree: &CutTree) -> Vec<Joint> {
     let mut joints: Vec<Joint> = Vec::new();
     for (below, low) in caps(false) {
         for (above, high) in caps(true).filter(|(_, high)| high.cut == low.cut) {
-            let faces = shared(low, high, tree);
+            let faces = intersect_caps(low, high, tree);
             let same = |j: &&mut Joint| (j.cut, j.below, j.above) == (low.cut, below, above);
             match joints.iter_mut().find(same) {
                 Some(joint) => joint.faces.extend(faces),
@@ -314,9 +315,9 @@ pub(crate) fn joints(pieces: &[Piece], tree: &CutTree) -> Vec<Joint> {
     joints
 }
 
-/// What two caps of one cut have in common, as the one below has it: either is of the body's
-/// section, and ends besides where other cuts end on its side.
-fn shared(low: &Cap, high: &Cap, tree: &CutTree) -> Vec<Cap> {
+/// Returns the region that two caps of one cut share, as the one below has it. Both lie in the
+/// section of the body, but other cuts may end on one side of either.
+fn intersect_caps(low: &Cap, high: &Cap, tree: &CutTree) -> Vec<Cap> {
     let meets = |face: &Cap| face.has_area() && high.holds(&face.inner_point());
     if tree.is_everywhere() {
         return if meets(low) {
@@ -336,7 +337,7 @@ fn shared(low: &Cap, high: &Cap, tree: &CutTree) -> Vec<Cap> {
             continue;
         };
         if flat.is_crossed_by(own, plane) {
-            (flat, is_whole) = (flat.on_side(own, plane, is_above), false);
+            (flat, is_whole) = (flat.clip_to_side(own, plane, is_above), false);
         }
     }
     if is_whole {
