@@ -233,7 +233,7 @@ fn absurd_sizes_walls_pitches_points_and_threads_are_refused() {
         (["--size", "5m"], "for objet-connex350 may be"),
         (["--size", "0.5mm"], "leave nothing inside"),
         (["--wall", "200mm"], "leave nothing inside"),
-        (["--pitch", "1e-9"], "larger --pitch"),
+        (["--pitch", "1e-9"], "larger pitch (--pitch)"),
         (["--contact", "1e300,0,0"], "times the model's length away"),
         (["--threads", "100000"], "1..=256"),
     ] {

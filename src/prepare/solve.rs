@@ -3,6 +3,7 @@
 use super::levels::{Answer, with_load};
 use super::outcome::Impossible;
 use crate::ballast::{Fit, Load, Order, Search, Shop};
+use crate::base::setting::{Key, Setting};
 use crate::base::verdict::Verdict;
 use crate::base::watch::{Phase, Watch};
 use crate::error::Error;
@@ -42,7 +43,8 @@ fn with_ballast(
     };
     match answer {
         Verdict::No(mut impossible) => {
-            let refused = format!("no places for the ballast {order} make it possible");
+            let ballast = Setting::new(Key::Ballast, order);
+            let refused = format!("no places were found for `{ballast}` that make it possible");
             impossible.warnings.push(refused);
             Ok(Verdict::No(impossible))
         }
