@@ -1,18 +1,26 @@
 //! Equipoise hollows a 3D model so that its printed, glued parts spin, stand, float or run true as
 //! asked.
 //!
-//! A mesh, a printer and a goal go in; a kit comes out: parts that can be printed, cleaned and
-//! glued, and a job sheet that says what to do and what to measure. The void is provably the best
-//! there is: whatever the goal, the optimal void is the region that may be emptied, cut by one
-//! quadric ([`guide::theory`]), and every solution carries its certificate.
+//! A mesh, a printer and a goal go in, and a kit comes out. It holds parts that can be printed,
+//! cleaned and glued, and a job sheet that says what to do and what to measure. The void is
+//! provably the best there is: for every goal it is what may be emptied, cut by one quadric
+//! ([`guide::theory`]). Every solution carries its certificate.
 //!
-//! # The way through
-//! [`io`] reads, [`mesh`] checks and repairs, [`goal`] places the aim, [`printer`] gives wall,
-//! pitch and material, [`shell`] keeps the wall, [`interior`] holds what may be emptied as exact
-//! columns, [`hollow`] solves, [`advice`] says what helps where that is impossible, [`voids`] draws
-//! the surfaces, [`cut`] opens and pins the parts, [`verify`] judges what is written without
-//! knowing how it was made, [`sheet`] and [`page`] put the job sheet together, [`kit`] writes it;
-//! [`coupon`] lets a shop measure what its printer does; [`prepare::prepare`] is that line.
+//! # The line
+//! [`prepare::prepare`] runs a [`job::Job`] to its end. Its stages and the rooms that do the work:
+//!
+//! | stage | rooms |
+//! | --- | --- |
+//! | load | [`io`] reads, [`repair`] mends, [`mesh`] proves a solid, [`printer`] gives wall and pitch |
+//! | place | [`goal`] places the aim, [`hardware`] bores sockets, [`advice`] chooses an open axis |
+//! | solve | [`shell`] keeps the wall, [`interior`] measures columns, [`hollow`] solves, [`ballast`] adds mass |
+//! | open | [`voids`] draws the surfaces, [`cut`] plans cuts and pins, [`open`] resolves both |
+//! | make | [`make`] writes the parts and corrects them |
+//! | judge | [`verify`] judges the files without knowing how they were made |
+//! | kit | [`sheet`] and [`page`] make the job sheet with [`draw`], [`kit`] writes the folder |
+//!
+//! [`run`] holds the facts that pass from stage to stage, [`base`] units and the watch over a run.
+//! [`coupon`] lets a shop measure what its printer does.
 //!
 //! # Example
 //! ```no_run

@@ -26,7 +26,7 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// A model, one of those made by code or a file of the larger ones; none where that is not
+    /// A model, one of those made by code or a file of the larger ones; `None` if that is not
     /// there.
     pub fn of(model: &str, file: Option<&str>, request: &Request) -> Result<Option<Self>> {
         let Some(solid) = solid(model, file)? else {

@@ -43,7 +43,13 @@ pub fn clean(
     loop {
         resolver.watch().check()?;
         let plan = plan_once(placed, &voids, &request)?;
-        let dirty = uncleaned(placed, &voids, &plan, &request, rounds.len())?;
+        let round = Round {
+            placed,
+            voids: &voids,
+            request: &request,
+            number: rounds.len(),
+        };
+        let dirty = find_uncleanable(&round, &plan)?;
         if dirty.bodies.is_empty() || rounds.len() == placed.policy.cleaning_rounds {
             let plan = plan.or_error::<CutError>()?;
             return Ok(Cleaned {
@@ -73,16 +79,25 @@ pub fn clean(
     }
 }
 
+/// A round of cleaning before it is done.
+struct Round<'a> {
+    placed: &'a Placed,
+    voids: &'a Voids,
+    request: &'a PlanRequest,
+    /// Number of rounds before it.
+    number: usize,
+}
+
 /// Finds what must be kept solid because a plan does not let it be cleaned.
-fn uncleaned(
-    placed: &Placed,
-    voids: &Voids,
-    plan: &Verdict<CutPlan, Obstacle>,
-    request: &PlanRequest,
-    rounds: usize,
-) -> Result<Keep, Error> {
+fn find_uncleanable(round: &Round, plan: &Verdict<CutPlan, Obstacle>) -> Result<Keep, Error> {
+    let Round {
+        placed,
+        voids,
+        request,
+        number,
+    } = *round;
     let policy = &placed.policy;
-    let whole = rounds >= policy.shrinking_rounds;
+    let whole = number >= policy.shrinking_rounds;
     let (unclean, margin_openings) = match plan {
         Verdict::Found(plan) if placed.job.cut != CutMode::Never => (
             unclean(&voids.hollowed, plan, request, whole)?,

@@ -12,11 +12,10 @@ const MASS_TOLERANCE_RATIO: f64 = 1e-5;
 /// Share of a rotor's permissible unbalance that may be left in the written parts.
 const GRADE_SHARE_RATIO: f64 = 0.1;
 
-/// Returns the distance of a body (moments in the goal frame) from the goal's constraints, in the
-/// tolerances that a written kit needs: the one that is missed most.
+/// Returns the distance of a body from the goal's constraints, in the tolerances of a written kit.
 ///
-/// A rotor that cannot meet its constraints is compared with what was `solved`. A kit breaks its
-/// promise at about ten.
+/// The constraint that is missed most counts. Moments are in the goal frame. A rotor that cannot
+/// meet its constraints is compared with what was `solved`. A kit breaks its promise at about ten.
 pub fn defect_ratio(goal: &Goal, solved: &Moments, moments: &Moments) -> f64 {
     let body = Body::new(moments, 1.0);
     let aside = body.center.xy().coords.norm() / CENTER_TOLERANCE_MM;

@@ -9,8 +9,8 @@ use crate::mesh::{MeshDistance, TriMesh};
 use crate::page::{CutFace, Mouth, Region};
 use crate::run::{Made, WrittenPart};
 
-/// Distance from the middle of a region's widest disc at which its parts are looked up, as a share
-/// of the disc's diameter: inside the disc, past a pin.
+/// Distance from the middle of a region's widest disc at which its parts are looked up: inside the
+/// disc, past a pin. A share of its diameter.
 const BESIDE_RATIO: f64 = 0.42;
 /// Directions in which that is tried.
 const LOOKS: usize = 8;

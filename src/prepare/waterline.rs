@@ -78,8 +78,8 @@ impl Search<'_> {
         let step_mm = height_mm / (PASSES + 1) as f64;
         let coarse = (1..=PASSES).map(|i| self.rate(step_mm * i as f64));
         let best = coarse.fold(self.rate(0.5 * step_mm), better);
-        // Written parts weigh a little more or less than solved: at the very top the object would
-        // sink, at the very bottom it could not be trimmed.
+        // Written parts weigh a little more or less than solved. At the very top the object would
+        // sink; at the very bottom it could not be trimmed.
         let [lowest_mm, highest_mm] = [0.5 * step_mm, height_mm - 0.5 * step_mm];
         let at_mm = best.afloat.waterline_mm;
         let range_mm = [

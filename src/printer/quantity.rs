@@ -4,8 +4,8 @@ use std::{fmt, ops::RangeInclusive};
 
 use serde::{Deserialize, Serialize};
 
-/// The finest length, mm. Smaller values must be in metres, and columns at such a pitch would fill any
-/// memory.
+/// The finest length, mm. Smaller values must be in metres, and columns at such a pitch would fill
+/// any memory.
 const FINEST_MM: f64 = 1e-3;
 /// The coarsest pixel, line or layer, mm. Larger values must be in micrometres.
 const COARSEST_STEP_MM: f64 = 2.0;
@@ -187,8 +187,8 @@ impl Quantity {
         )
     }
 
-    /// Returns the plausible values. Larger ones must be in micrometres instead of millimetres, or in
-    /// per cent instead of a ratio.
+    /// Returns the plausible values. Larger ones must be in micrometres instead of millimetres, or
+    /// in per cent instead of a ratio.
     pub fn plausible(self) -> RangeInclusive<f64> {
         match self {
             Self::PixelXMm

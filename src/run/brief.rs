@@ -51,7 +51,7 @@ pub struct Placed {
     pub shop: Shop,
     /// The job's goal with its axis decided.
     pub request: Request,
-    /// How the axis was chosen, `None` if the job names it.
+    /// The choice of the axis, `None` if the job names it.
     pub choice: Option<AxisChoice>,
     /// The goal in the model; its moments count the hardware.
     pub placement: Placement,

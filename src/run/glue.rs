@@ -1,4 +1,4 @@
-//! What joins the parts and is not printed: dowels, and the films of glue.
+//! Dowels and films of glue: they join the parts and are not printed.
 
 use super::Placed;
 use crate::base::units::MM3_PER_CM3;

@@ -82,7 +82,7 @@ pub struct CleaningRound {
     pub value_before: f64,
     /// Figure after it; `None` if the goal could not be met any more and the round was undone.
     pub value_after: Option<f64>,
-    /// Whether the plan asks for it, not cleaning.
+    /// True if the plan asks for it, not cleaning.
     pub by_plan: bool,
 }
 

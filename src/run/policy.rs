@@ -93,7 +93,7 @@ pub struct Policy {
     pub cleaning_margin_openings: f64,
     /// Margin around voids that are refused whole: what lies nearer could hardly be cleaned.
     pub refused_margin_openings: f64,
-    /// Share of the model's volume below which a refused void may come back: 50 mm from the axis
+    /// Share of the model's volume below which a refused void may come back. At 50 mm from the axis
     /// it moves the centre of mass by 0.1 µm.
     pub significant_void_ratio: f64,
     /// Share of all walls that a cut for cleaning alone must bring into sight. Below it joints and

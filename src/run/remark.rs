@@ -80,7 +80,7 @@ impl fmt::Display for Remark {
     }
 }
 
-/// Why bosses around pins cannot be had; reads after "bosses around pins would".
+/// The reason against bosses around pins; reads after "bosses around pins would".
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Refusal {
     /// No hollowing meets the goal beside them.
@@ -134,7 +134,7 @@ impl fmt::Display for Refusal {
     }
 }
 
-/// Why a part of a void is kept solid.
+/// The reason to keep a part of a void solid.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum KeptCause {
     /// It lies beyond a joint without room for pins.
@@ -158,7 +158,7 @@ impl fmt::Display for KeptCause {
     }
 }
 
-/// How the axis was chosen for a job that leaves it open.
+/// The choice of the axis for a job that leaves it open.
 #[derive(Debug, Clone, PartialEq)]
 pub enum AxisChoice {
     /// The best of those tried.

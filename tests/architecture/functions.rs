@@ -17,13 +17,13 @@ const MAX_MEDIAN_LINES: usize = 8;
 const MAX_ARGUMENTS: usize = 4;
 
 /// Files that are still too long. Final value: 0.
-const LONG_FILES: usize = 1;
+const LONG_FILES: usize = 0;
 /// Functions that are still too long. Final value: 0.
-const LONG_FUNCTIONS: usize = 1;
+const LONG_FUNCTIONS: usize = 0;
 /// Functions that still ask for too many arguments. Final value: 0.
-const GREEDY_FUNCTIONS: usize = 2;
+const GREEDY_FUNCTIONS: usize = 0;
 /// Arguments that are still tuples of unlike types. Final value: 0.
-const BUNDLES: usize = 2;
+const BUNDLES: usize = 0;
 
 /// A function with a body.
 struct Function<'a> {

@@ -20,15 +20,15 @@ const FLAG_FILES: [&str; 2] = [
 ];
 
 /// The share of the doc comments that still begin with a question. Final value: 0.01.
-const QUESTION_SHARE: f64 = 0.061;
+const QUESTION_SHARE: f64 = 0.01;
 /// Docs that still have such an idiom. Final value: 0.
-const NONE_WHERES: usize = 38;
+const NONE_WHERES: usize = 0;
 /// Lines that are still too wide. Final value: 0.
-const WIDE_LINES: usize = 53;
+const WIDE_LINES: usize = 40;
 /// Sentences that are still too long. Final value: 0.
-const LONG_SENTENCES: usize = 135;
+const LONG_SENTENCES: usize = 15;
 /// Strings of the library that still name a flag. Final value: 0.
-const FLAGS: usize = 35;
+const FLAGS: usize = 30;
 
 /// Comment lines that follow each other with one and the same mark.
 struct Comment {
