@@ -19,7 +19,7 @@ const TIE_RATIO: f64 = 1e-9;
 pub struct Weighed<'a> {
     /// The solid.
     pub solid: &'a Solid,
-    /// Its moments, model frame, mm: those of [`moments_of_mesh`].
+    /// Its moments, model frame, mm: those of [`crate::mass::moments_of_mesh`].
     pub moments: Moments,
 }
 
