@@ -165,20 +165,23 @@ impl Watch {
         Self::new(None, Arc::default())
     }
 
+    /// Returns a watch that reports to nobody, with `stop` as its stop button: the run ends once
+    /// it is true.
+    pub fn silent_until(stop: Arc<AtomicBool>) -> Self {
+        Self::new(None, stop)
+    }
+
     /// Returns a watch that calls `observer` with every report.
     pub fn observed(observer: impl Fn(Progress) + Send + Sync + 'static) -> Self {
         Self::new(Some(Box::new(observer)), Arc::default())
     }
 
-    /// Returns the same watch with `stop` as its stop button: the run ends once it is true.
-    pub fn stopped_by(self, stop: Arc<AtomicBool>) -> Self {
-        match Arc::try_unwrap(self.run) {
-            Ok(run) => Self::new(run.observer, stop),
-            Err(run) => Self {
-                run,
-                is_muted: self.is_muted,
-            },
-        }
+    /// Returns a watch that calls `observer` with every report, with `stop` as its stop button.
+    pub fn observed_until(
+        observer: impl Fn(Progress) + Send + Sync + 'static,
+        stop: Arc<AtomicBool>,
+    ) -> Self {
+        Self::new(Some(Box::new(observer)), stop)
     }
 
     fn new(observer: Option<Box<Observer>>, stop: Arc<AtomicBool>) -> Self {
@@ -358,10 +361,11 @@ mod tests {
     #[test]
     fn a_flag_of_the_caller_stops_the_run() {
         let flag = Arc::new(AtomicBool::new(false));
-        let watch = Watch::silent().stopped_by(Arc::clone(&flag));
+        let watch = Watch::silent_until(Arc::clone(&flag));
+        let (part, other) = (watch.muted(), watch.clone());
         assert!(watch.check().is_ok());
         flag.store(true, Ordering::Relaxed);
-        assert!(watch.is_cancelled());
+        assert!([watch, part, other].iter().all(Watch::is_cancelled));
     }
 
     #[test]

@@ -54,7 +54,7 @@ pub fn coupon(
     } else {
         Existing::Keep
     };
-    let watch = Watch::silent().stopped_by(stop.flag());
+    let watch = Watch::silent_until(stop.flag());
     let written = coupon_kit(&set)?.write_watched(&target, existing, &watch);
     if written.is_err()
         && let Some(exit) = stop.end()

@@ -43,7 +43,7 @@ pub fn prepare(
 ) -> Result<Exit, PrepareError> {
     let request = args.request()?;
     let bars = Bars::new(voice.manner);
-    let watch = Watch::observed(bars.observer()).stopped_by(stop.flag());
+    let watch = Watch::observed_until(bars.observer(), stop.flag());
     let outcome = run(&request, &watch);
     bars.finish();
     // A kit that was written before the stop button was pressed stays, and so does its answer.

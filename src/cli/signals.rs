@@ -47,7 +47,7 @@ impl Stop {
         Ok(())
     }
 
-    /// Returns the flag for [`Watch::stopped_by`](crate::base::watch::Watch::stopped_by).
+    /// Returns the flag that is to stop a [`Watch`](crate::base::watch::Watch).
     pub fn flag(&self) -> Arc<AtomicBool> {
         Arc::clone(&self.is_pressed)
     }

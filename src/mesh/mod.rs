@@ -1,7 +1,7 @@
 //! Triangle meshes, and the solids that are proved closed, oriented and 2-manifold.
 //!
-//! * **Types, from weak to strong:** [`TriMesh`] (indices in range) and [`Solid`] (bounds a volume).
-//!   [`Defects`] lists everything that keeps a mesh from being a solid.
+//! * **Types, from weak to strong:** [`TriMesh`] (indices in range) and [`Solid`] (bounds a
+//!   volume). [`Defects`] lists everything that keeps a mesh from being a solid.
 //! * **Topology:** `edges`, `fans` around a vertex, connected `shells`, [`bodies()`], and
 //!   `union_find` under them all.
 //! * **Measurements:** [`MeshFacts`], self-intersections ([`Crossings`]), exact distances

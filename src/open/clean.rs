@@ -29,9 +29,9 @@ struct Keep {
 
 /// Plans cuts with which every void can be cleaned by the printer's rule.
 ///
-/// What a plan leaves uncleanable is kept solid, and the rest solved for again and planned anew.
-/// What is kept solid only grows, so that this ends. A round after which the goal cannot be met is
-/// undone, and the kit's checks say which void stays unclean.
+/// Ends of voids that a plan leaves uncleanable are kept solid, and the rest solved for again and
+/// planned anew. The solid part only grows, so that this ends. A round after which the goal cannot
+/// be met is undone, and the kit's checks say which void stays unclean.
 pub fn clean(
     resolver: &mut Resolver,
     mut voids: Voids,

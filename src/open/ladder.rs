@@ -6,7 +6,7 @@ use super::request::request;
 use super::resolve::Resolver;
 use super::way::{Candidate, Way};
 use crate::base::watch::{Phase, Watch};
-use crate::cut::{CutPlan, PlanRequest, SolidEnd, beyond};
+use crate::cut::{CutError, CutPlan, PlanRequest, SolidEnd, beyond};
 use crate::error::Error;
 use crate::job::CutMode;
 use crate::run::{CleaningRound, KeptCause, Placed, Policy, Remark, Rung, Solved, Voids};
@@ -320,7 +320,7 @@ impl<'a> Ladder<'a> {
 fn unless_refused<T>(way: Result<T, Error>) -> Result<Option<T>, Error> {
     match way {
         Ok(way) => Ok(Some(way)),
-        Err(Error::Cut(_)) => Ok(None),
+        Err(Error::Cut(CutError::Obstacle(_))) => Ok(None),
         Err(error) => Err(error),
     }
 }

@@ -184,7 +184,7 @@ fn draw(limits: &Limits, bias_mm: f64, watch: &Watch) -> Result<Option<TriMesh>,
     let mut dirty = extractor.leaves();
     for round in 0..CHECK_ROUNDS {
         watch.advance(round as f64 / CHECK_ROUNDS as f64);
-        stop_if_cancelled(watch)?;
+        watch.check().map_err(|_| VoidError::Cancelled)?;
         let drawn = extractor.refine(dirty);
         let refused = extractor.leaves_to_refine(&drawn, |corners| {
             limits.allow(corners, bias_mm, DRAWN_LACK_MM)
@@ -195,12 +195,4 @@ fn draw(limits: &Limits, bias_mm: f64, watch: &Watch) -> Result<Option<TriMesh>,
         dirty = extractor.divide(refused);
     }
     Ok(None)
-}
-
-fn stop_if_cancelled(watch: &Watch) -> Result<(), VoidError> {
-    if watch.is_cancelled() {
-        Err(VoidError::Cancelled)
-    } else {
-        Ok(())
-    }
 }

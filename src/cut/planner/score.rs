@@ -393,8 +393,7 @@ pub(crate) fn opening_penalty(scene: &Scene, openings_mm: impl Iterator<Item = f
             .fold(0.0, f64::max)
 }
 
-/// Returns the relative shortfall of `value` against `ample`: 0 if there is none, 1 if `value` is
-/// 0.
+/// Returns the relative shortfall of `value` against `ample`: 0 for none, 1 if `value` is 0.
 fn shortfall(value: f64, ample: f64) -> f64 {
     (1.0 - value / ample).clamp(0.0, 1.0)
 }

@@ -99,7 +99,7 @@ pub(crate) fn climb(reach: &Reach, programme: &Programme, start: Visit, budget: 
         if here.is_within(budget.tolerance) {
             return done(End::Converged);
         }
-        if budget.watch.is_cancelled() {
+        if budget.watch.check().is_err() {
             return done(End::Cancelled);
         }
         if reach.passes() >= last_pass {
