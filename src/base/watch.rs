@@ -79,8 +79,8 @@ impl Phase {
 
     /// Returns the usual share of the phase in the time of a run; all shares sum to 1.
     ///
-    /// They are the mean of `timing_s` in the rows `top-elephant` and `top-armadillo` of
-    /// the acceptance table; phases that these rows do not enter got a little.
+    /// They are the mean of `timing_s` in the rows `top-elephant` and `top-armadillo` of the
+    /// acceptance table. Phases that these rows do not enter got a little.
     pub fn share(self) -> f64 {
         match self {
             Self::Load => 0.015,

@@ -2,7 +2,7 @@
 
 use maud::{Markup, html};
 
-use super::fields::blank;
+use super::fields::{blank, sentence};
 use super::figure::{Role, figures};
 use super::inputs::PageInputs;
 use super::job_id::JobId;
@@ -48,7 +48,7 @@ fn verdict(sheet: &Checklist) -> Markup {
 
 fn warnings(sheet: &Checklist) -> Markup {
     html! {
-        @for warning in &sheet.warnings { p class="warn" { strong { "Warning: " } (warning) } }
+        @for warning in &sheet.warnings { p class="warn" { strong { "Warning: " } (sentence(warning)) } }
     }
 }
 

@@ -10,6 +10,16 @@ pub(super) fn blank() -> Markup {
     html! { span class="fill" { "\u{a0}" } }
 }
 
+/// Returns a sentence of the checklist, with what stands between backticks set as code.
+pub(super) fn sentence(text: &str) -> Markup {
+    let pieces = text.split('`').enumerate();
+    html! {
+        @for (index, piece) in pieces {
+            @if index % 2 == 1 { code { (piece) } } @else { (piece) }
+        }
+    }
+}
+
 /// Returns the path of a file, which may break after `/`, `_` and `-`.
 pub(super) fn file_name(path: &str) -> Markup {
     html! { code { @for piece in path.split_inclusive(['/', '_', '-']) { (piece) wbr; } } }
@@ -77,5 +87,13 @@ mod tests {
         ] {
             assert_eq!(residue(&Process::from(process.to_owned())), left);
         }
+    }
+
+    #[test]
+    fn what_stands_between_backticks_is_code_and_a_lone_backtick_loses_no_word() {
+        let shown = |text| sentence(text).into_string();
+        let tip = "give a tip (`tip = …`) or none";
+        assert_eq!(shown(tip), "give a tip (<code>tip = …</code>) or none");
+        assert_eq!(shown("a ` b"), "a <code> b</code>");
     }
 }

@@ -3,6 +3,7 @@
 use maud::{Markup, html};
 
 use super::cleaning::cost;
+use super::fields::sentence;
 use super::figure::{Picture, Role, figures};
 use super::inputs::PageInputs;
 use super::words;
@@ -34,7 +35,7 @@ fn check_line(check: &Check) -> Markup {
     html! {
         tr {
             td { (check.kind) }
-            td { (check.promise) @if let Some(detail) = check.detail.as_ref().filter(|_| !check.pass) { br; span class="small" { (detail) } } }
+            td { (check.promise) @if let Some(detail) = check.detail.as_ref().filter(|_| !check.pass) { br; span class="small" { (sentence(detail)) } } }
             td class="n" { (quantity_or_dash(check.value, &check.unit)) }
             td class="n" { (check.comparison.sign()) " " (quantity(check.limit, &check.unit)) }
             td { @if check.pass { strong class="pass" { "✓ kept" } } @else { strong class="fail" { "✗ broken" } } }
@@ -150,7 +151,7 @@ pub(super) fn files(inputs: &PageInputs) -> Markup {
                 " triangles, scaled by " (number(sheet.model.scale_ratio)) ") for printer profile " code { (sheet.printer.id) } ", material "
                 code { (sheet.material.id) } ". The same numbers are in checklist.json; job.toml repeats the run."
             }
-            @for note in &sheet.notes { p class="small" { (note) } }
+            @for note in &sheet.notes { p class="small" { (sentence(note)) } }
             h3 { "Sources of the printer's numbers, and how certain they are" }
             ul class="sources small" { @for source in &sheet.printer.sources { li { (source) } } }
         }
