@@ -15,7 +15,7 @@ fn main() -> anyhow::Result<()> {
         &Point::new(-40.0, -20.0, 0.0),
         &Point::new(40.0, 20.0, 40.0),
     );
-    let air = |x: f64| Solid::new(primitives::ball(&Point::new(x, 0.0, 20.0), 12.0, 48));
+    let air = |x: f64| Solid::new(primitives::ball(&Point::new(x, 0.0, 20.0), 12.0, 4));
     let hollowed = Hollowed::new(Solid::new(block)?, vec![air(-20.0)?, air(20.0)?]);
     let axis = GoalAxis {
         point: Point::origin(),
