@@ -214,7 +214,7 @@ impl Scene {
 
     fn wall_mm(&self) -> f64 {
         PRINTED_BY
-            .quantised_wall(Some(WALL_MM), SIZE_MM)
+            .quantise_wall(Some(WALL_MM), SIZE_MM)
             .unwrap()
             .wall_mm
     }

@@ -28,7 +28,7 @@ fn main() -> anyhow::Result<()> {
     let file = folder.path().join("room-2.toml");
     std::fs::write(&file, PROFILE)?;
     let printer = Printer::read(&file)?;
-    let wall = printer.quantised_wall(None, 100.0)?;
+    let wall = printer.quantise_wall(None, 100.0)?;
     println!(
         "{}: a wall of {} mm, {}",
         printer.name, wall.wall_mm, wall.why

@@ -223,7 +223,7 @@ impl Job {
     }
 
     /// Binds the job to the bytes of its model file. Refuses if it was bound to others.
-    pub fn bound_to(mut self, model_bytes: &[u8]) -> Result<Self, JobError> {
+    pub fn bind_to(mut self, model_bytes: &[u8]) -> Result<Self, JobError> {
         let found = sha256_hex(&[model_bytes]);
         match self.model.sha256 {
             Some(expected) if expected != found => Err(JobError::ModelChanged {
@@ -309,7 +309,7 @@ mod tests {
 
     #[test]
     fn a_written_job_reads_back_equal() {
-        let mut other = job().bound_to(b"solid").unwrap();
+        let mut other = job().bind_to(b"solid").unwrap();
         other.wall = Some("1.1mm".parse().unwrap());
         other.pitch = Some("0.1".parse().unwrap());
         other.cut = CutMode::Never;
@@ -465,16 +465,16 @@ mod tests {
 
     #[test]
     fn a_job_is_bound_to_the_bytes_of_its_model() {
-        let bound = job().bound_to(b"abc").unwrap();
+        let bound = job().bind_to(b"abc").unwrap();
         let abc = "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad";
         assert_eq!(
             bound.model.sha256.as_deref(),
             Some(abc),
             "the test vector of FIPS 180-4"
         );
-        assert!(bound.clone().bound_to(b"abc").is_ok());
+        assert!(bound.clone().bind_to(b"abc").is_ok());
         assert!(matches!(
-            bound.bound_to(b"abd"),
+            bound.bind_to(b"abd"),
             Err(JobError::ModelChanged { .. })
         ));
     }

@@ -3,7 +3,7 @@
 
 use anyhow::Result;
 use equipoise::base::watch::Watch;
-use equipoise::goal::{Figures, GoalKind, Objective, Request, Up, figures};
+use equipoise::goal::{Figures, GoalKind, Objective, Request, Up, compute_figures};
 use equipoise::hollow::{Settings, solve};
 
 use super::scene::Scene;
@@ -60,8 +60,8 @@ pub fn print_table() -> Result<()> {
             &Settings::default(),
             &Watch::silent(),
         );
-        let [solid, hollowed] =
-            [&scene.goal.solid, &solution.moments].map(|moments| figures(&scene.goal, moments));
+        let [solid, hollowed] = [&scene.goal.solid, &solution.moments]
+            .map(|moments| compute_figures(&scene.goal, moments));
         let speed = |figures: &Figures| figures.critical_speed_rpm.unwrap_or(f64::INFINITY);
         println!(
             "| {words} | {:.1} | {:.1} | {:.3} | {published} | {:.2} | {:.3} | {:.4} |",

@@ -4,7 +4,7 @@ use super::case::Case;
 use super::reached::Reached;
 use crate::base::watch::Watch;
 use crate::goal::{
-    Hydrostatics, Placement, Request, Stock, Warning, Waterline, Weighed, place_weighed,
+    Hydrostatics, MeasuredSolid, Placement, PrintStock, Request, Warning, Waterline, place_measured,
 };
 use crate::hollow::{Problem, Settings, Solution, solve, solve_on_model_columns};
 use crate::interior::{Columns, Depths};
@@ -28,7 +28,7 @@ const WATERLINES: usize = 12;
 /// A model with samples of its depths.
 pub(super) struct SampledModel<'a> {
     pub case: Case<'a>,
-    weighed: Weighed<'a>,
+    weighed: MeasuredSolid<'a>,
     depths: Depths,
 }
 
@@ -56,7 +56,7 @@ impl Trial {
 
 impl<'a> SampledModel<'a> {
     pub fn new(case: Case<'a>, samples: usize) -> Self {
-        let weighed = Weighed {
+        let weighed = MeasuredSolid {
             solid: case.solid,
             moments: moments_of_mesh(case.solid.mesh()),
         };
@@ -111,11 +111,11 @@ impl<'a> SampledModel<'a> {
 
     /// Places a request. Returns `None` if that fails.
     pub fn place(&self, request: &Request, wall_mm: f64) -> Option<Placement> {
-        let stock = Stock {
+        let stock = PrintStock {
             wall_mm,
             density_g_cm3: self.case.density_g_cm3,
         };
-        place_weighed(&self.weighed, &stock, request).ok()
+        place_measured(&self.weighed, &stock, request).ok()
     }
 
     /// Returns the placement itself or, for a free waterline, the placement at several lines over

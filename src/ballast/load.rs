@@ -8,7 +8,7 @@ use crate::mass::{Lump, Moments};
 
 /// A stock part at its place.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Placed {
+pub struct PlacedPart {
     /// The part.
     pub part: Part,
     /// Its mass, centre and axis, model frame.
@@ -19,7 +19,7 @@ pub struct Placed {
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Load {
     /// The parts, in the order they were placed.
-    pub parts: Vec<Placed>,
+    pub parts: Vec<PlacedPart>,
     /// The clearance and the web of their pockets.
     pub fit: Fit,
     /// The density of the print, g/mm³.
@@ -38,7 +38,7 @@ impl Load {
     }
 
     /// Returns the load with one more part.
-    pub fn with(&self, placed: Placed) -> Self {
+    pub fn with(&self, placed: PlacedPart) -> Self {
         let mut more = self.clone();
         more.parts.push(placed);
         more
@@ -65,7 +65,7 @@ impl Load {
 
     /// Returns the moments that the parts alone add to a body of the print's density, model frame.
     pub fn moments(&self) -> Moments {
-        let of_part = |placed: &Placed| placed.lump.moments(self.density_g_mm3);
+        let of_part = |placed: &PlacedPart| placed.lump.moments(self.density_g_mm3);
         self.parts
             .iter()
             .map(of_part)
@@ -80,7 +80,7 @@ impl Load {
 
     /// Removes the pockets, with the material that must stay around them, from the columns of a
     /// frame.
-    pub fn carved(&self, columns: Columns, frame: &Frame) -> Columns {
+    pub fn carve(&self, columns: Columns, frame: &Frame) -> Columns {
         self.jackets().fold(columns, |columns, jacket| {
             columns.without(&jacket.mesh().in_frame(frame))
         })

@@ -29,8 +29,8 @@ mod sites;
 mod stock;
 
 pub use error::{BallastError, StockFault};
-pub use load::{Load, Placed};
+pub use load::{Load, PlacedPart};
 pub use order::{MOST_PARTS, Order};
 pub use pocket::{Fit, Pocket};
-pub use search::{Found, Search, Shop};
+pub use search::{Found, Search, Workshop};
 pub use stock::{Part, Provenance, catalogue, find};

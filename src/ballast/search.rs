@@ -2,7 +2,7 @@
 //! each placed again.
 
 use super::error::BallastError;
-use super::load::{Load, Placed};
+use super::load::{Load, PlacedPart};
 use super::order::{MOST_PARTS, Order};
 use super::pocket::Fit;
 use super::rank::Rank;
@@ -11,7 +11,7 @@ use super::stock::{Part, catalogue, find};
 use crate::base::units::MM3_PER_CM3;
 use crate::base::watch::Watch;
 use crate::goal::Placement;
-use crate::hollow::{Problem, Settings, Solution, has_spare, least_ballast, solve};
+use crate::hollow::{Problem, Settings, Solution, has_margin, least_ballast, solve};
 use crate::interior::Columns;
 use crate::mesh::Solid;
 use crate::shell::Shell;
@@ -33,7 +33,7 @@ const STEPS: [f64; 4] = [1.0, 0.5, 0.25, 0.125];
 
 /// The model in which ballast is searched.
 #[derive(Debug, Clone, Copy)]
-pub struct Shop<'a> {
+pub struct Workshop<'a> {
     /// The model.
     pub solid: &'a Solid,
     /// Its goal.
@@ -57,7 +57,7 @@ pub struct Found {
 
 /// The search for ballast in one model.
 pub struct Search<'a> {
-    shop: Shop<'a>,
+    shop: Workshop<'a>,
     sites: Sites<'a>,
     coarse: Columns,
     fine: Columns,
@@ -65,7 +65,7 @@ pub struct Search<'a> {
 
 impl<'a> Search<'a> {
     /// Finds the sites where parts may lie. Costs the columns and some ten thousand distances.
-    pub fn new(shop: Shop<'a>) -> Result<Self, BallastError> {
+    pub fn new(shop: Workshop<'a>) -> Result<Self, BallastError> {
         let Placement { goal, keeps, .. } = shop.placement;
         let shell = Shell::new(shop.solid, &goal.frame, shop.wall_mm, keeps)?;
         let columns = |side| Columns::of_shell(&shell, shell.coarse_pitch(side), &Watch::silent());
@@ -138,7 +138,7 @@ impl<'a> Search<'a> {
     fn place_if_possible(&self, part: &Part, count: u32) -> Option<Found> {
         let found = self.place_parts(part, count)?;
         let fine = self.solve_around(found.load, &self.fine);
-        has_spare(&self.shop.placement.goal, &fine.solution).then_some(fine)
+        has_margin(&self.shop.placement.goal, &fine.solution).then_some(fine)
     }
 
     /// Places `count` of a part, each where it acts most. Returns `None` if they do not fit.
@@ -186,7 +186,7 @@ impl<'a> Search<'a> {
     }
 
     /// Places the part where it acts most on an answer.
-    fn place_part(&self, part: &Part, found: &Found) -> Option<Placed> {
+    fn place_part(&self, part: &Part, found: &Found) -> Option<PlacedPart> {
         let solution = &found.solution;
         let prices = solution.status.separator().unwrap_or(solution.quadric);
         self.sites.best(&PlaceQuery {
@@ -199,7 +199,7 @@ impl<'a> Search<'a> {
     /// Solves for the interior around a load.
     fn solve_around(&self, load: Load, columns: &Columns) -> Found {
         let goal = &self.shop.placement.goal;
-        let columns = load.carved(columns.clone(), &goal.frame);
+        let columns = load.carve(columns.clone(), &goal.frame);
         let fixed = goal.solid + load.excess().in_frame(&goal.frame);
         let problem = Problem {
             goal,
@@ -240,7 +240,7 @@ fn first_full(
 mod tests {
     use super::*;
     use crate::geom::Point;
-    use crate::goal::{GoalKind, Request, SpinPoint, Stock, Up, place_made_of, testing};
+    use crate::goal::{GoalKind, PrintStock, Request, SpinPoint, Up, place_in_material, testing};
     use crate::mesh::MeshDistance;
     use crate::shell::fixtures;
 
@@ -251,9 +251,9 @@ mod tests {
     const DENSITY_G_CM3: f64 = 1.2;
 
     fn place(solid: &Solid, wall_mm: f64, request: Request) -> Placement {
-        place_made_of(
+        place_in_material(
             solid,
-            &Stock {
+            &PrintStock {
                 wall_mm,
                 density_g_cm3: DENSITY_G_CM3,
             },
@@ -268,7 +268,7 @@ mod tests {
             clearance_mm: 0.2,
             web_mm: WEB_MM,
         };
-        let shop = Shop {
+        let shop = Workshop {
             solid,
             placement: &placement,
             wall_mm,

@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::load::{Load, Placed};
+use super::load::{Load, PlacedPart};
 use super::pocket::{Fit, Pocket};
 use super::stock::Part;
 use crate::geom::{Frame, Point, Quadric, Vector};
@@ -79,7 +79,7 @@ impl<'a> Sites<'a> {
     /// Returns the place where the part acts most; `None` if it does not fit.
     ///
     /// All sites are sorted by their cost. The first with room is refined by moves along the axes.
-    pub fn best(&self, query: &PlaceQuery) -> Option<Placed> {
+    pub fn best(&self, query: &PlaceQuery) -> Option<PlacedPart> {
         let oriented_parts = self.oriented_parts(query);
         let costs = |oriented: usize| {
             let cost = |site: usize| {
@@ -108,7 +108,7 @@ impl<'a> Sites<'a> {
         });
         let &(_, oriented, site) = first?;
         let lump = self.refine(query, &oriented_parts[oriented], self.points[site].0);
-        Some(Placed {
+        Some(PlacedPart {
             part: query.part.clone(),
             lump,
         })
@@ -162,11 +162,11 @@ impl<'a> Sites<'a> {
     /// Moves a part by a share of the way to another place. Returns `None` if there is no room.
     pub fn move_toward(
         &self,
-        from: &Placed,
-        to: &Placed,
+        from: &PlacedPart,
+        to: &PlacedPart,
         share: f64,
         load: &Load,
-    ) -> Option<Placed> {
+    ) -> Option<PlacedPart> {
         let (a, b) = (
             Point::from(from.lump.center_mm),
             Point::from(to.lump.center_mm),
@@ -175,7 +175,7 @@ impl<'a> Sites<'a> {
             center_mm: (a + (b - a) * share).into(),
             ..to.lump
         };
-        self.has_room(&lump, load).then(|| Placed {
+        self.has_room(&lump, load).then(|| PlacedPart {
             part: to.part.clone(),
             lump,
         })

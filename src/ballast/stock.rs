@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::error::{BallastError, StockFault};
-use crate::base::toml_text::{self, nearest};
+use crate::base::toml_text::{self, nearest_name};
 use crate::base::units::MM3_PER_CM3;
 use crate::mass::LumpShape;
 use crate::printer::Sure;
@@ -96,7 +96,7 @@ pub fn find(id: &str) -> Result<Part, BallastError> {
         return Ok(part.clone());
     }
     let known: Vec<&str> = parts.iter().map(|part| part.id.as_str()).collect();
-    let remedy = match nearest(id, known.iter().copied()) {
+    let remedy = match nearest_name(id, known.iter().copied()) {
         Some(near) => format!("did you mean `{near}`?"),
         None => format!("use one of {}", known.join(", ")),
     };

@@ -69,7 +69,7 @@ fn explain(message: &str) -> String {
     }
     let mut names = one_line.split('`').skip(1).step_by(2);
     let unknown = names.next().unwrap_or_default();
-    match nearest(unknown, names) {
+    match nearest_name(unknown, names) {
         Some(name) => format!("{one_line}; remedy: did you mean `{name}`?"),
         None => one_line,
     }
@@ -85,7 +85,7 @@ const MISSPELT_RATIO: f64 = 0.5;
 ///
 /// The distance is the number of letters to insert, delete or change (Levenshtein 1966). A known
 /// name that begins with the word counts as near. The first of equally near names wins.
-pub fn nearest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+pub fn nearest_name<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let word = word.to_lowercase();
     known
         .into_iter()
@@ -137,11 +137,14 @@ mod tests {
     #[test]
     fn the_nearest_name_is_found_and_a_far_one_is_not_suggested() {
         let known = ["objet-connex350", "formlabs-form4", "prusa-mk4"];
-        assert_eq!(nearest("objet-conex350", known), Some("objet-connex350"));
-        assert_eq!(nearest("Prusa-MK3", known), Some("prusa-mk4"));
-        assert_eq!(nearest("objet", known), Some("objet-connex350"));
-        assert_eq!(nearest("ultimaker", known), None);
-        assert_eq!(nearest("", known), None);
+        assert_eq!(
+            nearest_name("objet-conex350", known),
+            Some("objet-connex350")
+        );
+        assert_eq!(nearest_name("Prusa-MK3", known), Some("prusa-mk4"));
+        assert_eq!(nearest_name("objet", known), Some("objet-connex350"));
+        assert_eq!(nearest_name("ultimaker", known), None);
+        assert_eq!(nearest_name("", known), None);
     }
 
     #[test]

@@ -39,7 +39,7 @@ pub struct Length {
 }
 
 /// Formats a count of things: `1 pin`, `3 pins`.
-pub fn counted(count: usize, thing: &str) -> String {
+pub fn format_count(count: usize, thing: &str) -> String {
     if count == 1 {
         format!("1 {thing}")
     } else {
@@ -248,7 +248,7 @@ mod tests {
     #[test]
     fn one_thing_is_singular_and_none_is_not() {
         assert_eq!(
-            [0, 1, 3].map(|count| counted(count, "pin")),
+            [0, 1, 3].map(|count| format_count(count, "pin")),
             ["0 pins", "1 pin", "3 pins"]
         );
     }

@@ -1,7 +1,7 @@
 //! Values that are read and printed as words: the macros that define them, and the error for any
 //! other word.
 
-use crate::base::toml_text::nearest;
+use crate::base::toml_text::nearest_name;
 
 /// The reason that a text is not one of the expected words, or not the expected numbers.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -29,7 +29,7 @@ impl ChoiceError {
     /// Makes the error of a text that is none of the `known` words for a `what`; suggests the
     /// nearest word.
     pub fn unknown(what: &'static str, text: &str, known: &[&str]) -> Self {
-        let remedy = match nearest(text, known.iter().copied()) {
+        let remedy = match nearest_name(text, known.iter().copied()) {
             Some(word) => format!("did you mean `{word}`?"),
             None => format!("use {}", known.join(", ")),
         };
@@ -43,7 +43,7 @@ impl ChoiceError {
 
 /// Parses exactly `N` numbers, finite or not, separated by commas; `None` if the text is anything
 /// else.
-pub fn numbers<const N: usize>(text: &str) -> Option<[f64; N]> {
+pub fn parse_numbers<const N: usize>(text: &str) -> Option<[f64; N]> {
     let numbers: Vec<f64> = text
         .split(',')
         .map(|number| number.trim().parse().ok())
@@ -143,8 +143,8 @@ mod tests {
 
     #[test]
     fn numbers_are_as_many_as_asked_for() {
-        assert_eq!(numbers("1, -2.5,3e-9"), Some([1.0, -2.5, 3e-9]));
-        assert_eq!(numbers::<3>("1,2"), None);
-        assert_eq!(numbers::<2>("1,two"), None);
+        assert_eq!(parse_numbers("1, -2.5,3e-9"), Some([1.0, -2.5, 3e-9]));
+        assert_eq!(parse_numbers::<3>("1,2"), None);
+        assert_eq!(parse_numbers::<2>("1,two"), None);
     }
 }

@@ -12,7 +12,7 @@ use super::voice::Voice;
 use crate::advice::{Case, Prospect, prospects};
 use crate::base::numbers::quantity;
 use crate::base::setting::{Key, Setting};
-use crate::base::units::{counted, show_mm};
+use crate::base::units::{format_count, show_mm};
 use crate::geom::Vector;
 use crate::goal::{Contact, GoalKind, Request, Up};
 use crate::io::{ReadError, read_model};
@@ -171,7 +171,7 @@ fn becoming(args: &InspectArgs, solid: &Solid) -> Result<Becoming, InspectError>
     let wall_mm = match &args.printer {
         Some(id) => {
             Printer::find(id)?
-                .quantised_wall(ordered_mm, size_mm)?
+                .quantise_wall(ordered_mm, size_mm)?
                 .wall_mm
         }
         None => ordered_mm.unwrap_or(PLAIN_WALL_RATIO * size_mm),
@@ -222,7 +222,7 @@ fn text(findings: &Findings) -> String {
         "{} triangles, {} vertices, {}{}\nsize {x} × {y} × {z} mm, surface {}\nrepaired: {}\n",
         findings.triangles,
         findings.vertices,
-        counted(findings.shells, "shell"),
+        format_count(findings.shells, "shell"),
         findings
             .genus
             .map_or(String::new(), |genus| format!(", genus {genus}")),

@@ -8,11 +8,11 @@ use super::args::{CalibrateArgs, ImportArgs, NewArgs};
 use super::flags::{command_for_coupons, command_for_new_profile};
 use super::shop::today;
 use crate::base::setting::{Key, Setting};
-use crate::base::units::{counted, show_percent};
+use crate::base::units::{format_count, show_percent};
 use crate::coupon::CouponSet;
 use crate::printer::import::{ImportError, Imported, slug};
 use crate::printer::{
-    CalibrateError, MaterialError, Measured, Printer, ProfileError, Quantity, calibrated,
+    self, CalibrateError, MaterialError, Measured, Printer, ProfileError, Quantity,
 };
 
 /// A reason why no profile was written.
@@ -146,7 +146,7 @@ pub fn import(args: &ImportArgs, out: &mut dyn Write) -> Result<(), ProfilesErro
         "{}: {} with {}",
         target.display(),
         printer.name,
-        counted(imported.materials.len(), "material")
+        format_count(imported.materials.len(), "material")
     )?)
 }
 
@@ -219,7 +219,7 @@ pub fn calibrate(args: &CalibrateArgs, out: &mut dyn Write) -> Result<(), Profil
         source,
     })?;
     let measured = measurements(args, &printer)?;
-    let after = calibrated(&name, &text, &measured)?;
+    let after = printer::calibrate(&name, &text, &measured)?;
     write_checked(&args.file, &after, true)?;
     print_changes(&measured, &printer, out)
 }

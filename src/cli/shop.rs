@@ -6,7 +6,7 @@ use std::time::{SystemTime, UNIX_EPOCH};
 use super::args::ArgsError;
 use crate::{
     job::PrinterChoice,
-    printer::{CONFIGURATION, Shop},
+    printer::{CONFIGURATION, ShopDefaults},
 };
 
 /// Returns the printer and material that were ordered, or the shop's defaults.
@@ -18,7 +18,7 @@ pub fn chosen_printer(
     if let Some(id) = printer {
         return Ok(PrinterChoice { id, material });
     }
-    let shop = Shop::of_folders(&shop_folders(model))?.ok_or(ArgsError::NoPrinter)?;
+    let shop = ShopDefaults::find_in(&shop_folders(model))?.ok_or(ArgsError::NoPrinter)?;
     Ok(PrinterChoice {
         id: shop.printer,
         material: material.or(shop.material),

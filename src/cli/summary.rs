@@ -6,7 +6,7 @@ use std::path::Path;
 use super::show::{GREEN, RED, paint, table, verdict};
 use super::voice::Manner;
 use crate::base::numbers::quantity as figure;
-use crate::base::units::counted;
+use crate::base::units::format_count;
 use crate::page::promise;
 use crate::sheet::{Checklist, Course, LogRow, PassRow};
 use crate::verify::Check;
@@ -150,10 +150,10 @@ fn wall(checklist: &Checklist) -> Option<String> {
 fn parts(checklist: &Checklist) -> String {
     let pins = checklist.parts.iter().map(|part| part.pins.len()).sum();
     let counts = [
-        counted(checklist.parts.len(), "part"),
-        counted(checklist.cuts.len(), "cut"),
-        counted(pins, "pin"),
-        counted(checklist.voids.len(), "void"),
+        format_count(checklist.parts.len(), "part"),
+        format_count(checklist.cuts.len(), "cut"),
+        format_count(pins, "pin"),
+        format_count(checklist.voids.len(), "void"),
     ];
     let plates = checklist
         .files
@@ -161,7 +161,7 @@ fn parts(checklist: &Checklist) -> String {
         .filter(|file| file.starts_with("plate"))
         .count();
     let plates = if plates > 0 {
-        format!(" on {}", counted(plates, "plate"))
+        format!(" on {}", format_count(plates, "plate"))
     } else {
         String::new()
     };

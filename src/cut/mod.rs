@@ -51,12 +51,12 @@ pub use seat::Seat;
 pub use error::{CutError, Obstacle};
 pub use ids::{CutId, IdError, JointId, PartId, PinId, VoidId};
 pub use plan::{Cut, CutMove, CutPlan, JointNote, SolidEnd, UncutFace};
-pub use planner::{plan, plan_around, plan_by, plan_of};
+pub use planner::{measure_voids_again, plan, plan_around, plan_by};
 pub use remark::{PinLack, Proof, Remark, SightGain, Term, UncleanCause};
 pub use side::{CutSide, Side};
 
 // The parts and their joints.
-pub use joints::boss::{Boss, BossOrder, JointName, MaterialPrice};
+pub use joints::boss::{Boss, BossRequest, JointName, MaterialPrice};
 pub use joints::bosses::bosses;
 pub use joints::label::Label;
 pub use joints::pin_shape::PinSite;
@@ -65,8 +65,10 @@ pub use pieces::part::{Part, parts, parts_and_faces};
 pub use pieces::pose::{Lie, Pose, apply};
 
 // The voids after the cuts, and sections.
-pub use access::uncleanable::{Unclean, beyond, closed, unclean};
+pub use access::uncleanable::{
+    Unclean, find_closed, find_ends_beyond_unpinned_joints, find_unclean,
+};
 pub use access::void_access::VoidAccess;
 pub use geometry::chart::Point2;
 pub use geometry::section::{Ring, Section};
-pub use geometry::tree::reached;
+pub use geometry::tree::clip_to_limits;

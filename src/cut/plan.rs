@@ -153,11 +153,11 @@ impl CutPlan {
     /// body.
     pub fn pegs(&self) -> TriMesh {
         let second_socket = |pin: &PinSite| match pin.dowel {
-            Some(_) => pin.mirrored().taken_away(),
+            Some(_) => pin.mirrored().removed_body(),
             None => TriMesh::default(),
         };
-        let sockets = |pin: &PinSite| pin.taken_away().joined(&second_socket(pin)).reversed();
-        let peg = |pin: &PinSite| pin.standing_out().joined(&sockets(pin));
+        let sockets = |pin: &PinSite| pin.removed_body().joined(&second_socket(pin)).reversed();
+        let peg = |pin: &PinSite| pin.protruding_body().joined(&sockets(pin));
         let pegs = self
             .pins
             .iter()

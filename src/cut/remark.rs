@@ -5,7 +5,7 @@ use std::fmt;
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    base::units::counted,
+    base::units::format_count,
     cut::{
         ids::{CutId, PartId, VoidId},
         side::CutSide,
@@ -163,7 +163,7 @@ pub struct Proof {
 
 impl fmt::Display for Proof {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let cuts = counted(self.cuts, "cut");
+        let cuts = format_count(self.cuts, "cut");
         let (family, nodes) = (self.family, self.nodes);
         if self.is_proved {
             write!(

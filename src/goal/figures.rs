@@ -35,7 +35,7 @@ pub struct Figures {
 }
 
 /// Returns the figures of the body with these moments in the goal frame.
-pub fn figures(goal: &Goal, moments: &Moments) -> Figures {
+pub fn compute_figures(goal: &Goal, moments: &Moments) -> Figures {
     let body = Body::new(moments, 1.0);
     let tensor = &body.inertia_g_mm2;
     let center = body.center;
@@ -144,7 +144,7 @@ mod tests {
         let goal = place(&solid, 0.5, &Request::new(GoalKind::Top))
             .unwrap()
             .goal;
-        let got = figures(&goal, &goal.solid);
+        let got = compute_figures(&goal, &goal.solid);
         let expected = to_rpm((12.0 * STANDARD_GRAVITY_MM_S2 / 396.0).sqrt());
         assert!((got.critical_speed_rpm.unwrap() / expected - 1.0).abs() < 1e-12);
         assert!((got.dominance_ratio - 404.0 / 800.0).abs() < 1e-12);
@@ -160,7 +160,7 @@ mod tests {
         )
         .unwrap()
         .goal;
-        assert_eq!(figures(&goal, &goal.solid).critical_speed_rpm, None);
+        assert_eq!(compute_figures(&goal, &goal.solid).critical_speed_rpm, None);
     }
 
     #[test]
@@ -172,7 +172,9 @@ mod tests {
         )
         .unwrap()
         .goal;
-        let angle = figures(&goal, &goal.solid).toppling_angle_rad.unwrap();
+        let angle = compute_figures(&goal, &goal.solid)
+            .toppling_angle_rad
+            .unwrap();
         assert!((angle - (2.0f64 / 2.5).atan()).abs() < 1e-12);
     }
 
@@ -186,7 +188,7 @@ mod tests {
             ..Request::new(GoalKind::Top)
         };
         let goal = place(&solid, 0.5, &request).unwrap().goal;
-        assert!((figures(&goal, &goal.solid).axis_tilt_rad - tilt).abs() < 1e-9);
+        assert!((compute_figures(&goal, &goal.solid).axis_tilt_rad - tilt).abs() < 1e-9);
     }
 
     #[test]
@@ -206,7 +208,7 @@ mod tests {
             let goal = place(&solid, 0.5, &request).unwrap().goal;
             assert_eq!(goal.solid.0[3], 0.0);
             assert!(
-                (figures(&goal, &goal.solid).spin_it.unwrap() - 6.0).abs() < 1e-12,
+                (compute_figures(&goal, &goal.solid).spin_it.unwrap() - 6.0).abs() < 1e-12,
                 "{gamma_c}"
             );
         }
@@ -231,7 +233,7 @@ mod tests {
             )
             .unwrap()
             .goal;
-            figures(&goal, &goal.solid).spin_it.unwrap()
+            compute_figures(&goal, &goal.solid).spin_it.unwrap()
         };
         assert!((spin_it(0.0) - 2.0).abs() < 1e-12);
         assert!((spin_it(0.5) - 2.5).abs() < 1e-12);

@@ -35,7 +35,7 @@ pub(super) fn place(site: &Site, density_g_cm3: f64, water: Water) -> Result<Pla
 
 #[cfg(test)]
 mod tests {
-    use super::super::{GoalKind, Liquid, Request, Stock, place_made_of, testing::*};
+    use super::super::{GoalKind, Liquid, PrintStock, Request, place_in_material, testing::*};
     use super::*;
 
     fn block_in_water(waterline: &str, density_g_cm3: f64) -> Result<Placement, GoalError> {
@@ -47,9 +47,9 @@ mod tests {
             water: Some(water),
             ..Request::new(GoalKind::Float)
         };
-        place_made_of(
+        place_in_material(
             &block([1., 2., 3.], [7., 12., 8.]),
-            &Stock {
+            &PrintStock {
                 wall_mm: 0.5,
                 density_g_cm3,
             },

@@ -4,7 +4,7 @@ use std::{fmt, str::FromStr};
 
 use serde::{Deserialize, Serialize};
 
-use crate::base::words::{ChoiceError, as_text, choice, numbers};
+use crate::base::words::{ChoiceError, as_text, choice, parse_numbers};
 
 choice! {
     /// The kind of goal.
@@ -91,7 +91,7 @@ impl Objective {
     }
 
     /// Returns the objective of a request that names none.
-    pub fn default_of(kind: GoalKind) -> Self {
+    pub fn default_for(kind: GoalKind) -> Self {
         kind.objectives()[0]
     }
 
@@ -135,7 +135,7 @@ impl FromStr for Objective {
     type Err = ChoiceError;
 
     fn from_str(text: &str) -> Result<Self, ChoiceError> {
-        let weights = text.strip_prefix("spin-it:").and_then(numbers);
+        let weights = text.strip_prefix("spin-it:").and_then(parse_numbers);
         Ok(match (text, weights) {
             ("critical-speed", _) => Self::CriticalSpeed,
             ("spin-it", _) => Self::SPIN_IT,
@@ -180,7 +180,7 @@ mod tests {
         let found: Vec<Objective> = GoalKind::ALL
             .iter()
             .copied()
-            .map(Objective::default_of)
+            .map(Objective::default_for)
             .collect();
         assert_eq!(found, defaults);
         for word in Objective::WORDS {

@@ -4,7 +4,7 @@
 //! every later formula holds. Its origin is the contact, the spin point or the middle of the
 //! support; its z axis is the spin axis or up.
 //!
-//! [`figures`] evaluates a body of given moments in that frame: the solid, the hollowed result or
+//! [`compute_figures`] evaluates a body of given moments in that frame: the solid, the hollowed result or
 //! the assembled parts.
 
 mod balance;
@@ -30,16 +30,16 @@ mod yoyo;
 
 pub use error::GoalError;
 pub(crate) use figures::to_rpm;
-pub use figures::{Figures, figures};
+pub use figures::{Figures, compute_figures};
 pub use hardware::{Hardware, HardwareError, Rod, STEEL_G_CM3};
 pub use kind::{GoalKind, Objective};
-pub use place::{Stock, place, place_made_of, place_weighed};
+pub use place::{PrintStock, place, place_in_material, place_measured};
 pub use placement::{Goal, Placement, Warning};
 pub use request::{Request, RequestError};
-pub use resting::{Resting, resting};
+pub use resting::{FootStability, find_foot_stability};
 pub use rotor::{Rotor, Spindle};
-pub use site::Weighed;
+pub use site::MeasuredSolid;
 pub use sites::{Contact, SpinPoint, Up};
 pub(crate) use support::edges as support_edges;
 pub(crate) use top::height_over_origin;
-pub use water::{Afloat, Hydrostatics, Liquid, Water, Waterline};
+pub use water::{FloatConditions, Hydrostatics, Liquid, Water, Waterline};

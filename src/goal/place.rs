@@ -4,7 +4,7 @@ use super::error::GoalError;
 use super::kind::GoalKind;
 use super::placement::Placement;
 use super::request::Request;
-use super::site::{Site, Weighed};
+use super::site::{MeasuredSolid, Site};
 use super::sites::{Contact, SpinPoint};
 use super::{balance, float, stand, top, yoyo};
 use crate::mass::moments_of_mesh;
@@ -12,7 +12,7 @@ use crate::mesh::Solid;
 
 /// The wall and the material of a model.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Stock {
+pub struct PrintStock {
     /// The minimum wall, mm.
     pub wall_mm: f64,
     /// The density, g/cm³; only floating depends on it.
@@ -26,11 +26,11 @@ const PLAIN_DENSITY_G_CM3: f64 = 1.0;
 /// solid at a contact.
 ///
 /// The moments of the goal are exact for the mesh. Costs a few passes over the triangles. The
-/// density is taken as 1 g/cm³; [`place_made_of`] takes any.
+/// density is taken as 1 g/cm³; [`place_in_material`] takes any.
 pub fn place(solid: &Solid, wall_mm: f64, request: &Request) -> Result<Placement, GoalError> {
-    place_made_of(
+    place_in_material(
         solid,
-        &Stock {
+        &PrintStock {
             wall_mm,
             density_g_cm3: PLAIN_DENSITY_G_CM3,
         },
@@ -40,13 +40,13 @@ pub fn place(solid: &Solid, wall_mm: f64, request: &Request) -> Result<Placement
 
 /// Places a goal in a solid of any material. If the waterline is free, it is set to half the
 /// height: finding the best one takes the solver.
-pub fn place_made_of(
+pub fn place_in_material(
     solid: &Solid,
-    stock: &Stock,
+    stock: &PrintStock,
     request: &Request,
 ) -> Result<Placement, GoalError> {
-    place_weighed(
-        &Weighed {
+    place_measured(
+        &MeasuredSolid {
             solid,
             moments: moments_of_mesh(solid.mesh()),
         },
@@ -56,12 +56,12 @@ pub fn place_made_of(
 }
 
 /// Places a goal in a solid whose moments are known, which saves time when it is placed often.
-pub fn place_weighed(
-    weighed: &Weighed,
-    stock: &Stock,
+pub fn place_measured(
+    weighed: &MeasuredSolid,
+    stock: &PrintStock,
     request: &Request,
 ) -> Result<Placement, GoalError> {
-    let Stock {
+    let PrintStock {
         wall_mm,
         density_g_cm3,
     } = *stock;

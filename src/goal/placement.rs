@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::kind::{GoalKind, Objective};
 use super::rotor::Spindle;
-use super::water::Afloat;
+use super::water::FloatConditions;
 use crate::base::setting::{Key, Setting};
 use crate::geom::Frame;
 use crate::mass::Moments;
@@ -25,7 +25,7 @@ pub struct Goal {
     /// Balance: the rotor and its end planes; `None` for the others.
     pub spindle: Option<Spindle>,
     /// Float: the conditions for floating upright at the waterline; `None` for the others.
-    pub afloat: Option<Afloat>,
+    pub afloat: Option<FloatConditions>,
     /// The moments of the whole solid in the goal frame, mm.
     pub solid: Moments,
 }

@@ -94,7 +94,7 @@ impl Request {
             up: Up::Z,
             contact: (kind == GoalKind::Top).then_some(Contact::Lowest),
             spin_point: kind.has_spin_point().then_some(SpinPoint::Center),
-            objective: Objective::default_of(kind),
+            objective: Objective::default_for(kind),
             rotor: (kind == GoalKind::Balance).then(Rotor::default),
             water: (kind == GoalKind::Float).then(Water::default),
             hardware: None,

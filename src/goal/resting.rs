@@ -20,7 +20,7 @@ const MOST_RAD: f64 = 45.0 * RAD_PER_DEG;
 
 /// The stability of a body that stands on its foot.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Resting {
+pub struct FootStability {
     /// The radius of curvature that moves the contact as far at a tilt of a degree, mm; the least
     /// over all directions.
     pub radius_mm: f64,
@@ -35,7 +35,7 @@ pub struct Resting {
 ///
 /// `points` are its corners and `center` its centre of mass, mm, in a frame whose z axis goes
 /// through the contact. Costs some hundred passes over the corners near the floor.
-pub fn resting(points: &[Point], center: &Point) -> Option<Resting> {
+pub fn find_foot_stability(points: &[Point], center: &Point) -> Option<FootStability> {
     let floor_mm = points.iter().map(|p| p.z).fold(f64::INFINITY, f64::min);
     let center_height_mm = center.z - floor_mm;
     // A point that touches after a tilt t is no higher than its distance from the axis times tan t.
@@ -65,7 +65,7 @@ pub fn resting(points: &[Point], center: &Point) -> Option<Resting> {
         .take_while(|tilt| reach(*tilt)[0] > 0.0)
         .last()
         .unwrap_or(TILT_RAD);
-    (righting_mm > 0.0).then(|| Resting {
+    (righting_mm > 0.0).then(|| FootStability {
         radius_mm: out_mm / TILT_RAD.sin(),
         center_height_mm,
         rights_to_deg: rights / RAD_PER_DEG,
@@ -94,9 +94,9 @@ mod tests {
     use super::*;
     use crate::mesh::primitives::{ball, cylinder};
 
-    fn rest_ball(radius_mm: f64, height_mm: f64) -> Option<Resting> {
+    fn rest_ball(radius_mm: f64, height_mm: f64) -> Option<FootStability> {
         let mesh = ball(&Point::new(0.0, 0.0, radius_mm), radius_mm, 6);
-        resting(mesh.vertices(), &Point::new(0.0, 0.0, height_mm))
+        find_foot_stability(mesh.vertices(), &Point::new(0.0, 0.0, height_mm))
     }
 
     #[test]
@@ -116,7 +116,8 @@ mod tests {
     fn a_disc_stands_until_its_centre_is_over_its_rim() {
         let disc = cylinder(8.0, 30.0, 72);
         let floor = disc.aabb().min.z;
-        let stands = resting(disc.vertices(), &Point::new(0.0, 0.0, floor + 20.0)).unwrap();
+        let stands =
+            find_foot_stability(disc.vertices(), &Point::new(0.0, 0.0, floor + 20.0)).unwrap();
         // atan(8/20) = 21.8°, less what a polygon of 72 sides lies inside its circle, in whole
         // degrees.
         assert_eq!(stands.rights_to_deg.round(), 21.0);
@@ -131,7 +132,7 @@ mod tests {
         // tan 1° · 20 mm = 0.349 mm.
         let stands = |radius_mm| {
             let disc = cylinder(radius_mm, 30.0, 72);
-            resting(
+            find_foot_stability(
                 disc.vertices(),
                 &Point::new(0.0, 0.0, disc.aabb().min.z + 20.0),
             )

@@ -16,7 +16,7 @@ const TIE_RATIO: f64 = 1e-9;
 
 /// A solid with its moments.
 #[derive(Debug, Clone, Copy)]
-pub struct Weighed<'a> {
+pub struct MeasuredSolid<'a> {
     /// The solid.
     pub solid: &'a Solid,
     /// Its moments, model frame, mm: those of [`crate::mass::moments_of_mesh`].
@@ -41,7 +41,7 @@ pub(super) struct Site<'a> {
 
 impl<'a> Site<'a> {
     pub fn new(
-        &Weighed { solid, moments }: &Weighed<'a>,
+        &MeasuredSolid { solid, moments }: &MeasuredSolid<'a>,
         request: &Request,
     ) -> Result<Self, GoalError> {
         let body = Body::new(&moments, 1.0);

@@ -5,7 +5,7 @@ use std::{fmt, str::FromStr};
 
 use serde::{Deserialize, Serialize};
 
-use crate::base::words::{ChoiceError, as_text, numbers};
+use crate::base::words::{ChoiceError, as_text, parse_numbers};
 use crate::geom::Vector;
 
 /// The direction of the model that becomes the spin axis or up.
@@ -80,7 +80,7 @@ impl FromStr for Up {
         if let Some(&(_, up)) = AXES.iter().find(|(axis, _)| *axis == word) {
             return Ok(up);
         }
-        let along = numbers(&lower).ok_or_else(|| {
+        let along = parse_numbers(&lower).ok_or_else(|| {
             ChoiceError::unknown(
                 "direction",
                 text,
@@ -138,7 +138,7 @@ macro_rules! place {
             type Err = ChoiceError;
 
             fn from_str(text: &str) -> Result<Self, ChoiceError> {
-                match (text.trim(), numbers::<3>(text)) {
+                match (text.trim(), parse_numbers::<3>(text)) {
                     $(($word, _) => Ok(Self::$value),)+
                     (_, Some(at)) if at.iter().all(|number| number.is_finite()) => Ok(Self::At(at)),
                     (_, Some(_)) => Err(ChoiceError::NotFinite(text.to_owned())),

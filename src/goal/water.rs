@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use crate::base::units::Length;
 use crate::base::words::{ChoiceError, as_text};
 use crate::geom::{Frame, Point};
-use crate::mass::submerged;
+use crate::mass::clip_below;
 use crate::mesh::{Solid, TriMesh};
 
 /// Fresh water at 20 °C, g/cm³ (IAPWS-95 at 101.325 kPa).
@@ -123,7 +123,7 @@ as_text!(Liquid Waterline);
 
 /// The conditions for a body to float upright at one waterline (Wu et al. eq. 3 to 5).
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Afloat {
+pub struct FloatConditions {
     /// The waterline above the lowest point, mm.
     pub waterline_mm: f64,
     /// The centre of buoyancy, goal frame, mm: the centroid of the volume under water.
@@ -163,11 +163,11 @@ impl Hydrostatics {
 
     /// Returns the conditions for floating at a line this far above the lowest point. Exact for the
     /// mesh; costs one pass over the triangles.
-    pub fn at(&self, waterline_mm: f64) -> Afloat {
-        let wet = submerged(&self.outside, waterline_mm);
+    pub fn at(&self, waterline_mm: f64) -> FloatConditions {
+        let wet = clip_below(&self.outside, waterline_mm);
         let volume = wet.below.volume();
         let buoyancy = wet.below.centroid();
-        Afloat {
+        FloatConditions {
             waterline_mm,
             buoyancy,
             material_mm3: volume * self.liquid_ratio,

@@ -4,7 +4,7 @@ use super::bore::is_inside;
 use super::error::FitError;
 use super::workshop::Workshop;
 use crate::geom::{Plane, Point, Vector};
-use crate::mesh::{Csg, TriMesh, off_vertices};
+use crate::mesh::{Csg, TriMesh, move_off_vertices};
 
 /// Pieces below this volume are slivers of a cut that runs along a face, mm³.
 const SHEET_MM3: f64 = 1e-6;
@@ -24,7 +24,7 @@ pub(super) struct Halves {
 /// from its half, such as a hand that hangs beside the body, stays with the half it grows from.
 pub(super) fn split_halves(workshop: &Workshop, bore_radius_mm: f64) -> Result<Halves, FitError> {
     let (frame, mesh) = (&workshop.goal.frame, workshop.solid.mesh());
-    let plane = off_vertices(mesh, &Plane::through(&frame.origin, &frame.axis()));
+    let plane = move_off_vertices(mesh, &Plane::through(&frame.origin, &frame.axis()));
     let body = Csg::of_mesh(mesh)?;
     let (above, below) = body.split_by_plane(&plane)?;
     let hub_mm = bore_radius_mm + 0.5 * workshop.allowances.wall_mm;

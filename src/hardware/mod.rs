@@ -48,7 +48,7 @@ use workshop::Workshop;
 /// there is no hardware.
 ///
 /// The rods lie along the goal's axis. Costs some booleans: about a second for 100 000 triangles.
-pub fn fitted(
+pub fn fit_hardware(
     solid: &Solid,
     goal: &Goal,
     hardware: &Hardware,

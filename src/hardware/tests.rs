@@ -53,7 +53,7 @@ fn fit(solid: &Solid, request: &Request) -> (Placement, Result<Fitted, FitError>
         clearance_mm: 0.0,
         wall_mm: 1.0,
     };
-    let result = fitted(
+    let result = fit_hardware(
         solid,
         &placement.goal,
         &request.hardware.unwrap(),

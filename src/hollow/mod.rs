@@ -170,7 +170,7 @@ mod worlds;
 use crate::base::watch::Watch;
 use crate::goal::GoalKind;
 
-pub use goals::ballast::{Ballast, has_spare, least_ballast};
+pub use goals::ballast::{Ballast, has_margin, least_ballast};
 pub use goals::fill::Fill;
 pub use golden::golden_section;
 pub use log::{LogRow, Pass, Stage};
@@ -297,7 +297,7 @@ mod tests {
     use super::worlds::{self, World};
     use super::*;
     use crate::geom::Quadric;
-    use crate::goal::{Objective, figures};
+    use crate::goal::{Objective, compute_figures};
     use crate::interior::moments_where_positive;
     use crate::mass::Moments;
 
@@ -346,12 +346,16 @@ mod tests {
         let solution = solve_well(&world);
         let mut best = f64::NEG_INFINITY;
         worlds::each_choice(&world, &worlds::single_blocks(16), |moments| {
-            best = best.max(figures(&world.goal, moments).toppling_angle_rad.unwrap());
+            best = best.max(
+                compute_figures(&world.goal, moments)
+                    .toppling_angle_rad
+                    .unwrap(),
+            );
         });
         assert!(best <= solution.certificate.bound + 1e-12);
         // Sixteen whole blocks come close to the best plane, which may cut them; the solid is far
         // off.
-        let solid = figures(&world.goal, &world.fixed)
+        let solid = compute_figures(&world.goal, &world.fixed)
             .toppling_angle_rad
             .unwrap();
         assert!(
@@ -373,7 +377,7 @@ mod tests {
             let solution = solve_well(&world);
             let mut best = f64::INFINITY;
             worlds::each_choice(&world, &worlds::mirrored_groups(), |moments| {
-                let figures = figures(&world.goal, moments);
+                let figures = compute_figures(&world.goal, moments);
                 let value = if objective == Objective::Dominance {
                     Some(figures.dominance_ratio)
                 } else {
@@ -400,7 +404,7 @@ mod tests {
             let solution = solve_well(&world);
             let mut best = f64::INFINITY;
             worlds::each_choice(&world, &worlds::ring_groups(&world), |moments| {
-                let figures = figures(&world.goal, moments);
+                let figures = compute_figures(&world.goal, moments);
                 let value = match objective {
                     Objective::CriticalSpeed => figures.critical_speed_rpm,
                     _ => figures.spin_it,
@@ -425,7 +429,7 @@ mod tests {
     #[test]
     fn a_solution_keeps_what_its_rows_promise() {
         let world = worlds::egg_on_its_side(Objective::CriticalSpeed);
-        let figures = figures(&world.goal, &solve_well(&world).moments);
+        let figures = compute_figures(&world.goal, &solve_well(&world).moments);
         assert!(
             figures.off_axis_mm < 1e-6 && figures.axis_tilt_rad < 1e-6,
             "{figures:?}"
@@ -441,7 +445,9 @@ mod tests {
                 gamma_i: 1.3,
             });
             let solution = solve_well(&world);
-            let value = figures(&world.goal, &solution.moments).spin_it.unwrap();
+            let value = compute_figures(&world.goal, &solution.moments)
+                .spin_it
+                .unwrap();
             assert!(
                 (value / solution.certificate.value - 1.0).abs() < 1e-7,
                 "{gamma_c}"
@@ -531,7 +537,7 @@ mod tests {
             "{:?}",
             corrected.log
         );
-        assert!(figures(&world.goal, &corrected.moments).off_axis_mm < 1e-6);
+        assert!(compute_figures(&world.goal, &corrected.moments).off_axis_mm < 1e-6);
     }
 
     #[test]
@@ -616,7 +622,7 @@ mod tests {
             ..Default::default()
         };
         let solution = solve_well(&world);
-        let solid = figures(&world.goal, &world.fixed)
+        let solid = compute_figures(&world.goal, &world.fixed)
             .critical_speed_rpm
             .unwrap();
         assert!((solution.certificate.value / solid - 1.0).abs() < 1e-9);
@@ -711,7 +717,7 @@ mod tests {
             let even = Quadric([c, 0., 0., 0., 0., 0., 0., xx, yy, zz]);
             let moments = world.fixed - moments_where_positive(&world.columns, &even);
             assert!(
-                figures(&world.goal, &moments).spin_it.unwrap() >= bound - 1e-12,
+                compute_figures(&world.goal, &moments).spin_it.unwrap() >= bound - 1e-12,
                 "{seed}"
             );
         }

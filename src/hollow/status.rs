@@ -294,7 +294,7 @@ mod tests {
     use super::super::{Settings, Solution, solve, worlds};
     use super::*;
     use crate::base::watch::Watch;
-    use crate::goal::{Afloat, Objective, figures};
+    use crate::goal::{FloatConditions, Objective, compute_figures};
     use crate::interior::moments_where_positive;
 
     /// Every impossibility, with the number that its sentence has to contain.
@@ -387,7 +387,7 @@ mod tests {
             worlds::tank(120.0, [0.0; 2]),
         ];
         let statuses = worlds.map(|mut world| {
-            world.goal.afloat = world.goal.afloat.map(|afloat| Afloat {
+            world.goal.afloat = world.goal.afloat.map(|afloat| FloatConditions {
                 metacenter_mm: 4.0,
                 ..afloat
             });
@@ -402,7 +402,7 @@ mod tests {
                 };
                 let even = Quadric([c, 0., 0., z, 0., 0., 0., xx, xx, zz]);
                 let moments = world.fixed - moments_where_positive(&world.columns, &even);
-                let figures = figures(&world.goal, &moments);
+                let figures = compute_figures(&world.goal, &moments);
                 let (reached, limit) = match status {
                     Status::NotDominant { least_ratio }
                     | Status::UnstableForEveryInterior { least_ratio, .. } => {

@@ -85,7 +85,7 @@ impl<'a> Octree<'a> {
     /// its shares. `None` if no leaf is left to split.
     ///
     /// Shares within `tolerance` of 0 or 1 count as 0 or 1.
-    pub fn refined(&self, x: &[f64], tolerance: f64) -> Option<(Self, Vec<f64>)> {
+    pub fn refine(&self, x: &[f64], tolerance: f64) -> Option<(Self, Vec<f64>)> {
         let is_fractional = |share: f64| share > tolerance && share < 1.0 - tolerance;
         let splits =
             |leaf: &Leaf, share| is_fractional(share) && leaf.level() < self.finest_level();
@@ -235,7 +235,7 @@ mod tests {
         let columns = testing::uneven_columns();
         let octree = Octree::of(&columns, COARSE);
         let (finer, shares) = octree
-            .refined(&testing::some_numbers(octree.count()), 1e-3)
+            .refine(&testing::some_numbers(octree.count()), 1e-3)
             .unwrap();
         assert!(finer.count() > octree.count() && shares.len() == finer.count());
         for octree in [octree, finer] {
@@ -251,7 +251,7 @@ mod tests {
         let columns = testing::uneven_columns();
         let octree = Octree::of(&columns, COARSE);
         let x = testing::some_numbers(octree.count());
-        let (finer, shares) = octree.refined(&x, 1e-3).unwrap();
+        let (finer, shares) = octree.refine(&x, 1e-3).unwrap();
         assert!(
             octree
                 .emptied(&x)
@@ -288,16 +288,16 @@ mod tests {
         assert_eq!(octree.count(), 8);
         let mut x = vec![1.0; 8];
         x[3] = 0.4;
-        let (finer, shares) = octree.refined(&x, 1e-3).unwrap();
+        let (finer, shares) = octree.refine(&x, 1e-3).unwrap();
         assert_eq!(finer.count(), 15);
         // The split leaf lies at a corner. It has 3 · 4 pairs inside, and 4 on each of three faces
         // with one large neighbour. The other leaves have 9.
         assert_eq!(finer.neighbours().len(), 12 + 12 + 9);
         let mut shares: Vec<f64> = shares.iter().map(|_| 0.0).collect();
         shares[0] = 0.5;
-        let (again, _) = finer.refined(&shares, 1e-3).unwrap();
+        let (again, _) = finer.refine(&shares, 1e-3).unwrap();
         // The first leaf is split into eight, and the eight children are merged again.
         assert_eq!(again.count(), 8 + 7);
-        assert!(octree.refined(&[0.0; 8], 1e-3).is_none());
+        assert!(octree.refine(&[0.0; 8], 1e-3).is_none());
     }
 }

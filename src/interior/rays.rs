@@ -91,7 +91,7 @@ impl<'a> Rays<'a> {
     ///
     /// A vanished segment has no derivative that shows where material is needed, so an optimiser
     /// has to open it explicitly.
-    pub fn reopened(&self, x: &[f64], quadric: &Quadric) -> Option<Vec<f64>> {
+    pub fn reopen(&self, x: &[f64], quadric: &Quadric) -> Option<Vec<f64>> {
         let mut moved = x.to_vec();
         for (stretch, t) in self.stretches.iter().zip(moved.chunks_exact_mut(2)) {
             let [z0, z1] = stretch.segment(t);
@@ -199,14 +199,14 @@ mod tests {
         let rays = Rays::of(&columns);
         let wanted = Quadric([-1.0, 0., 0., 0., 0., 0., 0., 0., 0., 1.0]);
         let all_vanished = [1.0, 0.0].repeat(rays.count() / 2);
-        let moved = rays.reopened(&all_vanished, &wanted).unwrap();
+        let moved = rays.reopen(&all_vanished, &wanted).unwrap();
         for (stretch, t) in rays.stretches.iter().zip(moved.chunks_exact(2)) {
             let reaches = stretch.bottom < 1.0 && stretch.top > -1.0;
             let z = stretch.segment(t)[0];
             assert_eq!(z.abs() < 1.0, reaches, "{stretch:?} at {z}");
         }
-        assert_eq!(rays.reopened(&moved, &wanted), None);
-        assert_eq!(rays.reopened(&rays.nothing(), &wanted), None);
+        assert_eq!(rays.reopen(&moved, &wanted), None);
+        assert_eq!(rays.reopen(&rays.nothing(), &wanted), None);
     }
 
     #[test]

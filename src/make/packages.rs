@@ -80,7 +80,7 @@ fn pack(placed: &Placed, part: &WrittenPart, object: &[Object]) -> Result<File, 
         .to_string_lossy()
         .into_owned();
     let description = format!("Part {} in print pose.", part.part.id);
-    let build = Build::Apart(vec![(0, Transform::default())]);
+    let build = Build::Items(vec![(0, Transform::default())]);
     package(placed, object, file, (description, build))
 }
 
@@ -130,7 +130,7 @@ fn together(placed: &Placed, parts: &[WrittenPart]) -> Arrangement {
     };
     let places = parts.iter().enumerate().map(place).collect();
     let description = "The parts where they belong in the model, in its own axes.".to_owned();
-    (description, Build::Together(placed.name(), places))
+    (description, Build::Assembly(placed.name(), places))
 }
 
 /// The plates with their parts in print pose.
@@ -144,7 +144,7 @@ fn plates(placed: &Placed, printed: &[TriMesh]) -> Vec<(String, Arrangement)> {
     let spots = known
         .clone()
         .unwrap_or_else(|| Plate::for_parts(&sizes))
-        .arranged(&sizes);
+        .arrange(&sizes);
     let count = spots.iter().map(|spot| spot.plate + 1).max().unwrap_or(0);
     let plate = |plate: usize| {
         let here = spots
@@ -164,7 +164,7 @@ fn plates(placed: &Placed, printed: &[TriMesh]) -> Vec<(String, Arrangement)> {
             file,
             (
                 plate_words(placed, [plate + 1, count], known.is_some().then_some(fits)),
-                Build::Apart(places),
+                Build::Items(places),
             ),
         )
     };

@@ -32,7 +32,7 @@ pub fn make(placed: &Placed, candidate: Candidate, watch: &Watch) -> Result<Made
         watch,
     };
     let best = corrector.best(opened.voids, opened.plan, more)?;
-    let plan = cut::plan_of(&best.voids.hollowed, best.plan, &opened.request)?;
+    let plan = cut::measure_voids_again(&best.voids.hollowed, best.plan, &opened.request)?;
     let Voids {
         solution,
         hollowed,

@@ -5,7 +5,7 @@ use crate::error::Error;
 use crate::geom::Vector;
 use crate::io::stl;
 use crate::mesh::Crossings;
-use crate::repair::{unfolded, weld};
+use crate::repair::{unfold, weld};
 use crate::run::WrittenPart;
 use crate::verify::Pose;
 
@@ -48,7 +48,7 @@ fn write_at(
     let scale = Vector::from(scale_ratio);
     let mesh = part.solid.mesh();
     let laid = mesh.map_vertices(|p| pose.to_print(p).coords.component_mul(&scale).into());
-    let laid = if writing > 0 { unfolded(&laid) } else { laid };
+    let laid = if writing > 0 { unfold(&laid) } else { laid };
     let bytes = stl::encode(&laid, name);
     let read_back = stl::decode(&bytes)?;
     Ok(WrittenPart {

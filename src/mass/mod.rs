@@ -21,4 +21,4 @@ pub(crate) use lump::rims;
 pub use lump::{Lump, LumpShape};
 pub use moments::Moments;
 pub use of_mesh::moments_of_mesh;
-pub use submerged::{Section, Submerged, submerged};
+pub use submerged::{Section, Submerged, clip_below};

@@ -59,7 +59,7 @@ impl Section {
 /// Each triangle's part below the level spans a cone with a point of the level's plane. The cap
 /// lies in that plane and spans none, so it need not be built. The cap's own moments come from its
 /// boundary, the edges at which triangles are clipped.
-pub fn submerged(mesh: &TriMesh, level_mm: f64) -> Submerged {
+pub fn clip_below(mesh: &TriMesh, level_mm: f64) -> Submerged {
     let middle = mesh.aabb().center();
     let apex = Vector::new(middle.x, middle.y, level_mm);
     let mut below = MomentSum::default();
@@ -156,7 +156,7 @@ mod tests {
     #[test]
     fn a_box_submerged_to_a_third_is_a_third_of_the_box() {
         let mesh = cuboid(&Point::new(1.0, -2.0, 5.0), &Point::new(4.0, 3.0, 11.0));
-        let got = submerged(&mesh, 7.0);
+        let got = clip_below(&mesh, 7.0);
         let want = moments_of_mesh(&cuboid(
             &Point::new(1.0, -2.0, 5.0),
             &Point::new(4.0, 3.0, 7.0),
@@ -182,7 +182,7 @@ mod tests {
         // A ball of radius r to depth h: V = π h² (3r − h)/3, I of the circle π a⁴/4 with a² = h
         // (2r − h).
         let (r, h) = (10.0_f64, 7.0_f64);
-        let got = submerged(&ball(&Point::new(3.0, 4.0, r), r, 6), h);
+        let got = clip_below(&ball(&Point::new(3.0, 4.0, r), r, 6), h);
         let volume = std::f64::consts::PI * h * h * (3.0 * r - h) / 3.0;
         let second = std::f64::consts::PI * (h * (2.0 * r - h)).powi(2) / 4.0;
         // An icosphere of six halvings is inscribed: it lacks 3e-4 of its volume, and twice that of
@@ -199,9 +199,9 @@ mod tests {
     #[test]
     fn a_level_below_the_body_gives_nothing_and_one_above_it_the_whole() {
         let mesh = cuboid(&Point::origin(), &Point::new(1.0, 2.0, 3.0));
-        assert_eq!(submerged(&mesh, -0.5).below.volume(), 0.0);
+        assert_eq!(clip_below(&mesh, -0.5).below.volume(), 0.0);
         for level in [3.0, 4.0] {
-            let got = submerged(&mesh, level);
+            let got = clip_below(&mesh, level);
             assert!((got.below.volume() - 6.0).abs() < 1e-14);
             assert_eq!(got.section, Section::default());
         }
@@ -211,7 +211,7 @@ mod tests {
     fn a_cavity_displaces_no_water() {
         let cavity = cuboid(&Point::new(1.0, 1.0, 1.0), &Point::new(2.0, 2.0, 2.0)).reversed();
         let mesh = cuboid(&Point::origin(), &Point::new(3.0, 3.0, 3.0)).joined(&cavity);
-        let got = submerged(&mesh, 1.5);
+        let got = clip_below(&mesh, 1.5);
         assert!((got.below.volume() - 13.0).abs() < 1e-13);
         assert!((got.section.area_mm2 - 8.0).abs() < 1e-13);
     }

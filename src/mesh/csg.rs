@@ -180,7 +180,7 @@ impl Csg {
     /// Returns it unchanged if fewer triangles would make it intersect itself.
     #[must_use]
     pub fn simplify(&self, tolerance_mm: f64) -> Self {
-        let simple = self.coarsened(tolerance_mm);
+        let simple = self.coarsen(tolerance_mm);
         let worse = simple.0.status() != Error::NoError
             || simple.is_empty() != self.is_empty()
             || simple.has_self_intersections();
@@ -190,7 +190,7 @@ impl Csg {
     /// Simplifies the body for pictures: as [`Self::simplify`], without a check for
     /// self-intersection.
     #[must_use]
-    pub fn coarsened(&self, tolerance_mm: f64) -> Self {
+    pub fn coarsen(&self, tolerance_mm: f64) -> Self {
         Self(self.0.simplify(tolerance_mm))
     }
 

@@ -24,7 +24,7 @@ const PARALLEL_COSINE: f64 = 0.99;
 /// If the cut would leave a sheet thinner than [`SHEET_MM`] on faces parallel to it, the plane
 /// moves out of the material behind them. With such material on both sides, it moves so far that
 /// the sheet left on one side survives the single precision of a file.
-pub(crate) fn off_vertices(mesh: &TriMesh, plane: &Plane) -> Plane {
+pub(crate) fn move_off_vertices(mesh: &TriMesh, plane: &Plane) -> Plane {
     let mut heights: Vec<f64> = mesh
         .vertices()
         .iter()
@@ -77,12 +77,12 @@ fn step_clear_of_sheets(mesh: &TriMesh, plane: &Plane) -> (f64, f64) {
 }
 
 /// Returns the plane unchanged unless it would leave a sheet thinner than [`SHEET_MM`] on a face
-/// parallel to it. Then returns that of [`off_vertices`].
-pub(crate) fn off_faces(mesh: &TriMesh, plane: &Plane) -> Plane {
+/// parallel to it. Then returns that of [`move_off_vertices`].
+pub(crate) fn move_off_faces(mesh: &TriMesh, plane: &Plane) -> Plane {
     if thin_sheets(mesh, plane) == [None, None] {
         *plane
     } else {
-        off_vertices(mesh, plane)
+        move_off_vertices(mesh, plane)
     }
 }
 
@@ -130,8 +130,8 @@ mod tests {
                 normal,
                 offset_mm: normal.z,
             };
-            let moved = off_faces(&stair, &plane);
-            assert_eq!(off_faces(&stair, &moved), moved);
+            let moved = move_off_faces(&stair, &plane);
+            assert_eq!(move_off_faces(&stair, &moved), moved);
             let (above, below) = Csg::of_mesh(&stair)
                 .unwrap()
                 .split_by_plane(&moved)
@@ -158,11 +158,11 @@ mod tests {
             normal: Vector::z(),
             offset_mm: 1.0,
         };
-        let moved = off_vertices(&mesh, &plane);
+        let moved = move_off_vertices(&mesh, &plane);
         assert!(
             (moved.offset_mm - 1.0 - 2.0 * SHEET_MM).abs() < 1e-5,
             "{moved:?}"
         );
-        assert_eq!(off_faces(&mesh, &moved), moved);
+        assert_eq!(move_off_faces(&mesh, &moved), moved);
     }
 }

@@ -29,7 +29,7 @@ pub(crate) mod union_find;
 pub use bodies::{bodies, shells, winding_number};
 pub use crossings::Crossings;
 pub use csg::{ClipError, Csg};
-pub(crate) use cut_planes::{off_faces, off_vertices};
+pub(crate) use cut_planes::{move_off_faces, move_off_vertices};
 pub use defects::{Defect, DefectKind, Defects};
 pub use distance::MeshDistance;
 pub use facts::MeshFacts;

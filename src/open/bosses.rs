@@ -7,7 +7,7 @@ use super::resolve::Resolver;
 use super::settle::{Settled, Terms, settle};
 use crate::base::verdict::Verdict;
 use crate::cut::{
-    Boss, BossOrder, CutError, CutOrder, CutPlan, MaterialPrice, PinSite, PlanRequest, bosses,
+    Boss, BossRequest, CutError, CutOrder, CutPlan, MaterialPrice, PinSite, PlanRequest, bosses,
     plan_by,
 };
 use crate::error::Error;
@@ -186,7 +186,7 @@ impl<'r, 'a> Search<'r, 'a> {
             ..
         } = &self.state;
         let frame = self.resolver.placed().goal().frame;
-        Ok(bosses(&BossOrder {
+        Ok(bosses(&BossRequest {
             hollowed: &voids.hollowed,
             request: self.request,
             plan,

@@ -3,7 +3,9 @@
 use super::plan::plan_once;
 use super::resolve::Resolver;
 use crate::base::verdict::Verdict;
-use crate::cut::{CutError, CutPlan, Obstacle, PlanRequest, SolidEnd, Unclean, VoidId, unclean};
+use crate::cut::{
+    CutError, CutPlan, Obstacle, PlanRequest, SolidEnd, Unclean, VoidId, find_unclean,
+};
 use crate::error::Error;
 use crate::job::CutMode;
 use crate::mesh::{MeshDistance, TriMesh};
@@ -100,7 +102,7 @@ fn find_uncleanable(round: &Round, plan: &Verdict<CutPlan, Obstacle>) -> Result<
     let whole = number >= policy.shrinking_rounds;
     let (unclean, margin_openings) = match plan {
         Verdict::Found(plan) if placed.job.cut != CutMode::Never => (
-            unclean(&voids.hollowed, plan, request, whole)?,
+            find_unclean(&voids.hollowed, plan, request, whole)?,
             if whole {
                 policy.refused_margin_openings
             } else {

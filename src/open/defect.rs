@@ -76,7 +76,7 @@ mod tests {
         Goal {
             kind,
             frame: Frame::identity(),
-            objective: Objective::default_of(kind),
+            objective: Objective::default_for(kind),
             support: Vec::new(),
             spindle: None,
             afloat: None,

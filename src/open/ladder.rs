@@ -6,7 +6,7 @@ use super::request::request;
 use super::resolve::Resolver;
 use super::way::{Candidate, Way};
 use crate::base::watch::{Phase, Watch};
-use crate::cut::{CutError, CutPlan, PlanRequest, SolidEnd, beyond};
+use crate::cut::{CutError, CutPlan, PlanRequest, SolidEnd, find_ends_beyond_unpinned_joints};
 use crate::error::Error;
 use crate::job::CutMode;
 use crate::run::{CleaningRound, KeptCause, Placed, Policy, Remark, Rung, Solved, Voids};
@@ -254,7 +254,11 @@ impl<'a> Ladder<'a> {
         for _ in 0..self.policy.max_ends {
             let last = ended.last().unwrap_or(base);
             let margin_mm = self.policy.ends_margin_openings * self.request.min_opening_mm;
-            let ends = beyond(&last.bossed.voids.hollowed, &last.bossed.plan, margin_mm);
+            let ends = find_ends_beyond_unpinned_joints(
+                &last.bossed.voids.hollowed,
+                &last.bossed.plan,
+                margin_mm,
+            );
             let ends = unless_refused(ends.map_err(Error::from))?.unwrap_or_default();
             if ends.is_empty() {
                 break;

@@ -4,7 +4,7 @@
 use rayon::prelude::*;
 
 use super::defect::defect_ratio;
-use crate::ballast::{Load, Placed as PlacedPart, Pocket};
+use crate::ballast::{Load, PlacedPart, Pocket};
 use crate::base::watch::Watch;
 use crate::cut::{Hollowed, Seat, SolidEnd, Void};
 use crate::error::Error;
@@ -13,7 +13,7 @@ use crate::hollow::{Solution, TopCourse};
 use crate::mass::{Moments, moments_of_mesh};
 use crate::mesh::{Solid, TriMesh};
 use crate::run::{HeightProof, Placed, Solved, Voids};
-use crate::voids::{Cavity, CavitySpec, VoidError, grown, without_slivers};
+use crate::voids::{Cavity, CavitySpec, VoidError, grow_bodies, without_slivers};
 
 /// Draws voids, measures them and solves again. What it keeps solid stays so.
 #[derive(Clone)]
@@ -143,7 +143,7 @@ impl<'a> Resolver<'a> {
     pub fn parts_about(&self, ends: &[SolidEnd]) -> Result<Vec<TriMesh>, Error> {
         let place = |end: &SolidEnd| -> (Point, Aabb) { (end.at_mm.into(), end.aabb()) };
         let places: Vec<(Point, Aabb)> = ends.iter().map(place).collect();
-        let parts = self.cavity.parts_about(&places)?;
+        let parts = self.cavity.parts_near(&places)?;
         let is_empty = parts.triangles().is_empty();
         Ok(if is_empty { Vec::new() } else { vec![parts] })
     }
@@ -188,11 +188,11 @@ impl<'a> Resolver<'a> {
         self.watch.check()?;
         let goal = self.placed.goal();
         let bodies = self.cavity.void_bodies(&solution.quadric, &goal.frame)?;
-        let refused_mm3 = self.refused_mm3 + bodies.refused_mm3();
+        let refused_mm3 = self.refused_mm3 + bodies.too_small_mm3();
         let policy = &self.placed.policy;
         let least_mm3 = policy.significant_void_ratio * goal.solid.volume();
         let is_significant = |body: &TriMesh| body.signed_volume_mm3() > least_mm3;
-        let refused = bodies.refused.into_iter().filter(is_significant);
+        let refused = bodies.too_small.into_iter().filter(is_significant);
         let refused: Vec<TriMesh> = refused.collect();
         self.refuse(&refused, policy.refused_margin_openings)?;
         let mut hollowed = Hollowed::new(self.placed.solid().clone(), bodies.bodies);
@@ -214,7 +214,7 @@ impl<'a> Resolver<'a> {
         let join = |all: TriMesh, body: &TriMesh| all.joined(body);
         let all = bodies.iter().fold(TriMesh::default(), join);
         let margin_mm = margin_openings * self.placed.shop.printer.min_opening_mm.value;
-        let solid = grown(&all, margin_mm)?;
+        let solid = grow_bodies(&all, margin_mm)?;
         self.refused_mm3 += all.signed_volume_mm3();
         self.exclude(&solid)
     }

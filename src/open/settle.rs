@@ -4,8 +4,8 @@ use super::plan::are_clean;
 use super::resolve::Resolver;
 use crate::base::verdict::Verdict;
 use crate::cut::{
-    CutError, CutOrder, CutPlan, Obstacle, PlanRequest, Unclean, closed, plan_around, plan_by,
-    unclean,
+    CutError, CutOrder, CutPlan, Obstacle, PlanRequest, Unclean, find_closed, find_unclean,
+    plan_around, plan_by,
 };
 use crate::error::Error;
 use crate::mesh::TriMesh;
@@ -89,7 +89,7 @@ fn replan(voids: &Voids, terms: &Terms) -> Result<Verdict<Step, Refusal>, Error>
     };
     match plan_for(&voids.hollowed, terms.request, terms.order)? {
         Verdict::Found(plan) => {
-            let unclean = find_unclean(voids, &plan, terms)?;
+            let unclean = list_unclean(voids, &plan, terms)?;
             Ok(Verdict::Found(if unclean.is_empty() {
                 Step::Done(plan)
             } else {
@@ -97,7 +97,7 @@ fn replan(voids: &Voids, terms: &Terms) -> Result<Verdict<Step, Refusal>, Error>
             }))
         }
         Verdict::No(Obstacle::ClosedCavity { .. }) => {
-            let closed = closed(&voids.hollowed, &terms.order.cuts)?;
+            let closed = find_closed(&voids.hollowed, &terms.order.cuts)?;
             Ok(if closed.is_empty() {
                 Verdict::No(Refusal::CloseVoid)
             } else {
@@ -113,11 +113,11 @@ fn replan(voids: &Voids, terms: &Terms) -> Result<Verdict<Step, Refusal>, Error>
 }
 
 /// Finds the voids that a plan leaves unclean, if they must be clean.
-fn find_unclean(voids: &Voids, plan: &CutPlan, terms: &Terms) -> Result<Vec<Unclean>, CutError> {
+fn list_unclean(voids: &Voids, plan: &CutPlan, terms: &Terms) -> Result<Vec<Unclean>, CutError> {
     if !terms.must_be_clean || are_clean(plan, terms.request) {
         return Ok(Vec::new());
     }
-    let mut unclean = unclean(&voids.hollowed, plan, terms.request, false)?;
+    let mut unclean = find_unclean(&voids.hollowed, plan, terms.request, false)?;
     unclean.retain(|found| {
         let void = &plan.voids[found.void.index()];
         !void.is_clean_without_margin(terms.request)

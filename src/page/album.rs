@@ -56,7 +56,7 @@ impl Inserts {
 
 /// Draws the model, the cut-away, the parts apart, the halves of a yo-yo and each part; the same
 /// bytes on any number of threads.
-pub fn album(subject: &Subject) -> Result<Vec<Picture>, PictureError> {
+pub fn render_pictures(subject: &Subject) -> Result<Vec<Picture>, PictureError> {
     let (outer, voids) = (subject.shells.outer_mesh(), subject.shells.inner_mesh());
     let view = Viewpoint::of(&outer, &subject.aim.frame()).through_inserts(subject);
     let in_place = parts_in_model(subject.parts);
@@ -83,7 +83,7 @@ pub fn album(subject: &Subject) -> Result<Vec<Picture>, PictureError> {
 
 /// Draws the pictures that show numbers of the sheet: the cuts with their lengths, the mass
 /// properties and the plots of the proof. The same bytes on any number of threads.
-pub fn drawings(
+pub fn draw_figures(
     sheet: &Checklist,
     subject: &Subject,
     faces: &[CutFace],

@@ -10,7 +10,7 @@ use super::running::{code, on_screen};
 use super::steps::step_names;
 use super::words;
 use crate::base::numbers::{extent, number, quantity};
-use crate::base::units::{MM3_PER_CM3, counted};
+use crate::base::units::{MM3_PER_CM3, format_count};
 use crate::sheet::{Checklist, Verdict};
 
 /// Returns the first page.
@@ -59,7 +59,7 @@ fn facts(sheet: &Checklist) -> Markup {
             tr { th scope="row" { "Model" } td { (sheet.model.file) ", " (extent(&sheet.model.size_mm)) ", " (quantity(sheet.model.volume_mm3 / MM3_PER_CM3, "cm³")) " solid" } }
             tr { th scope="row" { "Printer" } td { (sheet.printer.name) " (" (sheet.printer.process) "), " (pixels(sheet)) ", layers of " (quantity(sheet.printer.layer_mm, "mm")) } }
             tr { th scope="row" { "Material" } td { (sheet.material.name) ", " (quantity(sheet.material.density_g_cm3, "g/cm³")) " (" (sheet.material.density_sure) @if sheet.material.density_spread_ratio.is_none() { ", not measured by this shop" } ": " (sheet.material.density_source) ")" } }
-            tr { th scope="row" { "Mass" } td { (quantity(sheet.assembly.mass_g, "g")) " in all" (of_hardware(sheet)) @if !sheet.ballast.is_empty() { " with " (counted(sheet.ballast.len(), "piece")) " of ballast" } "; " (quantity(sheet.solid.mass_g, "g")) " if it were solid" } }
+            tr { th scope="row" { "Mass" } td { (quantity(sheet.assembly.mass_g, "g")) " in all" (of_hardware(sheet)) @if !sheet.ballast.is_empty() { " with " (format_count(sheet.ballast.len(), "piece")) " of ballast" } "; " (quantity(sheet.solid.mass_g, "g")) " if it were solid" } }
             tr { th scope="row" { "Wall" } td { (words::wall(&sheet.wall)) } }
         }
     }
@@ -85,8 +85,8 @@ fn overview(sheet: &Checklist) -> Markup {
     html! {
         nav class="steps" aria-label="Steps" {
             p {
-                "It comes as " strong { (counted(sheet.parts.len(), "part")) } " with " (counted(sheet.voids.len(), "void")) " inside, opened by "
-                (counted(sheet.cuts.len(), "cut")) " and joined at " (counted(sheet.joints.len(), "glue joint")) ". Do these steps in order, and tick each one off:"
+                "It comes as " strong { (format_count(sheet.parts.len(), "part")) } " with " (format_count(sheet.voids.len(), "void")) " inside, opened by "
+                (format_count(sheet.cuts.len(), "cut")) " and joined at " (format_count(sheet.joints.len(), "glue joint")) ". Do these steps in order, and tick each one off:"
             }
             ol class="way" {
                 @for (index, name) in step_names(sheet).into_iter().enumerate() {

@@ -4,7 +4,7 @@ use maud::{Markup, html};
 
 use super::fields::blank;
 use crate::base::numbers::quantity;
-use crate::base::units::counted;
+use crate::base::units::format_count;
 use crate::goal::GoalKind;
 use crate::sheet::{Checklist, JointRow};
 use crate::verify::GlueFilm;
@@ -108,7 +108,7 @@ impl Closing<'_> {
             @for joint in &self.joints {
                 div {
                     @if !is_one { (joint.id) ": " }
-                    @if joint.pins > 0 { (counted(joint.pins, "pin")) ", clearance " (quantity(joint.clearance_mm, "mm")) " a side" }
+                    @if joint.pins > 0 { (format_count(joint.pins, "pin")) ", clearance " (quantity(joint.clearance_mm, "mm")) " a side" }
                     @else if joint.note.is_none() { "no pins" }
                     @if let Some(note) = &joint.note { @if joint.pins > 0 { "; " } strong { (note) } }
                     @if let Some(other) = self.guide_of(joint) { "; the pins of " (other.id) " align it, as both close together" }

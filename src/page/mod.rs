@@ -33,7 +33,7 @@ mod viewpoint;
 mod weighing;
 mod words;
 
-pub use album::{album, drawings};
+pub use album::{draw_figures, render_pictures};
 pub use cut_drawing::{CutFace, Mouth, Region};
 pub use document::document;
 pub use figure::{Picture, Role};

@@ -5,7 +5,7 @@ use maud::{Markup, html};
 use super::fields::{blank, file_name, half_name, mass_with_window};
 use super::figure::Picture;
 use crate::base::numbers::{extent, quantity};
-use crate::base::units::{MM3_PER_CM3, counted};
+use crate::base::units::{MM3_PER_CM3, format_count};
 use crate::sheet::{Checklist, PartRow};
 
 /// Digits of a hash that are shown: enough to tell files apart by eye. The whole hash is at the end
@@ -52,7 +52,7 @@ fn description(part: &PartRow) -> Markup {
         (extent(&part.size_mm)) br;
         (quantity(part.volume_mm3 / MM3_PER_CM3, "cm³")) ", " (part.triangles) " triangles" br;
         (part.lies) br;
-        (counted(part.pins.len(), "pin")) ", " (counted(part.sockets.len(), "socket"))
+        (format_count(part.pins.len(), "pin")) ", " (format_count(part.sockets.len(), "socket"))
         @for mark in &part.marks { br; "“" (mark.text) "” sunk into its face in " (mark.cut) }
     }
 }

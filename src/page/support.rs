@@ -1,7 +1,7 @@
 //! The support of each part and of the whole job.
 
 use crate::base::numbers::quantity;
-use crate::base::units::{MM2_PER_CM2, counted};
+use crate::base::units::{MM2_PER_CM2, format_count};
 use crate::sheet::{Checklist, PartRow, Process, SupportMethod, SupportRow};
 
 /// Height over the plate up to which overhangs are said to begin on the plate, mm.
@@ -37,7 +37,7 @@ fn support_words(support: &SupportRow) -> String {
     let [from, to] = [lowest, support.to_mm].map(|mm| quantity(mm, "mm"));
     format!(
         "on, under {} from {from} to {to} over the plate: {areas}",
-        counted(support.places, "place")
+        format_count(support.places, "place")
     )
 }
 

@@ -145,7 +145,7 @@ fn simplify(mesh: &TriMesh, budget: usize) -> TriMesh {
             if body.triangle_count() <= budget {
                 break;
             }
-            let coarser = body.coarsened(tolerance_mm * f64::powi(2.0, doubled as i32));
+            let coarser = body.coarsen(tolerance_mm * f64::powi(2.0, doubled as i32));
             if coarser.is_empty() {
                 break;
             }

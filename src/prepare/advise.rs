@@ -25,7 +25,7 @@ pub fn case<'a>(model: &'a Model, shop: &Shop, request: Request) -> Case<'a> {
         least_wall_mm: shop.printer.min_wall_mm.value,
         wall_step_mm: shop.wall.step_mm,
         density_g_cm3: shop.material.density_g_cm3.value,
-        greatest_size_mm: shop.printer.greatest_length_mm(),
+        greatest_size_mm: shop.printer.max_model_length_mm(),
     }
 }
 

@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use crate::cut::{CutError, Point2, Ring, Section, UncutFace, VoidAccess, reached};
+use crate::cut::{CutError, Point2, Ring, Section, UncutFace, VoidAccess, clip_to_limits};
 use crate::error::Error;
 use crate::geom::{Parting, Plane, Point, rings::thinnest};
 use crate::mesh::{MeshDistance, TriMesh};
@@ -31,7 +31,7 @@ pub fn faces(made: &Made) -> Result<Vec<CutFace>, Error> {
     let partings = plan.partings()?;
     let face = |(cut, parting): (&crate::cut::Cut, &Parting)| {
         let plane = parting.plane;
-        let section = Section::of_mesh(&reached(parting, &body)?, &plane);
+        let section = Section::of_mesh(&clip_to_limits(parting, &body)?, &plane);
         let regions = regions(&sections(&body, parting, &partings)?, &plane, &solids);
         let rings: Vec<Vec<[f64; 2]>> = section.rings.iter().map(flat_ring).collect();
         let whole = plan
@@ -95,7 +95,7 @@ fn sections(
         });
     cells
         .iter()
-        .map(|cell| Ok(Section::of_mesh(&reached(cell, body)?, &cell.plane)))
+        .map(|cell| Ok(Section::of_mesh(&clip_to_limits(cell, body)?, &cell.plane)))
         .collect()
 }
 
@@ -144,8 +144,8 @@ fn mouths(made: &Made, parting: &Parting) -> Result<Vec<Mouth>, CutError> {
         let Some(body) = made.hollowed.voids.get(access.void.index()) else {
             return Ok(Vec::new());
         };
-        let discs =
-            Section::of_mesh(&reached(parting, body.mesh())?, &parting.plane).largest_discs();
+        let discs = Section::of_mesh(&clip_to_limits(parting, body.mesh())?, &parting.plane)
+            .largest_discs();
         let mouth = |(at, diameter_mm): (Point2, f64)| Mouth {
             void: access.void.to_string(),
             at: [at.x, at.y],

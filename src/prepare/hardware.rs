@@ -2,7 +2,7 @@
 
 use crate::base::watch::{Phase, Watch};
 use crate::error::Error;
-use crate::hardware::{Allowances, fitted};
+use crate::hardware::{Allowances, fit_hardware};
 use crate::mass::moments_of_mesh;
 use crate::run::Placed;
 
@@ -19,7 +19,7 @@ pub fn fit(placed: Placed, watch: &Watch) -> Result<Placed, Error> {
         wall_mm: placed.shop.wall.wall_mm,
     };
     let (solid, goal) = (&placed.model.solid, placed.goal());
-    let fitted = fitted(solid, goal, &hardware, &allowances)?;
+    let fitted = fit_hardware(solid, goal, &hardware, &allowances)?;
     watch.check()?;
     if fitted.is_none() {
         return Ok(placed);

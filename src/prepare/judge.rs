@@ -5,7 +5,7 @@ use crate::error::Error;
 use crate::geom::Parting;
 use crate::io::stl;
 use crate::make::{File, packages, repack};
-use crate::page::{Picture, Subject, View, album};
+use crate::page::{Picture, Subject, View, render_pictures};
 use crate::repair::weld;
 use crate::run::{Made, Placed};
 use crate::sheet::Verdict;
@@ -63,7 +63,7 @@ pub fn draft(placed: &Placed, made: Made, watch: &Watch) -> Result<Draft, Error>
     let (mut judgement, ((pictures, view), packages)) = rayon::join(
         || judge(&evidence),
         || {
-            let drawn = || rayon::join(|| album(&subject), || View::of(&subject));
+            let drawn = || rayon::join(|| render_pictures(&subject), || View::of(&subject));
             rayon::join(drawn, || packages(placed, &made))
         },
     );

@@ -38,7 +38,7 @@ pub fn with_load(placed: &Placed, load: Load, watch: &Watch) -> Result<Answer, E
     for (level, pitch_mm) in pitches.into_iter().enumerate() {
         watch.enter(Phase::Columns);
         let columns = Columns::of_shell(&shell, pitch_mm, watch)?;
-        let columns = load.carved(columns, &goal.frame);
+        let columns = load.carve(columns, &goal.frame);
         watch.enter(Phase::Solve);
         let known = coarser.as_ref().map(|level| &level.solution);
         let solution = placed.solve(&columns, fixed, known, watch);

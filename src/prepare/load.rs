@@ -7,7 +7,7 @@ use crate::error::Error;
 use crate::io;
 use crate::job::Job;
 use crate::mesh::{Defects, Solid, scaled};
-use crate::printer::{Printer, leaves_room};
+use crate::printer::{Printer, check_room_for_void};
 use crate::repair::{one_body, repair};
 use crate::run::{Model, Shop};
 
@@ -30,11 +30,11 @@ pub fn model(job: &Job, printer: &Printer, watch: &Watch) -> Result<Model, Error
         source,
     };
     let mesh = io::decode_model(&bytes).map_err(content)?;
-    job.clone().bound_to(&bytes)?;
+    job.clone().bind_to(&bytes)?;
     watch.check()?;
     let (mesh, repairs) = repair(mesh);
     let scale_ratio = job.model.scaling.factor(mesh.longest_side_mm());
-    printer.allows_length(scale_ratio * mesh.longest_side_mm())?;
+    printer.check_length(scale_ratio * mesh.longest_side_mm())?;
     watch.check()?;
     let solid = Solid::new(scaled(&mesh, scale_ratio)).map_err(|defects| Error::NotSolid {
         path: path(),
@@ -58,10 +58,10 @@ pub fn model(job: &Job, printer: &Printer, watch: &Watch) -> Result<Model, Error
 pub fn shop(job: &Job, printer: Printer, model: &Model) -> Result<Shop, Error> {
     let material = printer.material(job.printer.material.as_deref())?.clone();
     let size_mm = model.solid.mesh().longest_side_mm();
-    let wall = printer.quantised_wall(job.wall.map(|wall| wall.mm()), size_mm)?;
+    let wall = printer.quantise_wall(job.wall.map(|wall| wall.mm()), size_mm)?;
     let asked_pitch_mm = job.pitch.map(|pitch| pitch.mm());
     let pitch_mm = printer.solve_pitch_mm(wall.wall_mm, size_mm, asked_pitch_mm);
-    leaves_room(size_mm, wall.wall_mm)?;
+    check_room_for_void(size_mm, wall.wall_mm)?;
     let rods = if job.pins.is_printed() {
         Vec::new()
     } else {

@@ -9,7 +9,7 @@ use crate::cut::CutOrder;
 use crate::error::Error;
 use crate::job::JobError;
 use crate::kit::Kit;
-use crate::page::{PageInputs, cup_warning, drawings, page};
+use crate::page::{PageInputs, cup_warning, draw_figures, page};
 use crate::run::Placed;
 use crate::sheet::from_run::{Facts, checklist};
 use crate::sheet::{Checklist, Timing};
@@ -27,7 +27,7 @@ pub fn finish(placed: &Placed, mut draft: Draft, watch: &Watch) -> Result<Prepar
     watch.enter(Phase::Report);
     let mut checklist = fill(placed, &draft);
     let faces = faces(&draft.made)?;
-    let of_cuts = drawings(&checklist, &draft.subject(), &faces)?;
+    let of_cuts = draw_figures(&checklist, &draft.subject(), &faces)?;
     draft.pictures.extend(of_cuts);
     watch.check()?;
     let mut kit = files(placed, &draft)?;

@@ -4,7 +4,7 @@ use super::{advise, hardware, waterline};
 use crate::advice::best_orientation;
 use crate::base::watch::Watch;
 use crate::error::Error;
-use crate::goal::{GoalKind, Request, Stock, Up, place_made_of};
+use crate::goal::{GoalKind, PrintStock, Request, Up, place_in_material};
 use crate::hollow::Fill;
 use crate::job::Job;
 use crate::run::{AxisChoice, Model, Placed, Policy, Shop};
@@ -21,11 +21,11 @@ pub fn goal(job: &Job, model: Model, shop: Shop, watch: &Watch) -> Result<Placed
         None => job.goal,
     };
     watch.check()?;
-    let stock = Stock {
+    let stock = PrintStock {
         wall_mm: shop.wall.wall_mm,
         density_g_cm3: shop.material.density_g_cm3.value,
     };
-    let placement = place_made_of(&model.solid, &stock, &request)?;
+    let placement = place_in_material(&model.solid, &stock, &request)?;
     let mut bound = job.clone();
     bound.model.sha256 = Some(model.sha256.clone());
     let placed = Placed {

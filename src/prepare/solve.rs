@@ -2,7 +2,7 @@
 
 use super::levels::{Answer, with_load};
 use super::outcome::Impossible;
-use crate::ballast::{Fit, Load, Order, Search, Shop};
+use crate::ballast::{Fit, Load, Order, Search, Workshop};
 use crate::base::setting::{Key, Setting};
 use crate::base::verdict::Verdict;
 use crate::base::watch::{Phase, Watch};
@@ -54,9 +54,9 @@ fn with_ballast(
     }
 }
 
-fn shop(placed: &Placed) -> Shop<'_> {
+fn shop(placed: &Placed) -> Workshop<'_> {
     let printer = &placed.shop.printer;
-    Shop {
+    Workshop {
         solid: placed.solid(),
         placement: &placed.placement,
         wall_mm: placed.shop.wall.wall_mm,

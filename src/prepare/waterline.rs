@@ -2,7 +2,7 @@
 
 use crate::base::watch::{Phase, Watch};
 use crate::error::Error;
-use crate::goal::{Afloat, Goal, Hydrostatics, Waterline};
+use crate::goal::{FloatConditions, Goal, Hydrostatics, Waterline};
 use crate::hollow::{Problem, Solution, Status, golden_section};
 use crate::interior::Columns;
 use crate::run::Placed;
@@ -65,7 +65,7 @@ struct Search<'a> {
 
 /// A waterline and its rank.
 struct Rated {
-    afloat: Afloat,
+    afloat: FloatConditions,
     /// True if the object floats upright at it.
     is_possible: bool,
     /// Metacentric height, or minus the miss, mm.
@@ -73,7 +73,7 @@ struct Rated {
 }
 
 impl Search<'_> {
-    fn best(&self) -> Afloat {
+    fn best(&self) -> FloatConditions {
         let height_mm = self.hydrostatics.height_mm();
         let step_mm = height_mm / (PASSES + 1) as f64;
         let coarse = (1..=PASSES).map(|i| self.rate(step_mm * i as f64));

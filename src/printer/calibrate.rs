@@ -119,7 +119,7 @@ impl Measured {
 
 /// Returns the text of a profile with the measured values: old values are replaced, new ones added.
 /// Error messages call the profile `file`.
-pub fn calibrated(file: &str, text: &str, measured: &Measured) -> Result<String, CalibrateError> {
+pub fn calibrate(file: &str, text: &str, measured: &Measured) -> Result<String, CalibrateError> {
     measured.check()?;
     let reader = Reader::new(file, text);
     let profile: ProfileText = reader.parse()?;
@@ -346,7 +346,7 @@ mod tests {
 
     #[test]
     fn measured_values_are_read_back_and_remarks_stay() {
-        let text = calibrated("shop.toml", OWN, &measured()).unwrap();
+        let text = calibrate("shop.toml", OWN, &measured()).unwrap();
         assert!(
             text.starts_with("# the one by the window\n") && text.contains(" # thinner broke"),
             "{text}"
@@ -377,14 +377,14 @@ mod tests {
 
     #[test]
     fn measuring_again_replaces_the_earlier_values() {
-        let once = calibrated("shop.toml", OWN, &measured()).unwrap();
+        let once = calibrate("shop.toml", OWN, &measured()).unwrap();
         let later = Measured {
             day: "2026-12-24".into(),
             lot: "B1".into(),
             weighed_g: vec![9.6, 9.6],
             ..measured()
         };
-        let twice = calibrated("shop.toml", &once, &later).unwrap();
+        let twice = calibrate("shop.toml", &once, &later).unwrap();
         let pla = read(&twice).material(None).unwrap().clone();
         assert_eq!(
             (pla.density_g_cm3.value, pla.lot.as_deref()),
@@ -410,7 +410,7 @@ mod tests {
             weighed_g: vec![9.6],
             ..measured()
         };
-        let printer = read(&calibrated("shop.toml", plain, &one).unwrap());
+        let printer = read(&calibrate("shop.toml", plain, &one).unwrap());
         assert_eq!(printer.clearance_per_side_mm.value, 0.15);
         let pla = printer.material(None).unwrap();
         assert!(
@@ -432,11 +432,11 @@ mod tests {
             (vec![f64::NAN], "a coupon of NaN g"),
             (vec![9.8, 4.9], "differ by 50 %"),
         ] {
-            let error = calibrated("shop.toml", OWN, &with(weighed))
+            let error = calibrate("shop.toml", OWN, &with(weighed))
                 .unwrap_err()
                 .to_string();
             assert!(error.contains(words), "{error}");
         }
-        assert!(calibrated("shop.toml", "id = ", &measured()).is_err());
+        assert!(calibrate("shop.toml", "id = ", &measured()).is_err());
     }
 }

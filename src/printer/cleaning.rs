@@ -31,7 +31,7 @@ pub enum CleaningRule {
 
 impl CleaningRule {
     /// Returns the rule in words, for the job sheet.
-    pub fn words(self) -> &'static str {
+    pub fn description(self) -> &'static str {
         match self {
             Self::MeltOut => "support melts or dissolves out through any opening",
             Self::InSight => "support is broken or flushed out in sight of the opening",

@@ -238,7 +238,7 @@ fn show(value: f64) -> String {
 
 /// Suggests the nearest known word, or all of them if none is near.
 pub(super) fn suggest(word: &str, known: &[&str]) -> String {
-    match crate::base::toml_text::nearest(word, known.iter().copied()) {
+    match crate::base::toml_text::nearest_name(word, known.iter().copied()) {
         Some(name) => format!("did you mean `{name}`?"),
         None => format!("use one of {}", known.join(", ")),
     }

@@ -7,7 +7,7 @@ use super::{
     library::{BUILT_IN, Library, PROFILE_ENDING, Profile, by_id, ids},
     resolve::resolve,
 };
-use crate::base::toml_text::nearest;
+use crate::base::toml_text::nearest_name;
 
 impl Printer {
     /// Finds the built-in printer of that id, or reads the one that a TOML file describes.
@@ -68,7 +68,7 @@ impl Library<'_> {
 
     fn unknown(&self, id: &str) -> ProfileError {
         let known = ids(self.printers);
-        let remedy = match nearest(id, known.iter().copied()) {
+        let remedy = match nearest_name(id, known.iter().copied()) {
             Some(near) => format!("did you mean `{near}`?"),
             None => "use one of these, or the path of a profile".to_owned(),
         };

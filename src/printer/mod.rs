@@ -50,7 +50,7 @@ mod size;
 mod sourced;
 mod wall;
 
-pub use calibrate::{CalibrateError, Measured, calibrated};
+pub use calibrate::{CalibrateError, Measured, calibrate};
 pub use cleaning::{Cleaning, CleaningRule};
 pub use corner::{Corner, ExcludedCorner};
 pub use error::{Fault, Faults, Problem, ProfileError};
@@ -58,7 +58,7 @@ pub use machine::{Grid, PrintPose, Printer, SizedWall, Support, Tolerance};
 pub use material::{Material, MaterialError};
 pub use plate::{Plate, Spot};
 pub use quantity::Quantity;
-pub use shop::{CONFIGURATION, SHOP_FILE, Shop, ShopError};
-pub use size::{SizeError, leaves_room};
+pub use shop::{CONFIGURATION, SHOP_FILE, ShopDefaults, ShopError};
+pub use size::{SizeError, check_room_for_void};
 pub use sourced::{Sourced, Sure};
 pub use wall::{WallChoice, WallError, whole_steps};

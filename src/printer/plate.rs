@@ -75,7 +75,7 @@ impl Plate {
     /// First fit by shelves, the deepest part first (Coffman, Garey, Johnson and Tarjan 1980). A
     /// part is turned only if it does not fit otherwise. A part that fits no plate has one of its
     /// own. The result is deterministic.
-    pub fn arranged(&self, sizes_mm: &[[f64; 2]]) -> Vec<Spot> {
+    pub fn arrange(&self, sizes_mm: &[[f64; 2]]) -> Vec<Spot> {
         let mut order: Vec<usize> = (0..sizes_mm.len()).collect();
         let depth_mm = |part: usize| self.choose_turn(sizes_mm[part]).0[1];
         order.sort_by(|&a, &b| depth_mm(b).total_cmp(&depth_mm(a)));
@@ -239,10 +239,10 @@ mod tests {
                 .map(|i| [side(2 * i), side(2 * i + 1)])
                 .collect();
             for plate in [&free, &cornered, &Plate::for_parts(&sizes)] {
-                let spots = plate.arranged(&sizes);
+                let spots = plate.arrange(&sizes);
                 assert_eq!(spots.len(), sizes.len());
                 assert_apart(plate, &sizes, &spots);
-                assert_eq!(spots, plate.arranged(&sizes));
+                assert_eq!(spots, plate.arrange(&sizes));
             }
         }
     }
@@ -250,7 +250,7 @@ mod tests {
     #[test]
     fn two_parts_share_a_plate_and_a_third_without_room_gets_the_next() {
         let sizes = [[90.0, 90.0], [90.0, 90.0], [90.0, 90.0]];
-        let plates = plate([200.0, 100.0], &[]).arranged(&sizes);
+        let plates = plate([200.0, 100.0], &[]).arrange(&sizes);
         assert_eq!(
             plates.iter().map(|spot| spot.plate).collect::<Vec<_>>(),
             [0, 0, 1]
@@ -259,7 +259,7 @@ mod tests {
 
     #[test]
     fn a_part_is_turned_only_if_that_helps_and_one_that_fits_nowhere_is_reported() {
-        let spots = plate([200.0, 100.0], &[]).arranged(&[
+        let spots = plate([200.0, 100.0], &[]).arrange(&[
             [90.0, 150.0],
             [150.0, 90.0],
             [10.0, 10.0],
@@ -283,7 +283,7 @@ mod tests {
     #[test]
     fn a_plate_of_unknown_size_holds_everything() {
         let sizes = [[70.0, 20.0], [10.0, 120.0], [30.0, 30.0]];
-        let spots = Plate::for_parts(&sizes).arranged(&sizes);
+        let spots = Plate::for_parts(&sizes).arrange(&sizes);
         assert!(
             spots.iter().all(|spot| spot.plate == 0 && spot.fits),
             "{spots:?}"

@@ -16,7 +16,7 @@ pub const CONFIGURATION: &str = "equipoise";
 
 /// A shop's defaults.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Shop {
+pub struct ShopDefaults {
     /// The file that states them.
     pub file: PathBuf,
     /// The id of a built-in printer, or the path of a profile.
@@ -49,10 +49,10 @@ struct ShopText {
     material: Option<String>,
 }
 
-impl Shop {
+impl ShopDefaults {
     /// Reads the defaults from the first of these folders that has [`SHOP_FILE`]; `None` if none
     /// has.
-    pub fn of_folders(folders: &[PathBuf]) -> Result<Option<Self>, ShopError> {
+    pub fn find_in(folders: &[PathBuf]) -> Result<Option<Self>, ShopError> {
         let files = folders.iter().map(|folder| folder.join(SHOP_FILE));
         let Some(file) = files.into_iter().find(|file| file.is_file()) else {
             return Ok(None);
@@ -94,7 +94,7 @@ mod tests {
             std::fs::create_dir(path).unwrap();
         }
         assert_eq!(
-            Shop::of_folders(&[near.clone(), far.clone()]).unwrap(),
+            ShopDefaults::find_in(&[near.clone(), far.clone()]).unwrap(),
             None
         );
         std::fs::write(
@@ -102,7 +102,7 @@ mod tests {
             "printer = \"prusa-mk4\"\nmaterial = \"petg\"\n",
         )
         .unwrap();
-        let shop = Shop::of_folders(&[near.clone(), far.clone()])
+        let shop = ShopDefaults::find_in(&[near.clone(), far.clone()])
             .unwrap()
             .unwrap();
         assert_eq!(
@@ -110,19 +110,21 @@ mod tests {
             ("prusa-mk4", Some("petg"))
         );
         std::fs::write(near.join(SHOP_FILE), "printer = \"ours/jet.toml\"\n").unwrap();
-        let shop = Shop::of_folders(&[near.clone(), far]).unwrap().unwrap();
+        let shop = ShopDefaults::find_in(&[near.clone(), far])
+            .unwrap()
+            .unwrap();
         assert_eq!(Path::new(&shop.printer), near.join("ours/jet.toml"));
     }
 
     #[test]
     fn a_misspelt_key_is_reported_with_its_place() {
-        let error = Shop::parse(Path::new("s/equipoise.toml"), "printr = \"x\"\n")
+        let error = ShopDefaults::parse(Path::new("s/equipoise.toml"), "printr = \"x\"\n")
             .unwrap_err()
             .to_string();
         assert!(
             error.starts_with("s/equipoise.toml:1:1: ") && error.contains("did you mean `printer`"),
             "{error}"
         );
-        assert!(Shop::parse(Path::new("e.toml"), "material = \"x\"\n").is_err());
+        assert!(ShopDefaults::parse(Path::new("e.toml"), "material = \"x\"\n").is_err());
     }
 }

@@ -68,15 +68,15 @@ fn show(mm: f64) -> String {
 impl Printer {
     /// Returns the length of the longest allowed model, mm: some lengths of the build volume, or a
     /// fixed length if that is not known.
-    pub fn greatest_length_mm(&self) -> f64 {
+    pub fn max_model_length_mm(&self) -> f64 {
         self.build_volume_mm.as_ref().map_or(MAX_SIZE_MM, |volume| {
             MAX_BUILD_LENGTHS * volume.value.into_iter().fold(0.0, f64::max)
         })
     }
 
-    /// Refuses a model whose longest side exceeds [`Self::greatest_length_mm`], or is no number.
-    pub fn allows_length(&self, size_mm: f64) -> Result<(), SizeError> {
-        let most_mm = self.greatest_length_mm();
+    /// Refuses a model whose longest side exceeds [`Self::max_model_length_mm`], or is no number.
+    pub fn check_length(&self, size_mm: f64) -> Result<(), SizeError> {
+        let most_mm = self.max_model_length_mm();
         if size_mm <= most_mm {
             return Ok(());
         }
@@ -89,7 +89,7 @@ impl Printer {
 }
 
 /// Refuses a model whose longest side is no longer than two walls.
-pub fn leaves_room(size_mm: f64, wall_mm: f64) -> Result<(), SizeError> {
+pub fn check_room_for_void(size_mm: f64, wall_mm: f64) -> Result<(), SizeError> {
     if size_mm > 2.0 * wall_mm {
         Ok(())
     } else {
@@ -115,9 +115,9 @@ mod tests {
                 longest(&printer).map_or(MAX_SIZE_MM, |width| 4.0 * width),
                 most_mm
             );
-            assert_eq!(printer.allows_length(most_mm), Ok(()));
+            assert_eq!(printer.check_length(most_mm), Ok(()));
             for size_mm in [most_mm * 1.001, 1e300, f64::INFINITY, f64::NAN] {
-                let error = printer.allows_length(size_mm).unwrap_err().to_string();
+                let error = printer.check_length(size_mm).unwrap_err().to_string();
                 assert!(error.contains(id) && error.contains("--unit"), "{error}");
                 assert!(error.len() < 250, "{error}");
             }
@@ -126,15 +126,15 @@ mod tests {
 
     #[test]
     fn two_walls_leave_no_room() {
-        assert_eq!(leaves_room(2.1, 1.0), Ok(()));
+        assert_eq!(check_room_for_void(2.1, 1.0), Ok(()));
         assert!(
-            leaves_room(2.0, 1.0)
+            check_room_for_void(2.0, 1.0)
                 .unwrap_err()
                 .to_string()
                 .contains("nothing inside")
         );
         assert!(
-            leaves_room(1e-300, 1.0)
+            check_room_for_void(1e-300, 1.0)
                 .unwrap_err()
                 .to_string()
                 .contains("1.0e-300 mm")

@@ -85,7 +85,7 @@ impl Printer {
     ///
     /// Layers do not thicken walls of lines: slicers close a roof with whole layers, and the
     /// checklist says how many.
-    pub fn quantised_wall(
+    pub fn quantise_wall(
         &self,
         asked_mm: Option<f64>,
         size_mm: f64,
@@ -185,7 +185,7 @@ mod tests {
     #[test]
     fn a_wall_of_1_mm_is_24_pixels_on_the_objet() {
         let choice = printer("objet-connex350")
-            .quantised_wall(Some(1.0), 100.0)
+            .quantise_wall(Some(1.0), 100.0)
             .unwrap();
         assert_eq!(choice.steps, 24);
         assert!((choice.wall_mm - 1.016).abs() < 1e-12);
@@ -197,14 +197,14 @@ mod tests {
 
     #[test]
     fn filament_walls_are_whole_lines_and_layers_cannot_thin_resin_walls() {
-        let fdm = printer("prusa-mk4").quantised_wall(None, 100.0).unwrap();
+        let fdm = printer("prusa-mk4").quantise_wall(None, 100.0).unwrap();
         assert_eq!((fdm.steps, fdm.wall_mm), (2, 0.9));
         assert_eq!(
             fdm.why,
             "0.900 mm = 2 line widths of 0.4500 mm; the least this printer makes is 0.800 mm"
         );
         let sla = printer("formlabs-form4")
-            .quantised_wall(Some(1.04), 100.0)
+            .quantise_wall(Some(1.04), 100.0)
             .unwrap();
         // 21 pixels of 0.05 mm are 1.05 mm, but may hold only 10 layers of 0.1 mm.
         assert_eq!(sla.steps, 22);
@@ -214,7 +214,7 @@ mod tests {
     #[test]
     fn a_wall_below_the_minimum_is_refused_with_the_minimum_and_its_source() {
         let error = printer("objet-connex350")
-            .quantised_wall(Some(0.99), 100.0)
+            .quantise_wall(Some(0.99), 100.0)
             .unwrap_err()
             .to_string();
         assert!(
@@ -223,7 +223,7 @@ mod tests {
         );
         for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
             let error = printer("prusa-mk4")
-                .quantised_wall(Some(bad), 100.0)
+                .quantise_wall(Some(bad), 100.0)
                 .unwrap_err();
             assert!(matches!(error, WallError::NotPositive(_)), "{bad}");
         }
@@ -251,7 +251,7 @@ mod tests {
     #[test]
     fn on_oblong_pixels_no_direction_makes_a_wall_thinner_than_asked() {
         let saturn = printer("elegoo-saturn-4-ultra");
-        let wall_mm = saturn.quantised_wall(Some(1.0), 100.0).unwrap().wall_mm;
+        let wall_mm = saturn.quantise_wall(Some(1.0), 100.0).unwrap().wall_mm;
         // 42 pixels of 24 µm; 53 of 19 µm are 1.007 mm, 20 layers of 50 µm are 1 mm.
         assert!((wall_mm - 1.008).abs() < 1e-12, "{wall_mm}");
         for (step_mm, steps) in [(0.019, 53.0), (0.024, 42.0), (0.05, 20.0)] {
@@ -275,7 +275,7 @@ mod tests {
     #[test]
     fn the_thinnest_wall_of_sintered_powder_grows_with_the_part() {
         let eos = printer("eos-p396");
-        let wall_mm = |size_mm| eos.quantised_wall(None, size_mm).unwrap().wall_mm;
+        let wall_mm = |size_mm| eos.quantise_wall(None, size_mm).unwrap().wall_mm;
         assert_eq!(
             (wall_mm(100.0), wall_mm(101.0), wall_mm(500.0)),
             (0.75, 1.0, 1.0)
@@ -294,7 +294,7 @@ mod tests {
                 (any.pixel_x_mm.value, any.pixel_y_mm.value) = (step_mm, step_mm);
                 (any.min_wall_mm.value, any.grid) = (step_mm, Grid::Line);
                 let exact_mm = f64::from(steps) * step_mm;
-                let choice = any.quantised_wall(Some(exact_mm), 100.0).unwrap();
+                let choice = any.quantise_wall(Some(exact_mm), 100.0).unwrap();
                 prop_assert_eq!(choice.wall_mm, exact_mm);
             }
         }
@@ -306,10 +306,10 @@ mod tests {
             for id in ["objet-connex350", "formlabs-form4", "prusa-mk4", "elegoo-saturn-4-ultra"] {
                 let any = printer(id);
                 let coarsest_mm = any.layer_mm.value.max(any.pixel_y_mm.value);
-                let once = any.quantised_wall(Some(asked_mm), 100.0).unwrap();
+                let once = any.quantise_wall(Some(asked_mm), 100.0).unwrap();
                 let most_mm = asked_mm + (once.step_mm + coarsest_mm) * (1.0 + 1e-9);
                 prop_assert!(once.wall_mm >= asked_mm && once.wall_mm < most_mm);
-                let twice = any.quantised_wall(Some(once.wall_mm), 100.0).unwrap();
+                let twice = any.quantise_wall(Some(once.wall_mm), 100.0).unwrap();
                 prop_assert_eq!(twice.wall_mm, once.wall_mm);
             }
         }

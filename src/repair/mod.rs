@@ -31,7 +31,7 @@
 //!
 //! * [`one_body`] checks that a solid is a single body, as every kit requires.
 //! * `sew` joins parts along their rims, within a tolerance that its caller judges.
-//! * [`unfolded`] mends the slivers that the rounding of a written file would fold.
+//! * [`unfold()`] mends the slivers that the rounding of a written file would fold.
 
 mod ladder;
 mod one_body;
@@ -43,6 +43,6 @@ mod weld;
 
 pub use ladder::{Repairs, repair};
 pub use one_body::{NotOneBody, ShellFact, ShellRole, one_body};
-pub(crate) use sew::sewn;
-pub use unfold::unfolded;
+pub(crate) use sew::sew;
+pub use unfold::unfold;
 pub use weld::weld;

@@ -11,7 +11,7 @@ use crate::mesh::edges::{EdgeKind, EdgeTable, Side};
 /// The surface moves by no more than the tolerance. A rim without a counterpart stays open: the
 /// caller judges the result.
 #[must_use]
-pub(crate) fn sewn(mesh: &TriMesh, tolerance_mm: f64) -> TriMesh {
+pub(crate) fn sew(mesh: &TriMesh, tolerance_mm: f64) -> TriMesh {
     let mut mesh = weld_open_edges(mesh, tolerance_mm);
     while let Some(divided) = divide_open_edges(&mesh, tolerance_mm) {
         mesh = divided;
@@ -111,7 +111,7 @@ mod tests {
         let left = open_wall(without_face([0.0, 0.0, 1.0], [1.0, 1.0, 2.0], 1.0));
         let right = open_wall(without_face([1.0, 0.0, 1.0], [2.0, 1.0, 2.0], 1.0));
         let jitter = |p: &Point| p + crate::geom::Vector::new(1e-12, 0.0, -1e-12);
-        let sewn = Solid::new(sewn(
+        let sewn = Solid::new(sew(
             &below.joined(&left.map_vertices(jitter)).joined(&right),
             1e-9,
         ))
@@ -122,6 +122,6 @@ mod tests {
     #[test]
     fn a_rim_without_a_counterpart_stays_open() {
         let open = without_face([0.0; 3], [1.0; 3], 1.0);
-        assert_eq!(sewn(&open, 1e-9), open);
+        assert_eq!(sew(&open, 1e-9), open);
     }
 }

@@ -27,7 +27,7 @@ const MAX_ROUNDS: usize = 12;
 /// folds; a fold that neither mends is left. Examines slivers only, so a sound mesh costs little
 /// more than its search tree.
 #[must_use]
-pub fn unfolded(mesh: &TriMesh) -> TriMesh {
+pub fn unfold(mesh: &TriMesh) -> TriMesh {
     let mut best = (usize::MAX, mesh.clone());
     let mut mended = mesh.clone();
     for _ in 0..MAX_ROUNDS {
@@ -369,7 +369,7 @@ mod tests {
                 .filter(|m| !find_folds(&round_to_single(m)).is_empty())
                 .count()
         };
-        let mended: Vec<TriMesh> = meshes.iter().map(unfolded).collect();
+        let mended: Vec<TriMesh> = meshes.iter().map(unfold).collect();
         for (mesh, mended) in meshes.iter().zip(&mended) {
             let volume = mesh.signed_volume_mm3();
             // An edge of 25 mm moves by at most the height of a sliver, 1e-6 mm, over
@@ -398,6 +398,6 @@ mod tests {
     #[test]
     fn a_surface_without_slivers_comes_back_as_it_is() {
         let ball = crate::mesh::primitives::ball(&Point::new(50.0, 60.0, 70.0), 20.0, 4);
-        assert_eq!(unfolded(&ball), ball);
+        assert_eq!(unfold(&ball), ball);
     }
 }

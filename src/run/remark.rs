@@ -5,7 +5,7 @@ use std::fmt;
 use super::Rung;
 use crate::advice::Reached;
 use crate::base::setting::{Key, Setting};
-use crate::base::units::counted;
+use crate::base::units::format_count;
 use crate::cut::{PartId, UncleanCause};
 use crate::goal::{Request, Up};
 
@@ -62,7 +62,7 @@ impl fmt::Display for Remark {
             } => write!(
                 f,
                 "pins: {rung}, because {lacking} of {} would lack them; the goal's figure is {:.1} % {} for it",
-                counted(*joints, "joint"),
+                format_count(*joints, "joint"),
                 100.0 * loss_ratio.abs(),
                 if *loss_ratio > 0.0 { "worse" } else { "better" },
             ),

@@ -62,7 +62,7 @@ impl From<Objective> for ObjectiveName {
     }
 }
 
-/// The stand of a top that does not spin; see [`crate::goal::Resting`].
+/// The stand of a top that does not spin; see [`crate::goal::FootStability`].
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct FootRow {
     /// Radius of curvature of the contact over a tilt of a degree, mm. It is larger than the height

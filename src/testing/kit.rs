@@ -1,11 +1,11 @@
 //! The checklist, the pictures and the view of a sound kit: the hollow box of the judge's tests.
 
 use crate::geom::{Parting, Plane, Point, Vector};
-use crate::page::{CutFace, Mouth, Picture, Region, Subject, View, album, drawings};
+use crate::page::{CutFace, Mouth, Picture, Region, Subject, View, draw_figures, render_pictures};
 use crate::repair::weld;
 use crate::sheet::part_picture_file;
 use crate::sheet::*;
-use crate::verify::judge_tests::sound;
+use crate::verify::judge_tests::sound_kit;
 use crate::verify::{
     Cleaning, Evidence, FigureName, Judgement, PartFacts, Promise, PromisedCut, PromisedFigure,
     PromisedPart, PromisedVoid, Shells, judge,
@@ -42,7 +42,7 @@ fn order_cleaning(promise: &mut Promise) {
 
 /// Returns the checklist of a sound kit, and the evidence on which it was judged.
 pub fn sample() -> (Checklist, Evidence) {
-    let mut evidence = sound();
+    let mut evidence = sound_kit();
     order_cleaning(&mut evidence.promise);
     let found = judge(&evidence);
     (checklist(&evidence, &found), evidence)
@@ -91,8 +91,8 @@ pub fn sample_pictures(sheet: &Checklist, evidence: &Evidence) -> (Vec<Picture>,
             diameter_mm: 34.0,
         }],
     };
-    let mut pictures = album(&subject).unwrap();
-    pictures.extend(drawings(sheet, &subject, &[face]).unwrap());
+    let mut pictures = render_pictures(&subject).unwrap();
+    pictures.extend(draw_figures(sheet, &subject, &[face]).unwrap());
     (pictures, View::of(&subject).unwrap())
 }
 
@@ -258,7 +258,7 @@ fn the_void() -> VoidRow {
         least_opening_mm: 4.0,
         depth_mm: 3.0,
         sight_ratio: Some(SIGHT_RATIO),
-        method: CLEANING.rule.words().into(),
+        method: CLEANING.rule.description().into(),
         is_clean: true,
         clean: "Flush with the water jet.".into(),
     }

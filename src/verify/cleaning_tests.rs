@@ -1,6 +1,6 @@
 //! The cleaning of voids, on a hollow box cut in two and with one fault at a time.
 
-use super::judge_tests::{failures, sound};
+use super::judge_tests::{failures, sound_kit};
 use super::test_meshes::block;
 use super::*;
 use crate::geom::Point;
@@ -15,7 +15,7 @@ const IN_SIGHT: Cleaning = Cleaning {
 
 /// Returns the sound box, cut at z = 16, with its void to be cleaned by this rule.
 fn kit(cleaning: Cleaning) -> Evidence {
-    let mut kit = sound();
+    let mut kit = sound_kit();
     kit.promise.printer.cleaning = Some(cleaning);
     kit.promise.printer.minimum_opening_mm = Some(4.0);
     kit.promise.cuts = vec![PromisedCut {

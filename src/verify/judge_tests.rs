@@ -9,14 +9,14 @@ use test_meshes::{block, tray};
 
 const SIZE: [f64; 3] = [60.0, 40.0, 12.0];
 const WALL: f64 = 3.0;
-/// The seat of a pin, in the middle of a side of the box of [`sound`], whose halves meet at z = 16.
+/// The seat of a pin, in the middle of a side of the box of [`sound_kit`], whose halves meet at z = 16.
 pub(crate) const SEAT: [f64; 3] = [28.5, 0.0, 16.0];
 
 /// Returns a hollow box top of 60 × 40 × 12 mm, 10 mm over its contact.
 ///
 /// It is cut through the middle into two equal trays. The lower lies as in the model, the upper is
 /// turned over.
-pub(crate) fn sound() -> Evidence {
+pub(crate) fn sound_kit() -> Evidence {
     let half = [SIZE[0], SIZE[1], SIZE[2] / 2.0];
     let corner = Vector::new(-30.0, -20.0, 10.0);
     let turned = Matrix::from_diagonal(&Vector::new(1.0, -1.0, -1.0));
@@ -101,13 +101,13 @@ pub(crate) fn failures(evidence: &Evidence) -> Vec<String> {
 
 #[test]
 fn a_sound_kit_keeps_every_promise() {
-    assert_eq!(failures(&sound()), Vec::<String>::new());
-    assert!(judge(&sound()).passes());
+    assert_eq!(failures(&sound_kit()), Vec::<String>::new());
+    assert!(judge(&sound_kit()).passes());
 }
 
 #[test]
 fn the_assembly_has_the_figures_of_the_uncut_body() {
-    let judgement = judge(&sound());
+    let judgement = judge(&sound_kit());
     let (whole, parts) = (&judgement.hollowed, &judgement.assembly);
     // Ten sums of products of numbers below 1e5: relative rounding stays below 1e-12.
     assert!((whole.mass_g - parts.mass_g).abs() < 1e-12 * whole.mass_g);
@@ -119,21 +119,21 @@ fn the_assembly_has_the_figures_of_the_uncut_body() {
 
 #[test]
 fn a_part_glued_a_fiftieth_of_a_millimetre_aside_puts_the_centre_off_the_axis() {
-    let mut evidence = sound();
+    let mut evidence = sound_kit();
     evidence.parts[0].pose.rows[0][3] += 0.02;
     assert_eq!(failures(&evidence), ["axis offset"]);
 }
 
 #[test]
 fn a_mirrored_pose_is_refused() {
-    let mut evidence = sound();
+    let mut evidence = sound_kit();
     evidence.parts[0].pose.rows[0] = [-1.0, 0.0, 0.0, 30.0];
     assert_eq!(failures(&evidence), ["pose"]);
 }
 
 #[test]
 fn a_part_that_hovers_is_found() {
-    let mut evidence = sound();
+    let mut evidence = sound_kit();
     evidence.parts[1].mesh = evidence.parts[1]
         .mesh
         .map_vertices(|p| p + Vector::z() * 0.001);
@@ -142,7 +142,7 @@ fn a_part_that_hovers_is_found() {
 
 #[test]
 fn an_uncut_body_is_a_closed_cavity() {
-    let mut evidence = sound();
+    let mut evidence = sound_kit();
     let shift = Vector::new(30.0, 20.0, -10.0);
     let mesh = evidence.hollowed.map_vertices(|p| p + shift);
     evidence.parts = vec![PartEvidence {
@@ -156,7 +156,7 @@ fn an_uncut_body_is_a_closed_cavity() {
 
 #[test]
 fn a_wall_thinner_than_ordered_is_found() {
-    let mut evidence = sound();
+    let mut evidence = sound_kit();
     evidence.promise.wall.required_mm = WALL + 0.011;
     assert_eq!(failures(&evidence), ["wall"]);
     evidence.promise.wall.required_mm = WALL + 0.009;
@@ -165,7 +165,7 @@ fn a_wall_thinner_than_ordered_is_found() {
 
 #[test]
 fn a_part_too_large_for_the_printer_is_found() {
-    let mut evidence = sound();
+    let mut evidence = sound_kit();
     evidence.promise.printer.build_volume_mm = Some([100.0, 39.0, 100.0]);
     let judgement = judge(&evidence);
     let room = judgement
@@ -178,14 +178,14 @@ fn a_part_too_large_for_the_printer_is_found() {
 
 #[test]
 fn a_socket_that_was_never_sunk_is_found() {
-    let mut evidence = sound();
+    let mut evidence = sound_kit();
     evidence.promise.parts[0].sockets = vec![peg(0.4, 0.8, 0.1)];
     assert_eq!(failures(&evidence), ["volumes"]);
 }
 
 #[test]
 fn a_promise_better_than_the_truth_is_broken_and_one_within_the_slack_is_kept() {
-    let mut evidence = sound();
+    let mut evidence = sound_kit();
     let speed = judge(&evidence).assembly.critical_speed_rpm.unwrap();
     let figure = FigureName::CriticalSpeedRpm;
     evidence.promise.promise = Some(PromisedFigure {
@@ -202,7 +202,7 @@ fn a_promise_better_than_the_truth_is_broken_and_one_within_the_slack_is_kept() 
 
 #[test]
 fn a_hole_in_a_part_is_found() {
-    let mut evidence = sound();
+    let mut evidence = sound_kit();
     let mesh = &evidence.parts[0].mesh;
     let open = TriMesh::new(mesh.vertices().to_vec(), mesh.triangles()[1..].to_vec()).unwrap();
     evidence.parts[0].mesh = open;
@@ -211,14 +211,14 @@ fn a_hole_in_a_part_is_found() {
 
 #[test]
 fn a_body_turned_about_its_longest_axis_cannot_spin() {
-    let mut evidence = sound();
+    let mut evidence = sound_kit();
     evidence.promise.goal = Aim::new(GoalKind::Yoyo, [0.0, 0.0, 16.0], [1.0, 0.0, 0.0]);
     assert_eq!(failures(&evidence), ["dominance"]);
 }
 
 #[test]
 fn the_same_box_stands_until_its_centre_is_over_its_edge() {
-    let mut evidence = sound();
+    let mut evidence = sound_kit();
     evidence.promise.goal.kind = GoalKind::Stand;
     assert_eq!(failures(&evidence), Vec::<String>::new());
     let angle = judge(&evidence).assembly.topples_deg.unwrap();
@@ -232,14 +232,14 @@ fn the_judgement_is_the_same_on_one_thread_and_on_four() {
             .num_threads(threads)
             .build()
             .unwrap()
-            .install(|| judge(&sound()))
+            .install(|| judge(&sound_kit()))
     };
     assert_eq!(on(1), on(4));
 }
 
 /// Returns the sound box as a rotor about a point; its own middle is at z = 16.
 fn rotor(origin_mm: [f64; 3], speed_rpm: f64) -> Evidence {
-    let mut evidence = sound();
+    let mut evidence = sound_kit();
     let rotor = Some(RotorOrder {
         speed_rpm,
         grade_mm_s: 2.5,
@@ -266,13 +266,13 @@ fn a_rotor_ten_micrometres_aside_keeps_its_grade_slowly_and_breaks_it_fast() {
         .assembly
         .unbalance
         .unwrap();
-    let mass_g = judge(&sound()).assembly.mass_g;
+    let mass_g = judge(&sound_kit()).assembly.mass_g;
     assert!((unbalance.static_g_mm - 0.01 * mass_g).abs() < 1e-9 && unbalance.couple_g_mm2 < 1e-9);
 }
 
 /// Returns the sound box with this promised waterline, in a liquid in which it lies 6 mm deep.
 fn boat(waterline_mm: f64) -> Evidence {
-    let mut evidence = sound();
+    let mut evidence = sound_kit();
     // Density of the liquid: mass over displaced volume, 1.2 · (28 800 − 11 016)/(2400 · T) at a
     // draught of T mm. That is 1.482 at 6 mm.
     let liquid_g_cm3 = 1.2 * (28_800.0 - 11_016.0) / (2400.0 * 6.0);
@@ -318,7 +318,7 @@ fn a_box_with_a_heavy_side_does_not_float_upright() {
 
 /// Returns the sound kit with a ball of steel on the axis in the middle of its void.
 fn kit_with_ballast() -> Evidence {
-    let mut evidence = sound();
+    let mut evidence = sound_kit();
     let shape = LumpShape::Ball { diameter_mm: 4.0 };
     let lump = Lump {
         shape,
@@ -335,7 +335,7 @@ fn kit_with_ballast() -> Evidence {
 
 #[test]
 fn ballast_counts_by_its_declared_mass_at_its_declared_place() {
-    let [bare, loaded] = [sound(), kit_with_ballast()].map(|evidence| judge(&evidence));
+    let [bare, loaded] = [sound_kit(), kit_with_ballast()].map(|evidence| judge(&evidence));
     assert!(loaded.passes());
     assert!((loaded.assembly.mass_g - bare.assembly.mass_g - 0.2624).abs() < 1e-12);
     assert_eq!(
@@ -384,7 +384,7 @@ fn ballast_beside_its_place_spoils_the_balance_or_has_no_room() {
 
 #[test]
 fn a_filling_counts_by_the_volume_of_the_voids() {
-    let mut evidence = sound();
+    let mut evidence = sound_kit();
     let bare = judge(&evidence);
     evidence.promise.fill = Some(FillOrder { density_g_cm3: 2.4 });
     let filled = judge(&evidence);

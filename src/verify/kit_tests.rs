@@ -5,7 +5,7 @@ use std::path::Path;
 
 use serde_json::{Value, json};
 
-use super::judge_tests::sound;
+use super::judge_tests::sound_kit;
 use super::sheet::{restate, restate_before_rounding};
 use super::*;
 use crate::base::digest::sha256_hex;
@@ -14,7 +14,7 @@ use crate::io::stl;
 /// Writes the sound kit of the judge's tests with its papers. The checklist has only the keys that
 /// the judge reads.
 fn write_kit(folder: &Path) {
-    let evidence = sound();
+    let evidence = sound_kit();
     let hollowed = stl::encode(&evidence.hollowed, "hollowed");
     fs::create_dir_all(folder.join("parts")).unwrap();
     fs::write(folder.join(HOLLOWED_FILE), &hollowed).unwrap();
@@ -143,7 +143,7 @@ fn a_file_exchanged_for_another_is_found() {
 #[test]
 fn a_part_of_the_same_shape_under_another_header_is_only_a_changed_file() {
     let judgement = kit_with(|kit| {
-        let renamed = stl::encode(&sound().parts[0].mesh, "another name");
+        let renamed = stl::encode(&sound_kit().parts[0].mesh, "another name");
         fs::write(kit.join("parts/P01.stl"), renamed).unwrap();
     });
     assert_eq!(failures(&judgement.unwrap()), ["changed files"]);

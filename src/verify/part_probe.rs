@@ -20,7 +20,7 @@ impl<'a> PartProbe<'a> {
     /// Returns true if the part's surface does not cross the segment between two points.
     pub(super) fn is_clear(&self, from: &Point, to: &Point) -> bool {
         let [from, to] = [from, to].map(|p| self.part.pose.to_print(p));
-        !self.surface.is_crossed_by(&from, &to)
+        !self.surface.crosses_segment(&from, &to)
     }
 
     /// Returns true if a point lies in the part's material.

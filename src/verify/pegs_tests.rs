@@ -1,6 +1,6 @@
 //! Pins and sockets in files: a sound joint, and the same joint with one fault at a time.
 
-use super::judge_tests::{SEAT, failures, peg, sound};
+use super::judge_tests::{SEAT, failures, peg, sound_kit};
 use super::*;
 use crate::geom::Vector;
 use crate::mass::FlatFace;
@@ -19,7 +19,7 @@ fn rod(diameter_mm: f64, [below, above]: [f64; 2]) -> TriMesh {
 /// Returns the sound kit with a pin and a socket made in these sizes (diameter and length), the
 /// socket moved by `shift`. The sizes [`PIN`] and [`SOCKET`] are promised.
 fn kit_with_pin(pin: [f64; 2], socket: [f64; 2], shift: Vector) -> Evidence {
-    let mut evidence = sound();
+    let mut evidence = sound_kit();
     let body = |evidence: &Evidence, i: usize| {
         let part = &evidence.parts[i];
         Csg::of_mesh(&part.mesh.map_vertices(|p| part.pose.to_model(p))).unwrap()
@@ -82,14 +82,14 @@ fn a_pin_that_stands_in_its_socket_keeps_every_promise() {
 #[test]
 fn a_pin_left_out_of_the_file_is_missed() {
     let mut evidence = kit_with_pin(PIN, SOCKET, Vector::zeros());
-    evidence.parts[0].mesh = sound().parts[0].mesh.clone();
+    evidence.parts[0].mesh = sound_kit().parts[0].mesh.clone();
     assert_eq!(pin_failures(&evidence), ["pins", "clearance"]);
 }
 
 #[test]
 fn a_missing_socket_is_found_and_the_pin_reaches_into_the_material() {
     let mut evidence = kit_with_pin(PIN, SOCKET, Vector::zeros());
-    evidence.parts[1].mesh = sound().parts[1].mesh.clone();
+    evidence.parts[1].mesh = sound_kit().parts[1].mesh.clone();
     assert_eq!(pin_failures(&evidence), ["pins", "clearance", "overlap"]);
 }
 
@@ -124,7 +124,7 @@ fn a_socket_sunk_aside_leaves_too_small_a_gap() {
 fn kit_with_dowel(made: [f64; 2]) -> Evidence {
     let mut evidence = kit_with_pin(PIN, SOCKET, Vector::zeros());
     let below = &mut evidence.parts[0];
-    let whole = sound().parts.remove(0);
+    let whole = sound_kit().parts.remove(0);
     let body = Csg::of_mesh(&whole.mesh.map_vertices(|p| whole.pose.to_model(p))).unwrap();
     let hole = rod(made[0], [made[1], 0.5]);
     let body = body.subtract(&Csg::of_mesh(&hole).unwrap()).unwrap();

@@ -7,7 +7,7 @@ use super::split::{Voids, split_into_voids};
 use crate::base::watch::Watch;
 use crate::geom::{Aabb, Bvh, Frame, Point, Quadric};
 use crate::mesh::{Csg, MeshDistance, Solid, TriMesh, bodies, primitives};
-use crate::repair::unfolded;
+use crate::repair::unfold;
 
 /// The cavity: the whole region that may be emptied.
 ///
@@ -58,7 +58,7 @@ impl Cavity {
     /// Each place is a point and a box. Of the bodies of the cavity inside the box, the one that
     /// holds the point is taken, or else the nearest one. The mesh is empty if the cavity reaches
     /// into none of the boxes.
-    pub fn parts_about(&self, places: &[(Point, Aabb)]) -> Result<TriMesh, VoidError> {
+    pub fn parts_near(&self, places: &[(Point, Aabb)]) -> Result<TriMesh, VoidError> {
         let mut all = Csg::of_mesh(&TriMesh::default())?;
         for (at, within) in places {
             let within = Csg::of_mesh(&primitives::cuboid(&within.min, &within.max))?;
@@ -102,10 +102,10 @@ impl Cavity {
 
 /// Returns the void without the slivers that the rounding of a file would fold.
 ///
-/// Slivers are collapsed; folds that are left are mended by [`unfolded`]. No point of the surface
+/// Slivers are collapsed; folds that are left are mended by [`unfold`]. No point of the surface
 /// moves by more than 2e-5 mm, except at those folds.
 pub fn without_slivers(void: &Solid) -> Result<Solid, VoidError> {
-    Ok(Solid::new(unfolded(
+    Ok(Solid::new(unfold(
         &Csg::of_solid(void)?.without_slivers().to_mesh()?,
     ))?)
 }

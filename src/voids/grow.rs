@@ -22,7 +22,7 @@ const STRAY_RATIO: f64 = 0.4;
 ///
 /// A void too small for one quadric can so be kept solid for all quadrics that differ little. The
 /// margin must exceed the distance by which surfaces move when the quadric is solved for again.
-pub fn grown(bodies: &TriMesh, margin_mm: f64) -> Result<TriMesh, VoidError> {
+pub fn grow_bodies(bodies: &TriMesh, margin_mm: f64) -> Result<TriMesh, VoidError> {
     let surface = Bvh::new(bodies.iter_corners());
     let coarse_mm = COARSE_RATIO * margin_mm;
     let field = WallField {
@@ -60,7 +60,7 @@ mod tests {
     fn a_grown_body_clears_the_body_by_about_the_margin() {
         let bodies =
             block([0.0; 3], [8.0, 0.2, 5.0]).joined(&ball(Point::new(4.0, 6.0, 2.0), 1.0, 3));
-        let grown = grown(&bodies, 0.3).unwrap();
+        let grown = grow_bodies(&bodies, 0.3).unwrap();
         let distance = MeshDistance::new(&bodies);
         for p in grown.vertices() {
             // Vertices lie on the surface itself; triangles sag by up to four tenths.

@@ -41,6 +41,6 @@ mod tests;
 
 pub use cavity::{Cavity, without_slivers};
 pub use error::VoidError;
-pub use grow::grown;
+pub use grow::grow_bodies;
 pub use offset::CavitySpec;
 pub use split::Voids;

@@ -13,15 +13,15 @@ pub struct Voids {
     pub bodies: Vec<Solid>,
     /// The voids left solid because no ball of the minimum diameter fits into them, as bodies of
     /// air, in descending order of volume.
-    pub refused: Vec<TriMesh>,
+    pub too_small: Vec<TriMesh>,
     /// Volume of the material that would have floated loose in the voids and was emptied too, mm³.
-    pub emptied_mm3: f64,
+    pub loose_mm3: f64,
 }
 
 impl Voids {
     /// Returns the volume of the voids that are left solid because they are too small, mm³.
-    pub fn refused_mm3(&self) -> f64 {
-        self.refused.iter().map(TriMesh::signed_volume_mm3).sum()
+    pub fn too_small_mm3(&self) -> f64 {
+        self.too_small.iter().map(TriMesh::signed_volume_mm3).sum()
     }
 }
 
@@ -62,10 +62,10 @@ pub(super) fn split_into_voids(parts: &TriMesh, min_void_mm: f64) -> Result<Void
             voids.bodies.push(Solid::new(body)?);
             islands.extend(loose);
         } else {
-            voids.refused.push(body);
+            voids.too_small.push(body);
         }
     }
-    voids.emptied_mm3 = islands
+    voids.loose_mm3 = islands
         .iter()
         .map(|island| island.signed_volume_mm3().abs())
         .sum();
@@ -106,7 +106,7 @@ mod tests {
         assert_eq!(voids.bodies.len(), 1);
         assert!((voids.bodies[0].mesh().signed_volume_mm3() - 512.0).abs() < 1e-9);
         let ball_mm3 = ball(center, 2.0, 3).signed_volume_mm3();
-        assert!((voids.emptied_mm3 - ball_mm3).abs() < 1e-9);
+        assert!((voids.loose_mm3 - ball_mm3).abs() < 1e-9);
     }
 
     #[test]
@@ -124,7 +124,7 @@ mod tests {
     fn a_void_that_holds_no_ball_of_the_minimum_is_left_solid() {
         let parts = block([0.0; 3], [8.0; 3]).joined(&block([10.0, 0.0, 0.0], [11.0, 8.0, 8.0]));
         let voids = split_into_voids(&parts, 2.0).unwrap();
-        assert_eq!((voids.bodies.len(), voids.refused.len()), (1, 1));
-        assert!((voids.refused_mm3() - 64.0).abs() < 1e-9);
+        assert_eq!((voids.bodies.len(), voids.too_small.len()), (1, 1));
+        assert!((voids.too_small_mm3() - 64.0).abs() < 1e-9);
     }
 }

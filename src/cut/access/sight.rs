@@ -294,7 +294,7 @@ impl Walls {
             && sight.is_before(eye, at)
             && !self
                 .bvh
-                .is_crossed_by(&eye.at, &(eye.at + line * TESTED_LINE_RATIO))
+                .crosses_segment(&eye.at, &(eye.at + line * TESTED_LINE_RATIO))
     }
 }
 

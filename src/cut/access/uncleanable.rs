@@ -7,7 +7,7 @@ use crate::{
         access::{
             chamber::Chamber,
             sight::Visibility,
-            void_access::{Mouths, Opened, VoidAccess, asked_ratio},
+            void_access::{Mouths, Opened, VoidAccess, required_sight_ratio},
         },
         error::CutError,
         geometry::tree::CutTree,
@@ -55,7 +55,7 @@ pub struct Unclean {
 
 /// Returns the voids that cannot be cleaned with this plan, with the bodies to keep solid in each.
 /// Seats for parts are left out. With `whole`, each such void is kept solid entirely.
-pub fn unclean(
+pub fn find_unclean(
     hollowed: &Hollowed,
     plan: &CutPlan,
     request: &PlanRequest,
@@ -75,7 +75,8 @@ pub fn unclean(
     };
     let of = |access: &&VoidAccess| {
         let opened = Opened::new(&chambers, access.void, &tree, request);
-        let (void, needed_mm, required) = (opened.void, opened.needed_mm, asked_ratio(request));
+        let (void, needed_mm, required) =
+            (opened.void, opened.needed_mm, required_sight_ratio(request));
         let solid = if whole {
             vec![opened.chamber.void.mesh().clone()]
         } else {
@@ -103,7 +104,7 @@ pub fn unclean(
 
 /// Returns the voids that no cut meets, each to be kept solid entirely. Seats for parts are left
 /// out.
-pub fn closed(hollowed: &Hollowed, cuts: &[Cut]) -> Result<Vec<Unclean>, CutError> {
+pub fn find_closed(hollowed: &Hollowed, cuts: &[Cut]) -> Result<Vec<Unclean>, CutError> {
     let tree = tree_of(cuts)?;
     let voids = hollowed.voids.iter().enumerate();
     let voids = voids.map(|(index, void)| (VoidId::of(index), void));
@@ -130,7 +131,7 @@ pub fn closed(hollowed: &Hollowed, cuts: &[Cut]) -> Result<Vec<Unclean>, CutErro
 /// parts at such a joint, the one with less empty volume is taken. Each end is the box around a
 /// void's piece in that part, grown by a margin (mm). If these ends are kept solid, the joint gains
 /// material for pins or is no longer needed. Seats for parts are left out.
-pub fn beyond(
+pub fn find_ends_beyond_unpinned_joints(
     hollowed: &Hollowed,
     plan: &CutPlan,
     margin_mm: f64,
@@ -235,7 +236,8 @@ fn bodies_to_keep_solid(opened: &Opened) -> Result<Vec<TriMesh>, CutError> {
     }
     hidden.sort_by(|a, b| b.0.area_mm2.total_cmp(&a.0.area_mm2));
     let mut hidden_mm2: f64 = hidden.iter().map(|(patch, ..)| patch.area_mm2).sum();
-    let allowed_mm2 = ALLOWED_HIDDEN_RATIO * (1.0 - asked_ratio(opened.request)) * wall_mm2;
+    let allowed_mm2 =
+        ALLOWED_HIDDEN_RATIO * (1.0 - required_sight_ratio(opened.request)) * wall_mm2;
     for end in cheapest_ends(&hidden)? {
         if hidden_mm2 <= allowed_mm2 {
             break;
@@ -388,7 +390,7 @@ mod tests {
     fn the_far_end_of_an_arm_must_be_solid() {
         let (hollowed, request, order) = bent();
         let plan = plan_by(&hollowed, &request, &order).unwrap();
-        let found = unclean(&hollowed, &plan, &request, false).unwrap();
+        let found = find_unclean(&hollowed, &plan, &request, false).unwrap();
         assert_eq!(
             (found.len(), found[0].lumps.len()),
             (1, 1),
@@ -398,7 +400,7 @@ mod tests {
         let lump = found[0].lumps[0].aabb();
         assert!(lump.min.x > 6.0 && lump.max.x > 39.0, "{lump:?}");
         assert!(matches!(found[0].cause, UncleanCause::Hidden { .. }));
-        let all = unclean(&hollowed, &plan, &request, true).unwrap();
+        let all = find_unclean(&hollowed, &plan, &request, true).unwrap();
         assert_eq!(all[0].lumps, vec![hollowed.voids[0].mesh().clone()]);
     }
 
@@ -447,7 +449,7 @@ mod tests {
             pins.contains(&0) && pins.iter().any(|&count| count >= 2),
             "{pins:?}"
         );
-        let found = beyond(&hollowed, &plan, 0.0).unwrap();
+        let found = find_ends_beyond_unpinned_joints(&hollowed, &plan, 0.0).unwrap();
         let [end] = found[..] else {
             panic!("{found:?}")
         };
@@ -455,12 +457,17 @@ mod tests {
             [end.low_mm, end.high_mm].map(|corner| corner.map(|mm| (mm * 1e6).round() / 1e6));
         assert_eq!(known, [[-2.5, -2.0, 40.0], [2.5, 2.0, 59.0]]);
         assert!(end.is_sound() && end.at_mm[2] > 58.9, "{end:?}");
-        let wider = beyond(&hollowed, &plan, 2.0 * request.min_opening_mm).unwrap()[0];
+        let wider =
+            find_ends_beyond_unpinned_joints(&hollowed, &plan, 2.0 * request.min_opening_mm)
+                .unwrap()[0];
         assert!((end.low_mm[0] - wider.low_mm[0] - 2.0 * request.min_opening_mm).abs() < 1e-9);
         // With all joints pinned, nothing needs to be kept solid.
         let mut pinned = plan.clone();
         pinned.joints.retain(|joint| joint.is_aligned());
-        assert_eq!(beyond(&hollowed, &pinned, 0.0).unwrap(), vec![]);
+        assert_eq!(
+            find_ends_beyond_unpinned_joints(&hollowed, &pinned, 0.0).unwrap(),
+            vec![]
+        );
     }
 
     #[test]
@@ -472,7 +479,10 @@ mod tests {
         };
         let plan = plan_by(&hollowed, &request, &order).unwrap();
         assert!(plan.voids[0].is_clean);
-        assert_eq!(unclean(&hollowed, &plan, &request, false).unwrap(), vec![]);
+        assert_eq!(
+            find_unclean(&hollowed, &plan, &request, false).unwrap(),
+            vec![]
+        );
     }
 
     #[test]

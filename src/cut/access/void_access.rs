@@ -74,7 +74,7 @@ impl VoidAccess {
     /// sight, and the whole area if something cannot get out. Areas are estimated as those of a
     /// ball of the void's volume.
     pub(crate) fn lack_mm2(&self, request: &PlanRequest) -> f64 {
-        let required = asked_ratio(request);
+        let required = required_sight_ratio(request);
         let closed = if self.is_clean {
             0.0
         } else {
@@ -87,7 +87,7 @@ impl VoidAccess {
     /// for bodies that are solved again only to make up for pins.
     pub fn is_clean_without_margin(&self, request: &PlanRequest) -> bool {
         let least = request.cleaning.sight_ratio + MIN_MARGIN_RATIO;
-        let is_seen = (least..asked_ratio(request)).contains(&self.sight_ratio);
+        let is_seen = (least..required_sight_ratio(request)).contains(&self.sight_ratio);
         self.is_clean || (is_seen && self.opening_mm >= self.least_opening_mm(request))
     }
 
@@ -105,7 +105,7 @@ impl VoidAccess {
 }
 
 /// Returns the share of a wall that the planner requires in sight.
-pub(crate) fn asked_ratio(request: &PlanRequest) -> f64 {
+pub(crate) fn required_sight_ratio(request: &PlanRequest) -> f64 {
     let least = request.cleaning.sight_ratio;
     if least > 0.0 {
         (least + SIGHT_MARGIN_RATIO).min(1.0)
@@ -215,7 +215,7 @@ impl<'a> Opened<'a> {
                 .map(|mouths| mouths.depth_mm)
                 .fold(0.0, f64::max),
             sight_ratio,
-            is_clean: lets_out && sight_ratio >= asked_ratio(self.request),
+            is_clean: lets_out && sight_ratio >= required_sight_ratio(self.request),
             ..VoidAccess::closed(self.void, self.chamber.void)
         })
     }

@@ -22,7 +22,7 @@ const DIMPLE_DEPTH_RATIO: f64 = 1.0;
 /// A plane may divide a void into several pieces (a horseshoe cut near its bend). Every piece
 /// deeper than a dimple must be reached, so the piece with the narrowest mouth counts. A piece with
 /// several mouths is rated by its widest.
-pub(crate) fn opening(void: &TriMesh, plane: &Plane) -> Option<Opening> {
+pub(crate) fn measure_opening(void: &TriMesh, plane: &Plane) -> Option<Opening> {
     let section = Section::of_mesh(void, plane);
     if section.rings.is_empty() {
         return None;

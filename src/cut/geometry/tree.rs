@@ -15,7 +15,7 @@ use crate::{
 
 /// Returns the part of a closed mesh within the half-spaces to which a cut is limited, closed by
 /// caps at their planes.
-pub fn reached(parting: &Parting, mesh: &TriMesh) -> Result<TriMesh, CutError> {
+pub fn clip_to_limits(parting: &Parting, mesh: &TriMesh) -> Result<TriMesh, CutError> {
     if parting.within.is_empty() {
         return Ok(mesh.clone());
     }
@@ -99,7 +99,7 @@ impl CutTree {
 
     /// Returns the tree with one more limit on a cut, inherited by the cuts that it limits. `None`
     /// as in [`CutTree::new`], or if the cut is limited by that other one already.
-    pub(crate) fn kept_to(&self, cut: usize, limit: Limit) -> Option<Self> {
+    pub(crate) fn with_limit(&self, cut: usize, limit: Limit) -> Option<Self> {
         let mut limits = self.limits.clone();
         let is_new = limits[cut].iter().all(|known| known.cut != limit.cut);
         limits[cut].push(limit);
@@ -107,7 +107,7 @@ impl CutTree {
     }
 
     /// Returns the tree with other planes in place of its own.
-    pub(crate) fn moved(&self, planes: Vec<Plane>) -> Self {
+    pub(crate) fn with_planes(&self, planes: Vec<Plane>) -> Self {
         Self {
             planes,
             limits: self.limits.clone(),
@@ -230,7 +230,7 @@ mod tests {
     fn a_limited_cut_leaves_the_other_side_whole() {
         let (tree, body) = two_planes_and_a_cube();
         assert_eq!(tree.cells(&body).unwrap().len(), 4);
-        let kept = tree.kept_to(1, above(0)).unwrap();
+        let kept = tree.with_limit(1, above(0)).unwrap();
         let mut volumes: Vec<f64> = kept
             .cells(&body)
             .unwrap()
@@ -244,7 +244,7 @@ mod tests {
         );
         // The first may be limited to a side of the second, although it comes before it.
         assert_eq!(
-            tree.kept_to(0, above(1))
+            tree.with_limit(0, above(1))
                 .unwrap()
                 .cells(&body)
                 .unwrap()
@@ -269,7 +269,7 @@ mod tests {
         };
         let beyond = cuboid([-10.0; 3], [-5.0, 10.0, 10.0]);
         assert!(
-            reached(&parting, beyond.mesh())
+            clip_to_limits(&parting, beyond.mesh())
                 .unwrap()
                 .triangles()
                 .is_empty()
@@ -305,10 +305,10 @@ mod tests {
     #[test]
     fn cuts_that_limit_each_other_are_refused() {
         let (tree, _) = two_planes_and_a_cube();
-        let kept = tree.kept_to(1, above(0)).unwrap();
-        assert!(kept.kept_to(0, above(1)).is_none() && kept.kept_to(1, above(1)).is_none());
+        let kept = tree.with_limit(1, above(0)).unwrap();
+        assert!(kept.with_limit(0, above(1)).is_none() && kept.with_limit(1, above(1)).is_none());
         assert!(
-            kept.kept_to(
+            kept.with_limit(
                 1,
                 Limit {
                     cut: 0,
@@ -328,9 +328,9 @@ mod tests {
             offset_mm: 0.0,
         });
         let tree = CutTree::everywhere(&planes)
-            .kept_to(1, above(0))
+            .with_limit(1, above(0))
             .unwrap()
-            .kept_to(2, above(1))
+            .with_limit(2, above(1))
             .unwrap();
         let acts = |x: f64, y: f64| tree.acts_at(2, &Point::new(x, y, 0.0));
         assert!(acts(1.0, 1.0) && !acts(1.0, -1.0));
@@ -344,7 +344,7 @@ mod tests {
         assert!(
             last.acts_at(&Point::new(1.0, 1.0, 0.0)) && !last.acts_at(&Point::new(-1.0, 1.0, 0.0))
         );
-        let reached = reached(&last, cuboid([-10.0; 3], [10.0; 3]).mesh()).unwrap();
+        let reached = clip_to_limits(&last, cuboid([-10.0; 3], [10.0; 3]).mesh()).unwrap();
         assert!((reached.signed_volume_mm3() - 2000.0).abs() < 1e-9);
     }
 }

@@ -14,7 +14,7 @@ use crate::{
 
 /// Request for bosses.
 #[derive(Debug, Clone, Copy)]
-pub struct BossOrder<'a> {
+pub struct BossRequest<'a> {
     /// The body with its current voids.
     pub hollowed: &'a Hollowed,
     /// The request that the plan answers.

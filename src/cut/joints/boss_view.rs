@@ -6,11 +6,11 @@ use rayon::prelude::*;
 
 use crate::{
     cut::{
-        access::{chamber::Chamber, sight::Sightlines, void_access::asked_ratio},
+        access::{chamber::Chamber, sight::Sightlines, void_access::required_sight_ratio},
         error::CutError,
         geometry::{
-            opening::opening,
-            tree::{CutTree, reached},
+            opening::measure_opening,
+            tree::{CutTree, clip_to_limits},
         },
         hollowed::Hollowed,
         request::PlanRequest,
@@ -96,7 +96,7 @@ impl<'a> BossView<'a> {
 
 impl<'a> View<'a> {
     fn new(chamber: Chamber<'a>, tree: &CutTree, request: &PlanRequest) -> Self {
-        let required = asked_ratio(request);
+        let required = required_sight_ratio(request);
         let lines = if required > 0.0 {
             chamber.sightlines(tree, request)
         } else {
@@ -132,8 +132,8 @@ impl<'a> View<'a> {
         for piece in bodies(&rest) {
             let mut is_open = piece.signed_volume_mm3() < crumb_mm3;
             for parting in tree.partings() {
-                let region = reached(&parting, &piece)?;
-                is_open |= opening(&region, &parting.plane)
+                let region = clip_to_limits(&parting, &piece)?;
+                is_open |= measure_opening(&region, &parting.plane)
                     .is_some_and(|o| o.diameter_mm >= self.min_opening_mm);
             }
             if !is_open {
@@ -254,7 +254,7 @@ mod tests {
         assert!((hidden[0] - expected).abs() < 0.02, "{hidden:?} {expected}");
         let lack_mm2 = view.shortfall_mm2(&[&hidden]);
         // Everything was visible: bosses may hide 5 % less both margins.
-        let spare = 1.0 - asked_ratio(&request) - SPARE_RATIO;
+        let spare = 1.0 - required_sight_ratio(&request) - SPARE_RATIO;
         assert!(
             (lack_mm2 - (hidden[0] - spare) * 4000.0).abs() < 1.0,
             "{lack_mm2}"

@@ -12,7 +12,7 @@ use crate::{
             outline::Outline,
         },
         joints::{
-            boss::{Boss, BossOrder, JointName},
+            boss::{Boss, BossRequest, JointName},
             boss_maker::{BossMaker, MARGIN_MM, PinAxis},
             boss_places::{Cost, OpenPairs, Site, best_pairs, grid},
             boss_view::BossView,
@@ -24,7 +24,7 @@ use crate::{
         },
         order::CutOrder,
         pieces::{
-            rejoin::rejoined,
+            rejoin::rejoin,
             split::{Joint, joints, split},
         },
         plan::{JointNote, bridges_on, index_of},
@@ -44,7 +44,7 @@ const PRICED_PLACES: usize = 300;
 ///
 /// The axis of every boss keeps the wall thickness from the outside, pockets, other cuts and other
 /// pins.
-pub fn bosses(order: &BossOrder) -> Result<Vec<Boss>, CutError> {
+pub fn bosses(order: &BossRequest) -> Result<Vec<Boss>, CutError> {
     if order.ordered.is_none() && order.plan.joints.iter().all(JointNote::is_aligned) {
         return Ok(Vec::new());
     }
@@ -52,7 +52,7 @@ pub fn bosses(order: &BossOrder) -> Result<Vec<Boss>, CutError> {
     let tree = order.plan.tree()?;
     let bridges = bridges_on(&tree.planes, &own.cuts, &own.uncut);
     let material = order.hollowed.to_mesh();
-    let pieces = rejoined(split(&material, &tree)?, &tree, &bridges)?;
+    let pieces = rejoin(split(&material, &tree)?, &tree, &bridges)?;
     let filled = order.hollowed.without_empty_voids().to_mesh();
     let scene = |material| PinScene {
         request: order.request,
@@ -76,7 +76,7 @@ pub fn bosses(order: &BossOrder) -> Result<Vec<Boss>, CutError> {
 }
 
 struct Search<'a> {
-    order: &'a BossOrder<'a>,
+    order: &'a BossRequest<'a>,
     /// The body with its voids.
     hollow: &'a PinScene<'a>,
     /// The body with its voids filled.

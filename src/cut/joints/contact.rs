@@ -30,7 +30,7 @@ pub(crate) fn contact<'a>(
 
 /// Updates the joints' faces in a plan to those between these pieces, after the body was solved
 /// again.
-pub(crate) fn refaced(pieces: &[Piece], tree: &CutTree, mut plan: CutPlan) -> CutPlan {
+pub(crate) fn update_faces(pieces: &[Piece], tree: &CutTree, mut plan: CutPlan) -> CutPlan {
     for joint in joints(pieces, tree) {
         let (cut, parts) = (&plan.cuts[joint.cut].id, joint.parts());
         let Some(note) = plan

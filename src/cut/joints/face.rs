@@ -8,7 +8,7 @@ use crate::{
         joints::{
             pattern::Peg,
             pin_shape::PinSite,
-            pin_size::{Size, needed_room_mm, reach_mm},
+            pin_size::{Size, min_room_mm, reach_mm},
             placement::{Facing, PinScene, Placement, is_confused},
             rod::{Dowel, Rod},
         },
@@ -275,7 +275,7 @@ pub(crate) fn face_points(scene: &PinScene, joint: &Joint) -> (Vec<(Point2, f64)
             widest_mm = widest_mm.max(2.0 * disc.radius_mm);
             points.push((disc.center, disc.radius_mm));
         }
-        let needed = needed_room_mm(scene.request) / 2.0;
+        let needed = min_room_mm(scene.request) / 2.0;
         if widest_mm / 2.0 >= needed {
             let pitch = (cap.area_mm2 / PLACES_PER_JOINT).sqrt().max(MIN_PITCH_MM);
             points.extend(grid(cap, pitch).filter(|(_, distance)| *distance >= needed));

@@ -79,7 +79,7 @@ impl PinSite {
 
     /// Returns the printed body that protrudes from the cut face, as a closed mesh; empty for a
     /// dowel.
-    pub fn standing_out(&self) -> TriMesh {
+    pub fn protruding_body(&self) -> TriMesh {
         if self.dowel.is_some() {
             TriMesh::default()
         } else {
@@ -88,18 +88,18 @@ impl PinSite {
     }
 
     /// Returns the material that the socket removes, as a closed mesh.
-    pub fn taken_away(&self) -> TriMesh {
+    pub fn removed_body(&self) -> TriMesh {
         self.revolve(&self.socket_profile())
     }
 
     /// Returns the volume that protrudes from the cut face, mm³; 0 for a dowel.
     pub fn pin_volume_mm3(&self) -> f64 {
-        self.standing_out().signed_volume_mm3()
+        self.protruding_body().signed_volume_mm3()
     }
 
     /// Returns the volume that the socket removes, mm³.
     pub fn socket_volume_mm3(&self) -> f64 {
-        self.taken_away().signed_volume_mm3()
+        self.removed_body().signed_volume_mm3()
     }
 
     /// Returns the triangles of the socket's mouth in the cut.

@@ -104,7 +104,7 @@ fn round_up(value: f64, step: f64) -> f64 {
 }
 
 /// Returns the diameter of the disc of material that the thinnest pin's socket needs, mm.
-pub(crate) fn needed_room_mm(request: &PlanRequest) -> f64 {
+pub(crate) fn min_room_mm(request: &PlanRequest) -> f64 {
     let rooms = size_pairs(request)
         .into_iter()
         .flatten()

@@ -35,7 +35,7 @@ pub(crate) enum Pins<'a> {
 
 /// Returns the pins of every joint, in the order of the joints. Fails if an ordered pin lies on no
 /// joint.
-pub(crate) fn pinned(
+pub(crate) fn place_pins(
     scene: &PinScene,
     joints: &[Joint],
     pins: Pins,

@@ -24,12 +24,12 @@ fn order_of<'a>(
     plan: &'a CutPlan,
     price: Quadric,
     request: &'a PlanRequest,
-) -> BossOrder<'a> {
+) -> BossRequest<'a> {
     let price = MaterialPrice {
         quadric: price,
         frame: crate::geom::Frame::identity(),
     };
-    BossOrder {
+    BossRequest {
         hollowed,
         request,
         plan,
@@ -116,7 +116,7 @@ fn two_pins_that_close_the_void_are_found_if_no_place_leaves_it_open() {
     // A joint that was given up gets no bosses.
     let given_up = [found[0].joint()];
     assert_eq!(
-        bosses(&BossOrder {
+        bosses(&BossRequest {
             given_up: &given_up,
             ..order
         })
@@ -155,7 +155,7 @@ fn ordered_pins_in_air_get_bosses_and_no_others_do() {
         frame: crate::geom::Frame::identity(),
     };
     let count_bosses = |pins: &[PinSite]| {
-        let order = BossOrder {
+        let order = BossRequest {
             hollowed: &body,
             request: &request(),
             plan: &plan,

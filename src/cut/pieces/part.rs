@@ -12,10 +12,10 @@ use crate::{
         geometry::{chart::Chart, tree::CutTree},
         hollowed::Hollowed,
         ids::{PartId, VoidId},
-        joints::{contact::refaced, label::Label, pin_shape::PinSite},
+        joints::{contact::update_faces, label::Label, pin_shape::PinSite},
         pieces::{
-            pose::{Pose, laid, sides_down},
-            rejoin::rejoined,
+            pose::{Pose, choose_pose, sides_down},
+            rejoin::rejoin,
             split::{Piece, check_no_cavity, piece_at, split},
         },
         plan::{CutPlan, index_of},
@@ -106,7 +106,7 @@ fn make_parts(
         request,
     };
     let parts = maker.make_parts(&pieces)?;
-    Ok((parts, refaced(&pieces, &tree, plan.clone())))
+    Ok((parts, update_faces(&pieces, &tree, plan.clone())))
 }
 
 /// Returns the pieces that the plan leaves. If there are cuts, a piece with a closed cavity is an
@@ -117,7 +117,7 @@ pub(crate) fn pieces(
     tree: &CutTree,
 ) -> Result<Vec<Piece>, CutError> {
     let bridges = plan.bridges(&tree.planes);
-    let pieces = rejoined(split(&hollowed.to_mesh(), tree)?, tree, &bridges)?;
+    let pieces = rejoin(split(&hollowed.to_mesh(), tree)?, tree, &bridges)?;
     if !tree.planes.is_empty() {
         check_no_cavity(&pieces)?;
     }
@@ -168,7 +168,7 @@ impl PartMaker<'_> {
             let solid = add_pins_and_sockets(piece, (&pins, &sockets), &labels)?;
             Ok(Part {
                 id: PartId::of(index),
-                pose: laid(
+                pose: choose_pose(
                     solid.mesh(),
                     &sides_down(piece, planes, &pin_cuts, request),
                     request,

@@ -124,7 +124,7 @@ pub(crate) fn sides_down(
 
 /// Returns the pose of the mesh on the first of `sides` (at least one) with which it fits the build
 /// volume. If none fits, returns the pose on the first of all.
-pub(crate) fn laid(mesh: &TriMesh, sides: &[Underside], request: &PlanRequest) -> Pose {
+pub(crate) fn choose_pose(mesh: &TriMesh, sides: &[Underside], request: &PlanRequest) -> Pose {
     let mut choices = sides
         .iter()
         .flat_map(|side| TURNS_DEG.map(|turn| (side, turn)));
@@ -135,7 +135,7 @@ pub(crate) fn laid(mesh: &TriMesh, sides: &[Underside], request: &PlanRequest) -
 
 /// Returns whether the piece fits the build volume in some pose.
 pub(crate) fn fits(piece: &Piece, planes: &[Plane], request: &PlanRequest) -> bool {
-    laid(
+    choose_pose(
         &piece.mesh,
         &sides_down(piece, planes, &[], request),
         request,

@@ -11,7 +11,7 @@ use crate::{
         },
         hollowed::Hollowed,
         pieces::{
-            pose::{laid, sides_down},
+            pose::{choose_pose, sides_down},
             split::{Cap, Joint, Piece, joints, piece, piece_at, sort_pieces},
         },
         plan::Bridge,
@@ -19,7 +19,7 @@ use crate::{
     },
     geom::{Plane, Point},
     mesh::{Csg, Solid, TriMesh, union_find::UnionFind},
-    repair::sewn,
+    repair::sew,
 };
 use rayon::prelude::*;
 
@@ -63,7 +63,7 @@ impl Cutting<'_> {
 ///
 /// The smallest pieces are tried first. A piece that others stay joined to is not joined to a
 /// third.
-pub(crate) fn bridges(cutting: &Cutting, pieces: &[Piece]) -> Vec<Bridge> {
+pub(crate) fn find_bridges(cutting: &Cutting, pieces: &[Piece]) -> Vec<Bridge> {
     let joints = joints(pieces, cutting.tree);
     if joints.len() < 2 {
         return Vec::new();
@@ -97,7 +97,7 @@ pub(crate) fn bridges(cutting: &Cutting, pieces: &[Piece]) -> Vec<Bridge> {
 
 /// Returns the pieces, with those united that meet at a bridge. A bridge on no cut face changes
 /// nothing.
-pub(crate) fn rejoined(
+pub(crate) fn rejoin(
     pieces: Vec<Piece>,
     tree: &CutTree,
     bridges: &[Bridge],
@@ -180,7 +180,7 @@ fn lets_others_out(cutting: &Cutting, pieces: &[Piece], joint: &Joint, index: us
 
 fn fits_together(cutting: &Cutting, a: &Piece, b: &Piece) -> bool {
     let both = a.mesh.clone().joined(&b.mesh);
-    laid(
+    choose_pose(
         &both,
         &sides_down(b, &cutting.tree.planes, &[], cutting.request),
         cutting.request,
@@ -227,7 +227,7 @@ fn stitch(members: &[Piece], bridges: &[Bridge]) -> Option<TriMesh> {
     let all = members.iter().try_fold(TriMesh::default(), |all, member| {
         Some(all.joined(&open(member)?))
     })?;
-    Some(Solid::new(sewn(&all, SEAM_TOLERANCE_MM)).ok()?.into_mesh())
+    Some(Solid::new(sew(&all, SEAM_TOLERANCE_MM)).ok()?.into_mesh())
 }
 
 /// Returns the union of the members. The smaller ones are united first, which is cheap.
@@ -359,7 +359,7 @@ mod tests {
             offset_mm: 15.0,
         }]);
         let pieces = split(&hollowed.to_mesh(), &tree).unwrap();
-        let bridges = bridges(
+        let bridges = find_bridges(
             &Cutting {
                 hollowed,
                 tree: &tree,
@@ -367,7 +367,7 @@ mod tests {
             },
             &pieces,
         );
-        (pieces.len(), rejoined(pieces, &tree, &bridges).unwrap())
+        (pieces.len(), rejoin(pieces, &tree, &bridges).unwrap())
     }
 
     #[test]
@@ -422,7 +422,7 @@ mod tests {
         let slanted = Plane::through(&Point::new(46.0, 0.0, 0.0), &Vector::new(1.0, 0.5, 0.0));
         let tree = CutTree::everywhere(&[level, slanted]);
         let pieces = split(&hollowed.to_mesh(), &tree).unwrap();
-        let bridges = bridges(
+        let bridges = find_bridges(
             &Cutting {
                 hollowed: &hollowed,
                 tree: &tree,
@@ -430,7 +430,7 @@ mod tests {
             },
             &pieces,
         );
-        let remaining = rejoined(pieces.clone(), &tree, &bridges).unwrap();
+        let remaining = rejoin(pieces.clone(), &tree, &bridges).unwrap();
         assert_eq!((pieces.len(), remaining.len()), (5, 4));
     }
 

@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use crate::{
     cut::{
-        access::void_access::{Opened, VoidAccess, access, accesses, asked_ratio},
+        access::void_access::{Opened, VoidAccess, access, accesses, required_sight_ratio},
         error::CutError,
         geometry::tree::CutTree,
         ids::{CutId, VoidId},
@@ -13,7 +13,7 @@ use crate::{
     },
     geom::{Matrix, Plane, Point, Vector, orthonormal_basis},
     mass::{Body, moments_of_mesh},
-    mesh::off_vertices,
+    mesh::move_off_vertices,
 };
 
 /// Greatest number of cuts added for visibility. A void that still hides something is winding: more
@@ -52,7 +52,7 @@ impl Attempt {
     pub(crate) fn new(scene: &Scene, planes: &[Plane]) -> Result<Self, CutError> {
         let planes: Vec<Plane> = planes
             .iter()
-            .map(|plane| off_vertices(&scene.material, plane))
+            .map(|plane| move_off_vertices(&scene.material, plane))
             .collect();
         let voids = accesses(
             &scene.chambers,
@@ -84,7 +84,7 @@ impl Attempt {
     /// Returns true if no void lacks more than the planner's margin of sight. Keeping that much
     /// solid costs less than a joint.
     fn is_nearly_clean(&self, scene: &Scene) -> bool {
-        let margin = scene.request.cleaning.sight_ratio..asked_ratio(scene.request);
+        let margin = scene.request.cleaning.sight_ratio..required_sight_ratio(scene.request);
         self.voids
             .iter()
             .all(|void| void.is_clean || margin.contains(&void.sight_ratio))
@@ -146,7 +146,7 @@ fn meets(scene: &Scene, void: VoidId, plane: &Plane) -> bool {
 /// Estimates the share of a void's wall that lacks sight with these cuts; 0 if no sight is
 /// required.
 fn estimate_lack_ratio(scene: &Scene, void: VoidId, planes: &[Plane]) -> f64 {
-    let required = asked_ratio(scene.request);
+    let required = required_sight_ratio(scene.request);
     if required == 0.0 {
         return 0.0;
     }
@@ -273,7 +273,7 @@ fn add_best_cut(scene: &Scene, attempt: &Attempt) -> Result<Option<Attempt>, Cut
     estimated.truncate(MEASURED_CUTS);
     let more = estimated
         .par_iter()
-        .map(|(_, plane)| attempt.with(scene, off_vertices(&scene.material, plane)));
+        .map(|(_, plane)| attempt.with(scene, move_off_vertices(&scene.material, plane)));
     let mut more = more.collect::<Result<Vec<Attempt>, _>>()?;
     more.sort_by(|a, b| a.lack_mm2.total_cmp(&b.lack_mm2));
     let Some(least_mm2) = more.first().map(|best| best.lack_mm2) else {

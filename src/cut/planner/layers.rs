@@ -9,8 +9,8 @@ use crate::{
         ids::{CutId, PartId},
         joints::{pin_shape::PinSite, pins::Pins},
         pieces::{
-            pose::{apply, laid, sides_down},
-            rejoin::rejoined,
+            pose::{apply, choose_pose, sides_down},
+            rejoin::rejoin,
             split::check_no_cavity,
         },
         plan::{CutMove, CutPlan},
@@ -19,7 +19,7 @@ use crate::{
         request::PlanRequest,
     },
     geom::{Plane, Vector},
-    mesh::off_vertices,
+    mesh::move_off_vertices,
 };
 
 /// Least cosine between the vertical and the normal of a level face. Over 100 mm, such a face rises
@@ -62,7 +62,7 @@ pub(crate) fn snap_to_layers(
     let mut planes = layout.tree.planes.clone();
     for (cut, _, moved_mm) in &moves {
         let plane = planes[*cut];
-        planes[*cut] = off_vertices(
+        planes[*cut] = move_off_vertices(
             &scene.material,
             &Plane {
                 offset_mm: plane.offset_mm + moved_mm,
@@ -129,7 +129,7 @@ fn levels(request: &PlanRequest, layout: &Layout, plan: &CutPlan, part: usize) -
     let piece = &layout.pieces[part];
     let pin_cuts = pin_cuts(layout, plan, part);
     let sides = sides_down(piece, &layout.tree.planes, &pin_cuts, request);
-    let motion = laid(&piece.mesh, &sides, request).print_from_model;
+    let motion = choose_pose(&piece.mesh, &sides, request).print_from_model;
     let mut levels: Vec<Level> = Vec::new();
     for cap in &piece.caps {
         let plane = &layout.tree.planes[cap.cut];
@@ -187,8 +187,8 @@ fn move_planes(
     layout: &Layout,
     planes: Vec<Plane>,
 ) -> Result<Option<Layout>, CutError> {
-    let tree = layout.tree.moved(planes);
-    let Ok(pieces) = rejoined(scene.split(&tree)?, &tree, &layout.bridges) else {
+    let tree = layout.tree.with_planes(planes);
+    let Ok(pieces) = rejoin(scene.split(&tree)?, &tree, &layout.bridges) else {
         return Ok(None);
     };
     if pieces.len() != layout.pieces.len() || check_no_cavity(&pieces).is_err() {

@@ -6,7 +6,7 @@ use crate::{
         error::CutError,
         geometry::tree::CutTree,
         pieces::{
-            rejoin::{Cutting, bridges, rejoined},
+            rejoin::{Cutting, find_bridges, rejoin},
             split::{Piece, check_no_cavity},
         },
         plan::Bridge,
@@ -44,8 +44,8 @@ impl Layout {
             tree: &tree,
             request: scene.request,
         };
-        let bridges = bridges(&cutting, &parted);
-        let pieces = rejoined(parted.clone(), &tree, &bridges)?;
+        let bridges = find_bridges(&cutting, &parted);
+        let pieces = rejoin(parted.clone(), &tree, &bridges)?;
         // Pieces that stay joined must not seal an opening.
         let (pieces, bridges) = if check_no_cavity(&pieces).is_ok() {
             (pieces, bridges)

@@ -60,7 +60,7 @@ pub(crate) fn limit_cuts(
 impl LimitedCuts {
     /// Returns the cuts with one more limit, or `None` if that is no better.
     fn with(&self, scene: &Scene, cut: usize, limit: Limit) -> Result<Option<Self>, CutError> {
-        let Some(tree) = self.tree.kept_to(cut, limit) else {
+        let Some(tree) = self.tree.with_limit(cut, limit) else {
             return Ok(None);
         };
         // Cuts that are limited to a side of this one are also made in fewer places.
@@ -224,7 +224,7 @@ mod tests {
         };
         let tree = CutTree::everywhere(&[across, along, upright]);
         let tree = tree
-            .kept_to(
+            .with_limit(
                 1,
                 Limit {
                     cut: 0,
@@ -233,7 +233,7 @@ mod tests {
             )
             .unwrap();
         let tree = tree
-            .kept_to(
+            .with_limit(
                 2,
                 Limit {
                     cut: 0,

@@ -24,7 +24,7 @@ use crate::{
         ids::CutId,
         joints::pins::Pins,
         order::CutOrder,
-        pieces::{pose::fits, rejoin::rejoined, split::Piece},
+        pieces::{pose::fits, rejoin::rejoin, split::Piece},
         plan::{Cut, CutPlan, bridges_on, tree_of},
         planner::{
             extra::{Attempt, add_extra_cuts, cleanest},
@@ -39,7 +39,7 @@ use crate::{
         side::CutSide,
     },
     geom::{Plane, Point, Vector},
-    mesh::{off_faces, off_vertices},
+    mesh::{move_off_faces, move_off_vertices},
 };
 
 /// Greatest number of extra cuts that make parts fit the build volume.
@@ -111,11 +111,11 @@ fn plan_ordered(
     let cuts = order
         .cuts
         .iter()
-        .map(|cut| move_off_faces(&scene, cut))
+        .map(|cut| move_cut_off_faces(&scene, cut))
         .collect::<Result<Vec<_>, CutError>>()?;
     let (tree, numbered) = (tree_of(&cuts)?, order.numbered());
     let bridges = bridges_on(&tree.planes, &numbered.cuts, &numbered.uncut);
-    let pieces = rejoined(scene.split(&tree)?, &tree, &bridges)?;
+    let pieces = rejoin(scene.split(&tree)?, &tree, &bridges)?;
     let voids = accesses(&scene.chambers, &tree, request)?;
     let pins = match (&numbered.pins, unordered) {
         (None, _) => Pins::Placed,
@@ -140,9 +140,9 @@ fn plan_ordered(
 }
 
 /// Returns the cut as ordered, or moved off faces of which it would leave a thin sheet.
-fn move_off_faces(scene: &Scene, cut: &Cut) -> Result<Cut, CutError> {
+fn move_cut_off_faces(scene: &Scene, cut: &Cut) -> Result<Cut, CutError> {
     let plane = cut.plane()?;
-    let moved_mm = off_faces(&scene.material, &plane).offset_mm - plane.offset_mm;
+    let moved_mm = move_off_faces(&scene.material, &plane).offset_mm - plane.offset_mm;
     let point_mm = if moved_mm == 0.0 {
         cut.point_mm
     } else {
@@ -162,7 +162,7 @@ enum UnorderedJoints {
 
 /// Returns the plan with its voids measured again on a body that was solved again. Volumes,
 /// openings, depths and visible shares change; cuts, pins and joints stay.
-pub fn plan_of(
+pub fn measure_voids_again(
     hollowed: &Hollowed,
     plan: CutPlan,
     request: &PlanRequest,
@@ -242,7 +242,7 @@ fn fit_build_volume(
         };
         let aabb = piece.mesh.aabb();
         let middle = Plane::through(&aabb.center(), &Vector::ith(aabb.size().imax(), 1.0));
-        let middle = off_vertices(&scene.material, &middle);
+        let middle = move_off_vertices(&scene.material, &middle);
         let planes: Vec<Plane> = layout.tree.planes.iter().copied().chain([middle]).collect();
         let voids = accesses(
             &scene.chambers,

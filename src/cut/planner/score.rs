@@ -26,13 +26,13 @@ use crate::{
         access::chamber::Chamber,
         error::CutError,
         geometry::{
-            opening::{Opening, opening},
+            opening::{Opening, measure_opening},
             section::{Ring, Section},
             sides::Sides,
             tree::CutTree,
         },
         hollowed::Hollowed,
-        joints::pin_size::needed_room_mm,
+        joints::pin_size::min_room_mm,
         pieces::split::{Piece, split_body},
         planner::cover::VoidSet,
         remark::Term,
@@ -86,7 +86,7 @@ impl<'a> Scene<'a> {
         voids
             .map(|(i, void)| {
                 (met >> i & 1 == 1)
-                    .then(|| opening(void.mesh(), plane))
+                    .then(|| measure_opening(void.mesh(), plane))
                     .flatten()
             })
             .collect()
@@ -180,7 +180,7 @@ pub(crate) fn burden(scene: &Scene, plane: &Plane) -> Burden {
         .map(|(_, volume)| volume / scene.volume_mm3)
         .collect();
     let groups = || needed.iter().flat_map(|joint| &joint.groups);
-    let needed_mm = needed_room_mm(scene.request);
+    let needed_mm = min_room_mm(scene.request);
     let disc_mm = |&group: &usize| {
         if scene.request.wants_wide_joints {
             let is_outside = |ring: &Ring| (ring.above as usize) < first_void_vertex;
@@ -349,7 +349,7 @@ impl Burden {
 
     /// Returns the weighted terms of one cut with their names, each 0 at best.
     pub(crate) fn terms(&self, scene: &Scene) -> [(Term, f64); 9] {
-        let needed_mm = needed_room_mm(scene.request);
+        let needed_mm = min_room_mm(scene.request);
         let ample_glue_mm2 = AMPLE_GLUE_DISCS * std::f64::consts::FRAC_PI_4 * needed_mm * needed_mm;
         let circle_mm = std::f64::consts::PI * scene.diagonal_mm;
         [
@@ -446,7 +446,7 @@ mod tests {
             ..request()
         };
         let shell = with_balls(ball([0.0; 3], 25.0), &[[0.0, 0.0, 0.0, 24.0]]);
-        let needed_mm = needed_room_mm(&usual);
+        let needed_mm = min_room_mm(&usual);
         assert_eq!(burden_of(&shell, &usual, 0.1).room_mm, 0.0);
         assert_eq!(burden_of(&shell, &wide, 0.1).room_mm, needed_mm);
         // The section of a slab is long, but no disc wider than 8 mm fits in it.

@@ -12,8 +12,8 @@ use crate::{
         joints::{
             contact::contact,
             label::labels,
-            pin_size::needed_room_mm,
-            pins::{Pins, pinned},
+            pin_size::min_room_mm,
+            pins::{Pins, place_pins},
             placement::{PinScene, Placement},
         },
         pieces::split::{Joint, check_no_cavity, joints},
@@ -45,7 +45,7 @@ pub(crate) fn to_plan(
         material: &scene.material,
     };
     let joints = joints(pieces, tree);
-    let placements = pinned(&pin_scene, &joints, pins)?;
+    let placements = place_pins(&pin_scene, &joints, pins)?;
     let (labels, unlabelled) = labels(&pin_scene, &joints, &placements);
     let pairs = joints.iter().zip(&placements);
     notes.extend(
@@ -134,7 +134,7 @@ fn narrow_piece(scene: &Scene, void: &VoidAccess) -> Option<Remark> {
 
 /// Returns the remark on a joint that lacks two pins fitting one way only.
 fn pin_lack(request: &PlanRequest, joint: &Joint, placement: &Placement) -> Option<Remark> {
-    let (widest_mm, needed_mm) = (placement.widest_mm, needed_room_mm(request));
+    let (widest_mm, needed_mm) = (placement.widest_mm, min_room_mm(request));
     let cause = match placement.sites.len() {
         0 if widest_mm < needed_mm => PinLack::TooNarrow {
             widest_mm,

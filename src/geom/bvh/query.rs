@@ -114,7 +114,7 @@ impl Bvh {
 
     /// Returns true if the segment from `a` to `b` passes through a triangle. Decided in double
     /// precision: for a segment that only touches an edge, either answer may come.
-    pub fn is_crossed_by(&self, a: &Point, b: &Point) -> bool {
+    pub fn crosses_segment(&self, a: &Point, b: &Point) -> bool {
         let along = b - a;
         let inverse = along.map(f64::recip);
         self.visit(
@@ -317,7 +317,7 @@ mod tests {
         let answers: Vec<bool> = (0..400)
             .map(|i| {
                 let (a, b) = (noise_point(1000 + i, 1.0), noise_point(5000 + i, 1.0));
-                assert_eq!(bvh.is_crossed_by(&a, &b), brute(&a, &b), "{a} {b}");
+                assert_eq!(bvh.crosses_segment(&a, &b), brute(&a, &b), "{a} {b}");
                 brute(&a, &b)
             })
             .collect();

@@ -7,7 +7,7 @@ use super::reach::Reach;
 use super::set::DualSet;
 use super::units::Vector10;
 use super::units::index::*;
-use crate::goal::{Afloat, Goal, support_edges};
+use crate::goal::{FloatConditions, Goal, support_edges};
 use crate::hollow::log::Stage;
 
 /// Returns a vector with these entries, zero elsewhere.
@@ -180,7 +180,7 @@ impl Programme {
     ///
     /// The rows fix the mass to that of the displaced water, and put the centre above that of
     /// buoyancy.
-    pub fn float_lowest_center(reach: &Reach, afloat: &Afloat) -> Self {
+    pub fn float_lowest_center(reach: &Reach, afloat: &FloatConditions) -> Self {
         let mass = afloat.material_mm3 / reach.scale.volume_mm3;
         let [x, y] = offset_from_buoyancy(reach, afloat);
         let rows = stack(&[x, y, row(&[(ONE, 1.0)])]);
@@ -192,7 +192,7 @@ impl Programme {
 
     /// Float: the horizontal offset of the centre from that of buoyancy, at the right mass; no
     /// ratio.
-    pub fn float_offset(reach: &Reach, afloat: &Afloat) -> Self {
+    pub fn float_offset(reach: &Reach, afloat: &FloatConditions) -> Self {
         let mass = afloat.material_mm3 / reach.scale.volume_mm3;
         let offset = stack(&offset_from_buoyancy(reach, afloat)) / mass;
         let mut programme = Self::new(
@@ -234,7 +234,7 @@ impl Programme {
 }
 
 /// Returns the mass times the horizontal offset of the centre from that of buoyancy, along x and y.
-fn offset_from_buoyancy(reach: &Reach, afloat: &Afloat) -> [Vector10; 2] {
+fn offset_from_buoyancy(reach: &Reach, afloat: &FloatConditions) -> [Vector10; 2] {
     let place = afloat.buoyancy / reach.scale.length_mm;
     [
         row(&[(X, 1.0), (ONE, -place.x)]),

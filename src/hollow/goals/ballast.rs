@@ -5,7 +5,7 @@ use nalgebra::DMatrix;
 
 use crate::base::watch::Watch;
 use crate::geom::Quadric;
-use crate::goal::{Afloat, Goal, GoalKind, Objective, Spindle, figures};
+use crate::goal::{FloatConditions, Goal, GoalKind, Objective, Spindle, compute_figures};
 use crate::hollow::dual::ascent::{Climb, End};
 use crate::hollow::dual::programme::{DualPoint, Programme};
 use crate::hollow::dual::reach::Heavy;
@@ -114,11 +114,11 @@ pub fn least_ballast(
 /// Returns true if a solution has the margin that [`least_ballast`] asks for.
 ///
 /// At the limit of the possible a top has no least speed, and a standing object falls at a touch.
-pub fn has_spare(goal: &Goal, solution: &Solution) -> bool {
+pub fn has_margin(goal: &Goal, solution: &Solution) -> bool {
     let value = solution.certificate.value;
     let is_enough = match (goal.kind, solution.certificate.figure) {
         (GoalKind::Top | GoalKind::Yoyo, _) => {
-            figures(goal, &solution.moments).dominance_ratio <= STABLE_RATIO
+            compute_figures(goal, &solution.moments).dominance_ratio <= STABLE_RATIO
         }
         (_, Figure::TopplingAngleRad) => value >= STANDING_RAD,
         (_, Figure::MetacentricHeightMm) => value >= RIGHTING_MM,
@@ -199,7 +199,7 @@ impl BallastSearch<'_> {
     }
 
     /// Minimises the ballast that gives the right mass and a centre below the metacentre.
-    fn least_to_float(&self, afloat: Afloat) -> Option<Candidate> {
+    fn least_to_float(&self, afloat: FloatConditions) -> Option<Candidate> {
         let limit = (afloat.metacenter_mm - RIGHTING_MM) / self.free.to_mm(1.0);
         self.minimise(
             &|work| Programme::float_lowest_center(&work.reach, &afloat),
@@ -383,7 +383,7 @@ mod tests {
         let found = ballast(&world, density_ratio).unwrap();
         let mut least = f64::INFINITY;
         worlds::each_mixture(&world, density_ratio, |moments, blocks| {
-            let figures = figures(&world.goal, moments);
+            let figures = compute_figures(&world.goal, moments);
             if figures
                 .toppling_angle_rad
                 .is_some_and(|angle| angle >= STANDING_RAD)

@@ -104,7 +104,7 @@ fn scaled(goal: &Goal, factor: f64) -> Goal {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::goal::{Objective, figures};
+    use crate::goal::{Objective, compute_figures};
     use crate::hollow::worlds::{self, World};
 
     fn solve_filled(world: &World, density_ratio: f64) -> Solution {
@@ -159,7 +159,9 @@ mod tests {
             worlds::each_choice(&world, &worlds::single_blocks(16), |emptied| {
                 // The removed moments of a choice, times the relief.
                 let moments = world.fixed + (*emptied - world.fixed) * relief;
-                let angle = figures(&world.goal, &moments).toppling_angle_rad.unwrap();
+                let angle = compute_figures(&world.goal, &moments)
+                    .toppling_angle_rad
+                    .unwrap();
                 (best, least) = (f64::max(best, angle), f64::min(least, angle));
             });
             assert!(

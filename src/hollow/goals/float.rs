@@ -1,7 +1,7 @@
 //! The floating object: the lowest centre of mass above the centre of buoyancy, at the mass that
 //! the water carries.
 
-use crate::goal::{Afloat, Objective};
+use crate::goal::{FloatConditions, Objective};
 use crate::hollow::dual::answer::Answer;
 use crate::hollow::dual::ascent::End;
 use crate::hollow::dual::programme::{DualPoint, Programme};
@@ -41,7 +41,11 @@ pub(crate) fn solve(work: &Work, objective: Objective, start: Option<&DualPoint>
 
 /// Proves that the lightest interior is too heavy for the displaced water, or the solid too light;
 /// `None` if neither holds.
-fn prove_out_of_range(work: &Work, objective: Objective, afloat: &Afloat) -> Option<Answer> {
+fn prove_out_of_range(
+    work: &Work,
+    objective: Objective,
+    afloat: &FloatConditions,
+) -> Option<Answer> {
     let mass = afloat.material_mm3 / work.reach.scale.volume_mm3;
     let [lightest, heaviest] = [work.reach.shell, work.reach.fullest].map(|s| s[index::ONE]);
     let (sense, verdict) = match mass {
@@ -66,7 +70,11 @@ fn prove_out_of_range(work: &Work, objective: Objective, afloat: &Afloat) -> Opt
 
 /// Proves that no interior of the right mass has its centre above that of buoyancy; `None` if there
 /// is no proof.
-fn prove_untrimmable(work: &Work, objective: Objective, afloat: &Afloat) -> Option<Answer> {
+fn prove_untrimmable(
+    work: &Work,
+    objective: Objective,
+    afloat: &FloatConditions,
+) -> Option<Answer> {
     let programme = Programme::float_offset(&work.reach, afloat);
     let climb = work.climb(&programme, programme.cold_start(&work.reach), 0.0);
     let (best, scale) = (&climb.best, &work.reach.scale);
@@ -187,7 +195,7 @@ mod tests {
     #[test]
     fn what_is_too_high_at_best_is_proved_to_capsize() {
         let mut world = worlds::tank(120.0, [0.0; 2]);
-        world.goal.afloat = world.goal.afloat.map(|afloat| Afloat {
+        world.goal.afloat = world.goal.afloat.map(|afloat| FloatConditions {
             metacenter_mm: 4.0,
             ..afloat
         });

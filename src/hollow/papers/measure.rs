@@ -51,7 +51,7 @@ fn outcome(optimum: &Optimum, residual: f64) -> Outcome {
 ///
 /// NaN if it has none, or if the papers' methods refuse the goal.
 pub(super) fn value_of(problem: &Problem, moments: &Moments) -> f64 {
-    let figures = crate::goal::figures(problem.goal, moments);
+    let figures = crate::goal::compute_figures(problem.goal, moments);
     let value = match problem.goal.objective {
         Objective::CriticalSpeed => figures.critical_speed_rpm,
         Objective::SpinIt { .. } => figures.spin_it,

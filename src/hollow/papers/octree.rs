@@ -72,7 +72,7 @@ impl Method for ByOctree {
         for _ in 0..SPLITTINGS_A_LEVEL * octree.finest_level() {
             let optimum = minimise(&target, &octree, start, effort);
             evaluations += optimum.evaluations;
-            let refined = octree.refined(&optimum.x, FRACTION_TOLERANCE);
+            let refined = octree.refine(&optimum.x, FRACTION_TOLERANCE);
             let Some((finer, x)) = refined.filter(|_| !optimum.is_cancelled) else {
                 return Ok(round_shares(
                     problem,

@@ -17,7 +17,7 @@ const REOPENINGS: usize = 4;
 ///
 /// The moments are at most cubic in them, so the programme is smooth but not convex. A vanished
 /// segment has no gradient towards material elsewhere on its ray. So after each solution such
-/// segments open again where material is wanted ([`Rays::reopened`]). An interior-point method does
+/// segments open again where material is wanted ([`Rays::reopen`]). An interior-point method does
 /// not need this, as its segments never quite vanish. λ_max (critical speed, dominance) is smoothed
 /// by 1e-4 of the solid's moments.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -42,7 +42,7 @@ impl Method for ByRays {
         );
         let mut optimum = minimise(&target, &rays, Start::from(rays.nothing()), effort);
         for _ in 0..REOPENINGS {
-            let reopened = rays.reopened(&optimum.x, &optimum.quadric);
+            let reopened = rays.reopen(&optimum.x, &optimum.quadric);
             let Some(x) = reopened.filter(|_| !optimum.is_cancelled) else {
                 break;
             };

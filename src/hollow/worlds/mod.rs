@@ -5,7 +5,7 @@ mod choices;
 pub(crate) use choices::{each_choice, each_mixture, mirrored_groups, ring_groups, single_blocks};
 
 use crate::geom::{Frame, Point, Quadric};
-use crate::goal::{Afloat, Goal, GoalKind, Objective, Rotor, Spindle};
+use crate::goal::{FloatConditions, Goal, GoalKind, Objective, Rotor, Spindle};
 use crate::hollow::Problem;
 use crate::interior::{Columns, moments_where_positive};
 use crate::mass::Moments;
@@ -207,7 +207,7 @@ pub(crate) fn tank(mass: f64, [x, y]: [f64; 2]) -> World {
     let mut world = bottle().of_kind(GoalKind::Float);
     world.goal.objective = Objective::MetacentricHeight;
     let buoyancy = Point::new(x, y, 3.0);
-    world.goal.afloat = Some(Afloat {
+    world.goal.afloat = Some(FloatConditions {
         waterline_mm: 6.0,
         buoyancy,
         material_mm3: mass,

@@ -32,15 +32,15 @@ pub struct Package<'a> {
 #[derive(Debug, Clone, PartialEq)]
 pub enum Build {
     /// Each is an item of its own, as for printing.
-    Apart(Vec<(usize, Transform)>),
+    Items(Vec<(usize, Transform)>),
     /// All are components of one object with this name.
-    Together(String, Vec<(usize, Transform)>),
+    Assembly(String, Vec<(usize, Transform)>),
 }
 
 impl Build {
     fn places(&self) -> &[(usize, Transform)] {
         match self {
-            Self::Apart(places) | Self::Together(_, places) => places,
+            Self::Items(places) | Self::Assembly(_, places) => places,
         }
     }
 }
@@ -146,8 +146,8 @@ impl Package<'_> {
     /// build.
     fn build_xml(&self) -> (String, String) {
         match &self.build {
-            Build::Apart(places) => (String::new(), places_xml("item", places)),
-            Build::Together(name, places) => {
+            Build::Items(places) => (String::new(), places_xml("item", places)),
+            Build::Assembly(name, places) => {
                 let (id, name) = (object_id(self.objects.len()), escape(name.as_str()));
                 let components = places_xml("component", places);
                 let object = format!(

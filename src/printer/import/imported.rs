@@ -1,7 +1,7 @@
 //! Printers and materials as slicers know them.
 
 use super::ImportError;
-use crate::base::toml_text::nearest;
+use crate::base::toml_text::nearest_name;
 
 /// The working principle of a printer, as far as slicers state it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -92,7 +92,7 @@ impl Imported {
                 .find(|printer| printer.name == name)
                 .ok_or_else(|| {
                     let names = known.iter().map(|printer| printer.name.as_str());
-                    let remedy = match nearest(name, names) {
+                    let remedy = match nearest_name(name, names) {
                         Some(near) => format!("did you mean `{near}`?"),
                         None => "list the printers with --list".to_owned(),
                     };

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::ImportError;
-use crate::base::toml_text::{Place, nearest};
+use crate::base::toml_text::{Place, nearest_name};
 
 /// Kind and name of the section of an exported configuration, which has no sections.
 pub(super) const FLAT: &str = "";
@@ -136,7 +136,7 @@ impl Ini {
 
     fn missing_section(&self, kind: &str, name: &str) -> ImportError {
         let names = self.names(kind);
-        let remedy = match nearest(name, names.iter().copied()) {
+        let remedy = match nearest_name(name, names.iter().copied()) {
             Some(near) => format!("did you mean `{near}`?"),
             None => "list the names with --list".to_owned(),
         };

@@ -4,7 +4,7 @@ use super::facts::Facts;
 use super::figures::{figure_name, in_sheet_unit};
 use super::joints::bosses_mm3;
 use super::voids::cleaning_rows;
-use crate::goal::figures;
+use crate::goal::compute_figures;
 use crate::hollow;
 use crate::run::HeightProof;
 use crate::sheet::{Certificate, Course, LogRow, PassRow, SpeedRow};
@@ -56,7 +56,7 @@ fn written_value(facts: &Facts, figure: FigureName) -> Option<f64> {
     }
     let joined = placed.joining_moments(&facts.made.plan);
     let whole = facts.made.written_moments() + joined + placed.hardware_moments();
-    figures(goal, &whole.in_frame(&goal.frame)).spin_it
+    compute_figures(goal, &whole.in_frame(&goal.frame)).spin_it
 }
 
 /// Returns a step of the solver with its finite numbers.

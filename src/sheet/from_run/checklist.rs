@@ -14,7 +14,7 @@ use super::printer::{material_row, printer_row};
 use super::promise::{aim, ballast_orders, fill_order};
 use super::remarks::{notes, warnings};
 use super::voids::{cut_rows, void_rows};
-use crate::ballast::Placed as PlacedPart;
+use crate::ballast::PlacedPart;
 use crate::goal::{Objective, Warning};
 use crate::mass::moments_of_mesh;
 use crate::run::Placed;

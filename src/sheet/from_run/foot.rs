@@ -2,7 +2,7 @@
 
 use super::facts::Facts;
 use crate::geom::Point;
-use crate::goal::{GoalKind, Warning, resting};
+use crate::goal::{GoalKind, Warning, find_foot_stability};
 use crate::sheet::FootRow;
 
 /// Returns how a top stands on its foot without spinning; `None` if it falls over, as tops do.
@@ -26,7 +26,7 @@ pub fn foot_row(facts: &Facts) -> Option<FootRow> {
     let center = goal
         .frame
         .to_local(&Point::from(facts.judgement.assembly.center_mm));
-    resting(&points, &center).map(|found| FootRow {
+    find_foot_stability(&points, &center).map(|found| FootRow {
         radius_mm: found.radius_mm,
         center_height_mm: found.center_height_mm,
         rights_to_deg: found.rights_to_deg,

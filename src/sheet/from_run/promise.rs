@@ -4,7 +4,7 @@ use super::hardware::{dowels, hardware};
 use super::joints::{joint_id, promised_joints};
 use super::printer::enlargement;
 use super::voids::{promised_cuts, promised_voids};
-use crate::ballast::{Load, Placed as PlacedPart};
+use crate::ballast::{Load, PlacedPart};
 use crate::base::digest::sha256_hex;
 use crate::cut::{CutPlan, Label, PinSite};
 use crate::goal::Rotor;

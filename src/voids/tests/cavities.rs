@@ -19,7 +19,7 @@ fn parts_near_points_are_the_bodies_that_hold_them_or_the_nearest() {
         10.0,
     );
     let cavity = cavity_of(u.mesh(), &spec(1.0, &[]));
-    let about = |places: &[(Point, Aabb)]| cavity.parts_about(places).unwrap();
+    let about = |places: &[(Point, Aabb)]| cavity.parts_near(places).unwrap();
     let upper = Aabb {
         min: Point::new(-5.0, 20.0, -5.0),
         max: Point::new(35.0, 50.0, 15.0),

@@ -4,7 +4,7 @@ mod cavities;
 mod quadrics;
 
 use super::shapes::{ball, block, prism, revolved};
-use super::{Cavity, CavitySpec, VoidError, Voids, grown, without_slivers};
+use super::{Cavity, CavitySpec, VoidError, Voids, grow_bodies, without_slivers};
 use crate::base::watch::Watch;
 use crate::geom::triangle::triangle_triangle_distance_squared;
 use crate::geom::{Aabb, Bvh, Frame, Point, Quadric, Vector};

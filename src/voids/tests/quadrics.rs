@@ -95,7 +95,7 @@ fn the_inside_of_a_ball_is_a_ball_and_outside_it_the_loose_ball_is_emptied() {
         .void_bodies(&Quadric(inside.0.map(|g| -g)), &frame)
         .unwrap();
     assert_eq!(voids.bodies.len(), 1);
-    assert!((voids.emptied_mm3 - volumes[0]).abs() < 113.1 * TOLERANCE_MM);
+    assert!((voids.loose_mm3 - volumes[0]).abs() < 113.1 * TOLERANCE_MM);
     assert!((signed_volume(voids.bodies[0].mesh()) - signed_volume(cavity.mesh())).abs() < 1e-9);
 }
 
@@ -139,11 +139,11 @@ fn voids_thinner_than_the_minimum_are_left_solid_and_counted() {
     let frame = Frame::with_axis(Point::new(7.0, 6.0, 5.0), &Vector::z());
     let slab = |half: f64| Quadric([half * half, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, -1.0]);
     let thin = cavity.void_bodies(&slab(0.7), &frame).unwrap();
-    assert_eq!((thin.bodies.len(), thin.refused.len()), (0, 1));
+    assert_eq!((thin.bodies.len(), thin.too_small.len()), (0, 1));
     assert!(
-        (thin.refused_mm3() - 12.0 * 10.0 * 1.4).abs() < 5.0,
+        (thin.too_small_mm3() - 12.0 * 10.0 * 1.4).abs() < 5.0,
         "{}",
-        thin.refused_mm3()
+        thin.too_small_mm3()
     );
     assert_eq!(
         cavity.void_bodies(&slab(1.3), &frame).unwrap().bodies.len(),
@@ -155,7 +155,7 @@ fn voids_thinner_than_the_minimum_are_left_solid_and_counted() {
 fn a_body_subtracted_from_a_cavity_stays_out_of_its_voids() {
     let (cavity, frame) = setting();
     let thin = block([2.0, 2.0, 2.0], [12.0, 10.0, 2.5]);
-    let rest = cavity.without(&grown(&thin, 0.3).unwrap()).unwrap();
+    let rest = cavity.without(&grow_bodies(&thin, 0.3).unwrap()).unwrap();
     assert_sound(rest.mesh());
     let lost = signed_volume(cavity.mesh()) - signed_volume(rest.mesh());
     // The slab grown by 0.3 mm takes its own volume, 196 mm² of faces times 0.3 mm, and a little at

@@ -89,7 +89,7 @@ fn encode(objects: &[Object], build: Build) -> Vec<u8> {
 #[test]
 fn a_written_package_holds_the_same_triangles_as_the_stl_file_bit_for_bit() {
     let (mesh, object) = ball_object("P01 \"<&>\"");
-    let bytes = encode(&[object], Build::Apart(vec![(0, Transform::default())]));
+    let bytes = encode(&[object], Build::Items(vec![(0, Transform::default())]));
     let objects = decode_objects(&bytes).unwrap();
     assert_eq!(objects[0].name, "P01 \"<&>\"");
     let back: Vec<_> = objects[0].mesh.iter_corners().collect();
@@ -106,7 +106,7 @@ fn the_same_package_has_the_same_bytes_and_does_not_tell_when_it_was_made() {
     let [first, second] = [(); 2].map(|()| {
         encode(
             std::slice::from_ref(&object),
-            Build::Apart(vec![(0, Transform::default())]),
+            Build::Items(vec![(0, Transform::default())]),
         )
     });
     assert_eq!(first, second);
@@ -124,8 +124,8 @@ fn objects_lie_where_the_build_puts_them_apart_or_together() {
     };
     let places = vec![(0, map), (0, Transform::shift(Vector::new(0.0, 0.0, 99.0)))];
     for build in [
-        Build::Apart(places.clone()),
-        Build::Together("whole".into(), places.clone()),
+        Build::Items(places.clone()),
+        Build::Assembly("whole".into(), places.clone()),
     ] {
         let objects = decode_objects(&encode(std::slice::from_ref(&object), build)).unwrap();
         assert_eq!(objects.len(), 2);
@@ -144,10 +144,10 @@ fn objects_lie_where_the_build_puts_them_apart_or_together() {
 #[test]
 fn objects_that_are_placed_nowhere_are_left_out() {
     let objects = ["P01", "P02"].map(|name| ball_object(name).1);
-    let one = encode(&objects, Build::Apart(vec![(1, Transform::default())]));
+    let one = encode(&objects, Build::Items(vec![(1, Transform::default())]));
     let both = encode(
         &objects,
-        Build::Apart(vec![(0, Transform::default()), (1, Transform::default())]),
+        Build::Items(vec![(0, Transform::default()), (1, Transform::default())]),
     );
     assert!(
         5 * one.len() < 3 * both.len(),
@@ -269,6 +269,6 @@ fn supports_and_what_a_reader_may_ignore_are_left_out() {
 fn a_block_written_by_us_reads_as_the_solid_it_was() {
     let mesh = cuboid(&Point::origin(), &Point::new(1.0, 2.0, 3.0));
     let object = Object::new("block", [0, 0, 0], &mesh);
-    let bytes = encode(&[object], Build::Apart(vec![(0, Transform::default())]));
+    let bytes = encode(&[object], Build::Items(vec![(0, Transform::default())]));
     assert_eq!(solid(&bytes).mesh().signed_volume_mm3(), 6.0);
 }
