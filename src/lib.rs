@@ -7,7 +7,7 @@
 //! ([`guide::theory`]). Every solution carries its certificate.
 //!
 //! # The line
-//! [`prepare::prepare`] runs a [`job::Job`] to its end. Its stages and the rooms that do the work:
+//! [`prepare::prepare`] runs a [`job::Job`] to its end. Its stages, and the rooms that do the work:
 //!
 //! | stage | rooms |
 //! | --- | --- |
@@ -20,7 +20,12 @@
 //! | kit | [`sheet`] and [`page`] make the job sheet with [`draw`], [`kit`] writes the folder |
 //!
 //! [`run`] holds the facts that pass from stage to stage, [`base`] units and the watch over a run.
-//! [`coupon`] lets a shop measure what its printer does.
+//! [`coupon`] lets a shop measure what its printer does. [`guide::map`] answers where things are.
+//!
+//! # The modules
+//! This page lists twelve modules. Four of them, [`model`], [`solve`], [`stages`] and [`report`],
+//! gather rooms: `equipoise::model::mesh` is also `equipoise::mesh`, and its files lie in
+//! `src/mesh`.
 //!
 //! # Example
 //! ```no_run
@@ -46,36 +51,84 @@
 
 #![forbid(unsafe_code)]
 
-pub mod advice;
-pub mod ballast;
 pub mod base;
-#[cfg(feature = "cli")]
-pub mod cli;
-pub mod coupon;
 pub mod cut;
-pub mod draw;
-pub mod error;
-pub mod geom;
-pub mod goal;
 pub mod guide;
-pub mod hardware;
-pub mod hollow;
-pub mod interior;
-pub mod io;
 pub mod job;
 pub mod kit;
-pub mod make;
-pub mod mass;
-pub mod mesh;
-pub mod open;
-pub mod page;
 pub mod prepare;
 pub mod printer;
+pub mod verify;
+
+/// Points, meshes, their files, repair and mass.
+pub mod model {
+    #[doc(inline)]
+    pub use crate::{geom, io, mass, mesh, repair};
+}
+
+/// From a goal to the best void: what is asked, what may be emptied, the solver and its surfaces.
+pub mod solve {
+    #[doc(inline)]
+    pub use crate::{ballast, goal, hardware, hollow, interior, shell, voids};
+}
+
+/// The stages of a run between the solver and the judge, and the facts that pass between them.
+pub mod stages {
+    #[doc(inline)]
+    pub use crate::{advice, error, make, open, run};
+}
+
+/// Checklists, job sheets, drawings and coupons.
+pub mod report {
+    #[doc(inline)]
+    pub use crate::{coupon, draw, page, sheet};
+}
+
+// The rooms of the four groups, and the command line, which is no library.
+#[doc(hidden)]
+pub mod advice;
+#[doc(hidden)]
+pub mod ballast;
+#[cfg(feature = "cli")]
+#[doc(hidden)]
+pub mod cli;
+#[doc(hidden)]
+pub mod coupon;
+#[doc(hidden)]
+pub mod draw;
+#[doc(hidden)]
+pub mod error;
+#[doc(hidden)]
+pub mod geom;
+#[doc(hidden)]
+pub mod goal;
+#[doc(hidden)]
+pub mod hardware;
+#[doc(hidden)]
+pub mod hollow;
+#[doc(hidden)]
+pub mod interior;
+#[doc(hidden)]
+pub mod io;
+#[doc(hidden)]
+pub mod make;
+#[doc(hidden)]
+pub mod mass;
+#[doc(hidden)]
+pub mod mesh;
+#[doc(hidden)]
+pub mod open;
+#[doc(hidden)]
+pub mod page;
+#[doc(hidden)]
 pub mod repair;
+#[doc(hidden)]
 pub mod run;
+#[doc(hidden)]
 pub mod sheet;
+#[doc(hidden)]
 pub mod shell;
 #[cfg(test)]
 pub(crate) mod testing;
-pub mod verify;
+#[doc(hidden)]
 pub mod voids;

@@ -1,8 +1,8 @@
 //! The region that may be emptied, discretised so that every void in it has exact moments.
 //!
-//! [`Columns`] are the solver's input. [`Rays`], [`Voxels`] and [`Octree`] describe a void on the
-//! columns by many numbers, as the papers do, behind one trait, [`Choice`]. [`Emptied`] is the void
-//! itself, whatever the method, so that results can be compared.
+//! [`Columns`] are the solver's input. [`Emptied`] is the void itself, whatever the method, so that
+//! results can be compared. With the feature `papers`, `Rays`, `Voxels` and `Octree` describe a void
+//! on the columns by many numbers, as the papers do, behind one trait, `Choice`.
 
 // The columns, and the ways to make and change them.
 mod build;
@@ -19,24 +19,36 @@ mod pack;
 mod section;
 
 // Voids on the columns.
+#[cfg(any(test, feature = "papers"))]
 mod choice;
 mod emptied;
 
 // Voids described by many numbers.
+#[cfg(any(test, feature = "papers"))]
 mod cells;
+#[cfg(any(test, feature = "papers"))]
 mod grid;
+#[cfg(any(test, feature = "papers"))]
 mod leaf;
+#[cfg(any(test, feature = "papers"))]
 mod octree;
+#[cfg(any(test, feature = "papers"))]
 mod octree_neighbours;
+#[cfg(any(test, feature = "papers"))]
 mod rays;
+#[cfg(any(test, feature = "papers"))]
 mod voxels;
 
 pub use build::BuildError;
+#[cfg(any(test, feature = "papers"))]
 pub use choice::Choice;
 pub use columns::Columns;
 pub use depths::Depths;
 pub use emptied::{Emptied, Piece};
 pub use integrate::{Matrix10, moments_and_derivative, moments_where_positive};
+#[cfg(any(test, feature = "papers"))]
 pub use octree::{Levels, Octree};
+#[cfg(any(test, feature = "papers"))]
 pub use rays::Rays;
+#[cfg(any(test, feature = "papers"))]
 pub use voxels::Voxels;

@@ -11,6 +11,7 @@
 
 mod arrows;
 mod functions;
+mod map;
 mod names;
 mod prose;
 mod scanner;
@@ -133,7 +134,14 @@ const ARROWS: &[(&str, &[&str])] = &[
         ],
     ),
     ("guide", &[]),
-    ("lib", &[]),
+    (
+        "lib",
+        &[
+            "advice", "ballast", "coupon", "draw", "error", "geom", "goal", "hardware", "hollow",
+            "interior", "io", "make", "mass", "mesh", "open", "page", "repair", "run", "sheet",
+            "shell", "voids",
+        ],
+    ),
     ("main", &["cli"]),
 ];
 

@@ -1,0 +1,23 @@
+//! The map of the code: questions that a new reader asks, and the files that answer them.
+//!
+//! Every file lies below `src`. A room's `mod.rs` says what else is in it. `tests/architecture`
+//! checks that the files and names below exist.
+//!
+//! | question | answer |
+//! | --- | --- |
+//! | What happens to a job, in which order? | `prepare` in `prepare/mod.rs`, a line of seven stages |
+//! | Where is a broken mesh mended, and who says what was changed? | `repair` in `repair/ladder.rs`; `Repairs` counts the changes |
+//! | How thick is the wall, and why? | `quantise_wall` in `printer/wall.rs`; `Shell` in `shell/wall.rs` keeps it |
+//! | Where does a request become a frame with a support? | `place` in `goal/place.rs`, then the goal's own file, say `goal/top.rs` |
+//! | Where is the bound computed? | `Visit` in `hollow/dual/visit.rs` evaluates the dual, `climb` in `hollow/dual/ascent.rs` raises it |
+//! | What is tried if the goal cannot be met? | `remedies` in `prepare/advise.rs`; the trials are in `advice/remedy.rs` |
+//! | Which cut is better than another, and by how much? | `penalty` and `Term` in `cut/planner/score.rs` |
+//! | Where is the pin's diameter decided? | `size_pairs` in `cut/joints/pin_size.rs`, from the profile by `cut/for_printer.rs` |
+//! | What happens if no cut opens a void? | `Obstacle::Unopenable` of `cut/planner/search.rs` makes `open/clean.rs` keep the void solid and solve again |
+//! | What happens if a joint has no room for pins? | `climb` in `open/ladder.rs` tries each `Rung` of `run/policy.rs` |
+//! | Where do the files of the parts come from? | `make` in `make/parts.rs` writes, reads back and corrects them |
+//! | Who says that a promise is kept, and within which limit? | `checks` in `verify/checks.rs`; each limit has its reason in `verify/limits.rs` |
+//! | Where does a number on the job sheet come from? | `sheet/from_run/checklist.rs` fills the `Checklist` that `page/job_sheet.rs` prints |
+//! | Which words does a remedy use for an option? | `Setting` in `base/setting.rs` is the option, `flag` in `cli/flags.rs` its word |
+//! | What is left behind when a run is killed? | `Staging` in `kit/staging.rs`, swept by the next run |
+//! | What does a printer's number rest on? | `Sourced` in `printer/sourced.rs`; the profiles lie in `profiles`, read by `printer/library.rs` |
