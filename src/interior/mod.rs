@@ -1,8 +1,8 @@
 //! The region that may be emptied, discretised so that every void in it has exact moments.
 //!
 //! [`Columns`] are the solver's input. [`Emptied`] is the void itself, whatever the method, so that
-//! results can be compared. With the feature `papers`, `Rays`, `Voxels` and `Octree` describe a void
-//! on the columns by many numbers, as the papers do, behind one trait, `Choice`.
+//! results can be compared. With the feature `papers`, `Rays`, `Voxels` and `Octree` describe a
+//! void on the columns by many numbers, as the papers do, behind one trait, `Choice`.
 
 // The columns, and the ways to make and change them.
 mod build;
