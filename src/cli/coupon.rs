@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use super::args::CouponArgs;
 use super::exit::Exit;
+use super::flags::commands_on_coupon_sheet;
 use super::signals::Stop;
 use super::voice::Voice;
 use crate::base::watch::Watch;
@@ -55,7 +56,8 @@ pub fn coupon(
         Existing::Keep
     };
     let watch = Watch::silent_until(stop.flag());
-    let written = coupon_kit(&set)?.write_watched(&target, existing, &watch);
+    let kit = coupon_kit(&set, &commands_on_coupon_sheet(&set))?;
+    let written = kit.write_watched(&target, existing, &watch);
     if written.is_err()
         && let Some(exit) = stop.end()
     {

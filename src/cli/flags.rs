@@ -1,6 +1,7 @@
 //! The flags of the command line: the one file that words a setting as a flag.
 
 use crate::base::setting::{Key, Setting, reword};
+use crate::coupon::{Commands, CouponSet};
 
 /// Returns the flag of a setting, such as `--ballast=auto`.
 pub fn flag(setting: &Setting) -> String {
@@ -31,6 +32,27 @@ pub fn command_for_coupons(id: &str) -> String {
     format!("equipoise coupon --printer {id}")
 }
 
+/// Returns the commands that the sheet of a printer's coupons names.
+pub fn commands_on_coupon_sheet(set: &CouponSet) -> Commands {
+    let profile = format!("shop-{}.toml", set.printer);
+    Commands {
+        make_profile: format!(
+            "equipoise printers new --from {0} --id shop-{0} --out {profile}",
+            set.printer
+        ),
+        calibrate: format!(
+            "equipoise printers calibrate {profile} --material {} --lot LOT \
+             --weighed G --weighed G --weighed G \
+             --clearance MM --press MM --loose MM --pin MM --wall MM",
+            set.material
+        ),
+        choose_profile: format!("--printer {profile}"),
+    }
+}
+
+/// The flags of which `printers calibrate` needs one.
+pub const MEASUREMENTS: &str = "--weighed, --clearance, --press, --loose, --pin or --wall";
+
 /// The mark before the table of printers in README.
 pub const TABLE_BEGIN: &str = "<!-- equipoise printers list --markdown -->";
 
@@ -48,10 +70,11 @@ fn name(key: Key) -> String {
 
 #[cfg(test)]
 mod tests {
-    use clap::CommandFactory;
+    use clap::{CommandFactory, Parser};
 
     use super::*;
     use crate::cli::args::Cli;
+    use crate::printer::Printer;
 
     #[test]
     fn every_setting_has_a_flag_that_its_command_knows() {
@@ -68,6 +91,22 @@ mod tests {
         for &key in Key::ALL {
             let command = if key == Key::List { &import } else { &prepare };
             assert!(knows(command, key), "{key}");
+        }
+    }
+
+    #[test]
+    fn the_commands_on_the_sheet_of_the_coupons_can_be_typed() {
+        let printer = Printer::find("prusa-mk4").unwrap();
+        let set = CouponSet::of(&printer, printer.material(None).unwrap());
+        let sheet = commands_on_coupon_sheet(&set);
+        let measured = sheet.calibrate.replace(" MM", " 1").replace(" G", " 1");
+        let prepare = format!(
+            "equipoise prepare a.stl --goal top {}",
+            sheet.choose_profile
+        );
+        for line in [sheet.make_profile, measured, prepare] {
+            let parsed = Cli::try_parse_from(line.split_whitespace());
+            assert!(parsed.is_ok(), "{line}: {parsed:?}");
         }
     }
 

@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use super::args::{CalibrateArgs, ImportArgs, NewArgs};
-use super::flags::{command_for_coupons, command_for_new_profile};
+use super::flags::{MEASUREMENTS, command_for_coupons, command_for_new_profile};
 use super::shop::today;
 use crate::base::setting::{Key, Setting};
 use crate::base::units::{format_count, show_percent};
@@ -25,9 +25,12 @@ pub enum ProfilesError {
     /// The slicer's files cannot be used.
     #[error(transparent)]
     Import(#[from] ImportError),
+    /// No measurement was given.
+    #[error("nothing was measured; remedy: give {MEASUREMENTS}")]
+    NothingMeasured,
     /// The measurements cannot be used.
     #[error(transparent)]
-    Calibrate(#[from] CalibrateError),
+    Calibrate(CalibrateError),
     /// The printer has no such material.
     #[error(transparent)]
     Material(#[from] MaterialError),
@@ -59,6 +62,15 @@ pub enum ProfilesError {
     /// The standard output is closed.
     #[error("cannot write to the output")]
     Output(#[from] io::Error),
+}
+
+impl From<CalibrateError> for ProfilesError {
+    fn from(error: CalibrateError) -> Self {
+        match error {
+            CalibrateError::Nothing => Self::NothingMeasured,
+            error => Self::Calibrate(error),
+        }
+    }
 }
 
 /// Writes a shop's own profile: one that inherits, or one from a slicer's files.

@@ -6,6 +6,7 @@ mod sheet;
 mod sizes;
 
 pub use bodies::Coupon;
+pub use sheet::Commands;
 pub use sizes::{CouponSet, Hole};
 
 use crate::io::stl;
@@ -25,7 +26,7 @@ pub enum CouponError {
 }
 
 /// Makes the coupons of a set and their sheet, as a folder in memory.
-pub fn coupon_kit(set: &CouponSet) -> Result<Kit, CouponError> {
+pub fn coupon_kit(set: &CouponSet, commands: &Commands) -> Result<Kit, CouponError> {
     let coupons = bodies::make_coupons(set)?;
     let mut kit = Kit::default();
     for coupon in &coupons {
@@ -35,6 +36,9 @@ pub fn coupon_kit(set: &CouponSet) -> Result<Kit, CouponError> {
         COUPON_FILE,
         (serde_json::to_string_pretty(set)? + "\n").into_bytes(),
     );
-    kit.add("coupon.html", sheet::page(set, &coupons).into_bytes());
+    kit.add(
+        "coupon.html",
+        sheet::page(set, &coupons, commands).into_bytes(),
+    );
     Ok(kit)
 }

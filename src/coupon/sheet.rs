@@ -6,8 +6,19 @@ use super::{CouponSet, bodies::Coupon};
 use crate::base::units::{MM3_PER_CM3, show_mm};
 use crate::page::document;
 
+/// The commands that the sheet names, in the words of the user interface.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Commands {
+    /// Makes the shop's own profile of the machine.
+    pub make_profile: String,
+    /// Enters the measurements into that profile.
+    pub calibrate: String,
+    /// Chooses that profile for a kit.
+    pub choose_profile: String,
+}
+
 /// Writes the sheet as one self-contained page.
-pub(super) fn page(set: &CouponSet, coupons: &[Coupon]) -> String {
+pub(super) fn page(set: &CouponSet, coupons: &[Coupon], commands: &Commands) -> String {
     let body = html! {
         h1 { "Coupons for " (set.printer_name) ", " (set.material_name) }
         p { "Machine " (blank()) " Lot " (blank()) " Date " (blank()) " Name " (blank()) }
@@ -15,7 +26,7 @@ pub(super) fn page(set: &CouponSet, coupons: &[Coupon]) -> String {
         (weigh(set))
         (fits(set))
         (ladders(set))
-        (calibrate(set))
+        (calibrate(commands))
     };
     document(&format!("Coupons: {}", set.printer_name), &body)
 }
@@ -102,26 +113,15 @@ fn ladder(name: &str, sizes_mm: &[f64]) -> Markup {
     }
 }
 
-fn calibrate(set: &CouponSet) -> Markup {
+fn calibrate(commands: &Commands) -> Markup {
     html! {
         h2 { "5. Enter the measurements into the profile" }
         p { "Make your own profile of the machine once:" }
-        p {
-            code {
-                "equipoise printers new --from " (set.printer) " --id shop-" (set.printer)
-                " --out shop-" (set.printer) ".toml"
-            }
-        }
+        p { code { (commands.make_profile) } }
         p { "Then enter the measurements of every lot (omit those you did not make):" }
+        p { code { (commands.calibrate) } }
         p {
-            code {
-                "equipoise printers calibrate shop-" (set.printer) ".toml"
-                " --material " (set.material) " --lot LOT --weighed G --weighed G --weighed G"
-                " --clearance MM --press MM --loose MM --pin MM --wall MM"
-            }
-        }
-        p {
-            "To prepare kits with it, use " code { "--printer shop-" (set.printer) ".toml" }
+            "To prepare kits with it, use " code { (commands.choose_profile) }
             ", or name it in " code { "equipoise.toml" } " in the job's folder."
         }
     }

@@ -1,7 +1,11 @@
 //! Obstacles and errors of planning and cutting.
 
 use crate::{
-    base::{toml_text::TextFault, verdict::Verdict},
+    base::{
+        setting::{Key, Setting},
+        toml_text::TextFault,
+        verdict::Verdict,
+    },
     cut::ids::{CutId, PartId, PinId, VoidId},
     mesh::ClipError,
 };
@@ -26,7 +30,8 @@ pub enum Obstacle {
     },
     /// A part would enclose a cavity.
     #[error(
-        "the cuts leave {cavities} of its voids closed in a part ({part}); add a cut through them, or take `--cut auto`"
+        "the cuts leave {cavities} of its voids closed in a part ({part}); add a cut through them, or leave the cuts to the planner (`{}`)",
+        Setting::new(Key::Cut, "auto")
     )]
     ClosedCavity {
         /// The part.

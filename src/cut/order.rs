@@ -15,7 +15,7 @@ use crate::{
 };
 
 /// The header of every written file.
-const FILE_HEADER: &str = r#"# Cuts and pins, mm, in the frame of the scaled model. Edit, then: equipoise prepare … --cut FILE
+const FILE_HEADER: &str = r#"# Cuts and pins, mm, in the frame of the scaled model. Edit, then: equipoise prepare, with this file as its cuts.
 # Without pins they are placed anew; `pins = []` makes none. Faces listed as uncut stay whole where a cut passes; a cut with
 # `within = [{ cut = "C1", side = "above" }]` is made on that side only. Of the interior stays solid what hangs together with
 # `at_mm` between the corners of the box of a `[[solid]]`.

@@ -14,7 +14,7 @@ pub(super) fn weigh_parts(sheet: &Checklist) -> Markup {
         @if !is_known {
             p {
                 "The density was not measured, so the masses are approximate. Check each part's share of all parts, which does not depend on the density. "
-                "For weighing windows, print and weigh coupons: " code { "equipoise coupon --printer " (sheet.printer.id) }
+                "For weighing windows, print and weigh the coupons (" code { "equipoise coupon" } ") of " code { (sheet.printer.id) } "."
             }
         }
         table {

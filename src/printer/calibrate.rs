@@ -44,7 +44,9 @@ pub struct Measured {
 #[non_exhaustive]
 pub enum CalibrateError {
     /// Nothing was measured.
-    #[error("nothing was measured; remedy: give --weighed, --clearance, --wall or --pin")]
+    #[error(
+        "nothing was measured; remedy: give the mass of a coupon, a clearance, a pin or a wall"
+    )]
     Nothing,
     /// A mass that is not positive and finite.
     #[error("a coupon of {0} g is not possible; remedy: give its mass in grams")]

@@ -1,6 +1,7 @@
 //! The sizes of models for which a printer can make a hollow kit.
 
 use super::Printer;
+use crate::base::setting::{Key, Setting};
 use crate::base::units::show_mm;
 
 /// Length of the longest model over the longest side of the build volume.
@@ -27,9 +28,12 @@ pub enum SizeError {
     /// The walls fill the whole model.
     #[error(
         "the model is {} long, and walls of {} leave nothing inside to empty; \
-         remedy: give its size with --size, its unit with --unit, or a thinner --wall",
+         remedy: give its size (`{}`), its unit (`{}`), or a thinner wall (`{}`)",
         show(*size_mm),
-        show(*wall_mm)
+        show(*wall_mm),
+        Setting::open(Key::Size),
+        Setting::open(Key::Unit),
+        Setting::open(Key::Wall)
     )]
     AllWall {
         /// The model's longest side, mm.
@@ -40,10 +44,12 @@ pub enum SizeError {
     /// The model is too long for any cut to make its parts fit.
     #[error(
         "the model is {} long, but a kit for {printer} may be {} long at most; \
-         remedy: give its size with --size or its unit with --unit, \
+         remedy: give its size (`{}`) or its unit (`{}`), \
          or state a larger build volume in the profile",
         show(*size_mm),
-        show(*most_mm)
+        show(*most_mm),
+        Setting::open(Key::Size),
+        Setting::open(Key::Unit)
     )]
     TooLong {
         /// The model's longest side, mm.
@@ -118,7 +124,10 @@ mod tests {
             assert_eq!(printer.check_length(most_mm), Ok(()));
             for size_mm in [most_mm * 1.001, 1e300, f64::INFINITY, f64::NAN] {
                 let error = printer.check_length(size_mm).unwrap_err().to_string();
-                assert!(error.contains(id) && error.contains("--unit"), "{error}");
+                assert!(
+                    error.contains(id) && error.contains("`unit = …`"),
+                    "{error}"
+                );
                 assert!(error.len() < 250, "{error}");
             }
         }

@@ -2,8 +2,8 @@
 
 use std::ops::Range;
 
-use crate::at_most;
 use crate::scanner::{self, Source};
+use crate::{at_most, holds};
 
 /// Columns of a line.
 const MAX_COLUMNS: usize = 100;
@@ -27,8 +27,6 @@ const NONE_WHERES: usize = 0;
 const WIDE_LINES: usize = 40;
 /// Sentences that are still too long. Final value: 0.
 const LONG_SENTENCES: usize = 15;
-/// Strings of the library that still name a flag. Final value: 0.
-const FLAGS: usize = 30;
 
 /// Comment lines that follow each other with one and the same mark.
 struct Comment {
@@ -110,8 +108,7 @@ fn only_the_command_line_names_its_flags() {
         });
         flags.collect::<Vec<_>>()
     });
-    at_most(
-        FLAGS,
+    holds(
         named,
         "return a remedy as a value, and let the command line word it",
     );

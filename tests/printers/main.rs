@@ -136,7 +136,7 @@ const MISTAKES: [(&str, &str); 7] = [
         "did you mean `prusa-mk4`?",
     ),
     ("printers new --from prusa-mk4 --out taken.toml", "--force"),
-    ("printers import b.ini", "choose one with --printer"),
+    ("printers import b.ini", "choose one (--printer)"),
     (
         "printers import b.ini --printer A --out n.toml",
         "`pixel_x_mm` is not set",

@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use crate::base::setting::{Key, Setting};
 use crate::base::toml_text::Place;
 
 /// An error of an import.
@@ -78,7 +79,9 @@ pub enum ImportError {
     /// Several printers, of which none is chosen.
     #[error(
         "there are {count} printers in {files}; \
-         remedy: choose one with --printer, list them with --list"
+         remedy: choose one (`{}`), or list them (`{}`)",
+        Setting::open(Key::Printer),
+        Setting::open(Key::List)
     )]
     SeveralPrinters {
         /// Number of printers.

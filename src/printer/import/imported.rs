@@ -1,6 +1,7 @@
 //! Printers and materials as slicers know them.
 
 use super::ImportError;
+use crate::base::setting::{Key, Setting};
 use crate::base::toml_text::nearest_name;
 
 /// The working principle of a printer, as far as slicers state it.
@@ -94,7 +95,7 @@ impl Imported {
                     let names = known.iter().map(|printer| printer.name.as_str());
                     let remedy = match nearest_name(name, names) {
                         Some(near) => format!("did you mean `{near}`?"),
-                        None => "list the printers with --list".to_owned(),
+                        None => format!("list the printers (`{}`)", Setting::open(Key::List)),
                     };
                     ImportError::NoSection {
                         file: files,

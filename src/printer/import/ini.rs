@@ -138,7 +138,7 @@ impl Ini {
         let names = self.names(kind);
         let remedy = match nearest_name(name, names.iter().copied()) {
             Some(near) => format!("did you mean `{near}`?"),
-            None => "list the names with --list".to_owned(),
+            None => "export it again, with all sections it inherits from".to_owned(),
         };
         ImportError::NoSection {
             file: self.file.clone(),
