@@ -10,7 +10,7 @@ use super::profiles::{self, ProfilesError};
 use super::show::table;
 use super::values::{kebab, show_box, show_number, show_pixel, show_step};
 use crate::base::units::{show_mm, show_percent};
-use crate::printer::{Printer, ProfileError, Quantity, Sourced, Sure};
+use crate::printer::{Printer, ProfileError, Quantity, Sourced, Sure, Unknown};
 
 /// A reason why `printers` could not run.
 #[derive(Debug, thiserror::Error)]
@@ -137,7 +137,8 @@ fn numbers(printer: &Printer) -> Vec<[String; 4]> {
         rows.push(number_row(quantity.key(), value, number));
     }
     let unknown = printer.unknown().into_iter();
-    rows.extend(unknown.map(|key| [key, "not known", "", unknown_words(key)].map(str::to_owned)));
+    let row = |unknown: Unknown| [unknown.key(), "not known", "", consequence(unknown)];
+    rows.extend(unknown.map(|unknown| row(unknown).map(str::to_owned)));
     rows
 }
 
@@ -163,12 +164,12 @@ fn plate(printer: &Printer) -> Vec<[String; 4]> {
     rows
 }
 
-/// Returns the consequence of a key that is not known.
-fn unknown_words(key: &str) -> &'static str {
-    match key {
-        "build_volume_mm" => "the fit of parts is not checked",
-        "compensates_shrinkage" => "parts are written at nominal size",
-        _ => "",
+/// Returns the consequence of a value that is not known.
+fn consequence(unknown: Unknown) -> &'static str {
+    match unknown {
+        Unknown::BuildVolume => "the fit of parts is not checked",
+        Unknown::Shrinkage => "parts are written at nominal size",
+        Unknown::Number(_) => "",
     }
 }
 

@@ -3,7 +3,7 @@
 use maud::{Markup, html};
 
 use crate::base::numbers::{number, quantity};
-use crate::sheet::GridRow;
+use crate::sheet::{Direction, GridRow};
 
 /// Returns the table of these rows; empty without rows.
 pub(super) fn table(rows: &[GridRow]) -> Markup {
@@ -33,16 +33,25 @@ fn merge_directions(rows: &[GridRow]) -> Vec<(&GridRow, String)> {
     for row in rows {
         let is_same = |other: &GridRow| {
             GridRow {
-                along: row.along.clone(),
+                along: row.along,
                 ..other.clone()
             } == *row
         };
         match merged.last_mut().filter(|(last, _)| is_same(last)) {
-            Some((_, along)) => *along += &format!(", {}", row.along),
-            None => merged.push((row, row.along.clone())),
+            Some((_, along)) => *along += &format!(", {}", word(row.along)),
+            None => merged.push((row, word(row.along).to_owned())),
         }
     }
     merged
+}
+
+fn word(along: Direction) -> &'static str {
+    match along {
+        Direction::X => "x",
+        Direction::Y => "y",
+        Direction::Z => "z",
+        Direction::Tilted => "tilted",
+    }
 }
 
 /// Words the last column: `24 pixels of 42.33 µm = 1.016 mm`.
@@ -63,9 +72,9 @@ mod tests {
 
     #[test]
     fn equal_lengths_along_two_directions_are_one_line() {
-        let row = |along: &str, steps_of: &str, steps: u32| GridRow {
+        let row = |along: Direction, steps_of: &str, steps: u32| GridRow {
             what: "wall".to_owned(),
-            along: along.to_owned(),
+            along,
             asked_mm: 1.0,
             drawn_mm: 1.0,
             steps_of: steps_of.to_owned(),
@@ -75,16 +84,19 @@ mod tests {
             is_whole: true,
         };
         let rows = [
-            row("x", "pixels", 20),
-            row("y", "pixels", 20),
-            row("z", "layers", 10),
+            row(Direction::X, "pixels", 20),
+            row(Direction::Y, "pixels", 20),
+            row(Direction::Z, "layers", 10),
         ];
         let lines: Vec<String> = merge_directions(&rows)
             .into_iter()
             .map(|(_, along)| along)
             .collect();
         assert_eq!(lines, ["x, y", "z"]);
-        let oblong = [row("x", "pixels", 20), row("y", "pixels", 25)];
+        let oblong = [
+            row(Direction::X, "pixels", 20),
+            row(Direction::Y, "pixels", 25),
+        ];
         assert_eq!(merge_directions(&oblong).len(), 2);
     }
 }

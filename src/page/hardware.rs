@@ -7,7 +7,7 @@ use super::figure::{Picture, Role, figures};
 use crate::base::numbers::quantity;
 use crate::geom::Point;
 use crate::sheet::{Checklist, Half};
-use crate::verify::Hardware;
+use crate::verify::{Hardware, HardwareKind};
 
 /// Returns the step in which the hardware is put in.
 pub(super) fn fit_hardware(sheet: &Checklist, pictures: &[Picture]) -> Markup {
@@ -46,27 +46,40 @@ fn description(sheet: &Checklist, piece: &Hardware) -> String {
     .map(|mm| quantity(mm, "mm"));
     let rod = format!(
         "{} of {} in diameter, cut {length} long, {} ({})",
-        piece.what,
+        word(&piece.kind),
         quantity(piece.diameter_mm, "mm"),
         quantity(piece.mass_g, "g"),
         quantity(piece.density_g_cm3, "g/cm³")
     );
-    match piece.what.as_str() {
-        "axle" => format!(
+    match piece.kind {
+        HardwareKind::Axle => format!(
             "{rod}: glued {depth} deep into the {socket} socket of each half, with {} between the halves; a shim of that thickness holds \
              them while the glue sets.",
             quantity(sheet.string_gap_mm.unwrap_or(0.0), "mm")
         ),
-        "ring" => format!(
+        HardwareKind::Ring => format!(
             "nuts, washers or a bearing about the axle in the gap, {} in all, counted as a ring of {} across and {length} wide.",
             quantity(piece.mass_g, "g"),
             quantity(piece.diameter_mm, "mm")
         ),
-        "tip" => format!(
+        HardwareKind::Tip => format!(
             "{rod}, its lower end rounded to a half ball: glued {depth} deep into the {socket} socket at the contact; {out} stand out, \
              and its end is the contact point."
         ),
-        _ => format!("{rod}: glued {depth} deep into the {socket} socket on top; {out} stand out."),
+        HardwareKind::Stem | HardwareKind::Dowel(_) => {
+            format!("{rod}: glued {depth} deep into the {socket} socket on top; {out} stand out.")
+        }
+    }
+}
+
+/// Returns the word for a kind of hardware.
+pub(super) fn word(kind: &HardwareKind) -> &str {
+    match kind {
+        HardwareKind::Axle => "axle",
+        HardwareKind::Ring => "ring",
+        HardwareKind::Tip => "tip",
+        HardwareKind::Stem => "stem",
+        HardwareKind::Dowel(stock) => stock,
     }
 }
 

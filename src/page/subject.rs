@@ -2,7 +2,9 @@
 
 use crate::geom::{Parting, Plane};
 use crate::mesh::TriMesh;
-use crate::verify::{Aim, BallastOrder, Hardware, PartEvidence, Peg, PromisedPart, Shells};
+use crate::verify::{
+    Aim, BallastOrder, Hardware, HardwareKind, PartEvidence, Peg, PromisedPart, Shells,
+};
 
 /// The subject of the pictures.
 #[derive(Debug, Clone, Copy)]
@@ -26,7 +28,9 @@ pub struct Subject<'a> {
 impl Subject<'_> {
     /// Returns whether two halves sit on an axle.
     pub(super) fn has_halves(&self) -> bool {
-        self.hardware.iter().any(|piece| piece.what == "axle")
+        self.hardware
+            .iter()
+            .any(|piece| piece.kind == HardwareKind::Axle)
     }
 
     /// Returns the cuts along which the parts are drawn apart, and the plane between the halves of

@@ -3,6 +3,7 @@
 use maud::{Markup, html};
 
 use super::fields::{blank, mass_of_parts_g, mass_window, mass_with_window, residue};
+use super::hardware::word;
 use crate::base::numbers::{number, quantity};
 use crate::base::units::MM3_PER_CM3;
 use crate::sheet::Checklist;
@@ -54,7 +55,7 @@ fn shares(sheet: &Checklist) -> Vec<Share> {
     let hardware = sheet
         .hardware
         .iter()
-        .map(|piece| (format!("{}, {}", piece.id, piece.what), piece.mass_g));
+        .map(|piece| (format!("{}, {}", piece.id, word(&piece.kind)), piece.mass_g));
     let ballast = sheet
         .ballast
         .iter()

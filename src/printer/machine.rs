@@ -47,6 +47,28 @@ impl Support {
     }
 }
 
+/// A value of a printer that its profile does not state.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Unknown {
+    /// The build volume.
+    BuildVolume,
+    /// Whether its slicer compensates for shrinkage.
+    Shrinkage,
+    /// A number.
+    Number(Quantity),
+}
+
+impl Unknown {
+    /// Returns its key in a profile.
+    pub fn key(self) -> &'static str {
+        match self {
+            Self::BuildVolume => "build_volume_mm",
+            Self::Shrinkage => "compensates_shrinkage",
+            Self::Number(quantity) => quantity.key(),
+        }
+    }
+}
+
 /// The best pose of a part on the plate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
@@ -188,21 +210,24 @@ impl Printer {
         })
     }
 
-    /// Lists the keys of all unknown values: the build volume, the shrinkage, then the numbers in
-    /// the order of [`Quantity`].
-    pub fn unknown(&self) -> Vec<&'static str> {
+    /// Lists all unknown values: the build volume, the shrinkage, then the numbers in the order of
+    /// [`Quantity`].
+    pub fn unknown(&self) -> Vec<Unknown> {
         let numbers = Quantity::ALL
             .iter()
             .filter(|&&quantity| self.number(quantity).is_none());
-        let volume = self.build_volume_mm.is_none().then_some("build_volume_mm");
+        let volume = self
+            .build_volume_mm
+            .is_none()
+            .then_some(Unknown::BuildVolume);
         let shrinkage = self
             .compensates_shrinkage
             .is_none()
-            .then_some("compensates_shrinkage");
+            .then_some(Unknown::Shrinkage);
         volume
             .into_iter()
             .chain(shrinkage)
-            .chain(numbers.map(|quantity| quantity.key()))
+            .chain(numbers.copied().map(Unknown::Number))
             .collect()
     }
 

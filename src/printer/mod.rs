@@ -54,7 +54,7 @@ pub use calibrate::{CalibrateError, Measured, calibrate};
 pub use cleaning::{Cleaning, CleaningRule};
 pub use corner::{Corner, ExcludedCorner};
 pub use error::{Fault, Faults, Problem, ProfileError};
-pub use machine::{Grid, PrintPose, Printer, SizedWall, Support, Tolerance};
+pub use machine::{Grid, PrintPose, Printer, SizedWall, Support, Tolerance, Unknown};
 pub use material::{Material, MaterialError};
 pub use plate::{Plate, Spot};
 pub use quantity::Quantity;

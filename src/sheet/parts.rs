@@ -117,11 +117,12 @@ pub fn part_picture_file(id: &str) -> String {
 mod tests {
     use super::*;
     use crate::testing::sample;
+    use crate::verify::HardwareKind;
 
     fn rod(from_mm: [f64; 3], to_mm: [f64; 3], round_end: bool) -> Hardware {
         Hardware {
             id: "H1".into(),
-            what: "stem".into(),
+            kind: HardwareKind::Stem,
             from_mm,
             to_mm,
             diameter_mm: 4.0,

@@ -146,8 +146,8 @@ pub struct WallRow {
 pub struct GridRow {
     /// Name of the length, such as `wall` or `pin N1, diameter`.
     pub what: String,
-    /// Direction of the printer: `x`, `y`, `z`, or `tilted`.
-    pub along: String,
+    /// Direction of the printer.
+    pub along: Direction,
     /// Ordered length, mm.
     pub asked_mm: f64,
     /// Length in the files, mm.
@@ -162,6 +162,20 @@ pub struct GridRow {
     pub given_mm: f64,
     /// `true` if the drawn length is a whole number of steps.
     pub is_whole: bool,
+}
+
+/// A direction of the printer along which a length is drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Direction {
+    /// Along x, in the plane of a layer.
+    X,
+    /// Along y, in the plane of a layer.
+    Y,
+    /// Upright, across the layers.
+    Z,
+    /// Along none of them.
+    Tilted,
 }
 
 #[cfg(test)]

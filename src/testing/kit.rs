@@ -237,7 +237,7 @@ fn material() -> MaterialRow {
 fn grid_row() -> GridRow {
     GridRow {
         what: "wall".into(),
-        along: "x".into(),
+        along: Direction::X,
         asked_mm: 3.0,
         drawn_mm: 3.0033,
         steps_of: "pixels".into(),

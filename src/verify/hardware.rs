@@ -21,8 +21,9 @@ const GAP_WALL_RATIO: f64 = 0.5;
 pub struct Hardware {
     /// The name on the sheet, such as `H1`.
     pub id: String,
-    /// Its kind: `axle`, `ring`, `tip` or `stem`; for a dowel its stock name.
-    pub what: String,
+    /// Its kind.
+    #[serde(rename = "what")]
+    pub kind: HardwareKind,
     /// One end of its axis, model frame, mm.
     pub from_mm: [f64; 3],
     /// The other end, model frame, mm; of a round end the outermost point.
@@ -41,6 +42,46 @@ pub struct Hardware {
     pub depth_mm: f64,
     /// The diameter of its socket, mm; zero if it has none.
     pub socket_mm: f64,
+}
+
+/// The kind of a piece of hardware; in JSON its key.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(from = "String", into = "String")]
+pub enum HardwareKind {
+    /// A yo-yo's axle, `axle`.
+    Axle,
+    /// The fittings on a yo-yo's axle, `ring`.
+    Ring,
+    /// The tip that a top spins on, `tip`.
+    Tip,
+    /// The stem that a top is spun by, `stem`.
+    Stem,
+    /// A dowel; its key is the name of its stock.
+    Dowel(String),
+}
+
+impl From<String> for HardwareKind {
+    fn from(key: String) -> Self {
+        match key.as_str() {
+            "axle" => Self::Axle,
+            "ring" => Self::Ring,
+            "tip" => Self::Tip,
+            "stem" => Self::Stem,
+            _ => Self::Dowel(key),
+        }
+    }
+}
+
+impl From<HardwareKind> for String {
+    fn from(kind: HardwareKind) -> Self {
+        match kind {
+            HardwareKind::Axle => "axle".to_owned(),
+            HardwareKind::Ring => "ring".to_owned(),
+            HardwareKind::Tip => "tip".to_owned(),
+            HardwareKind::Stem => "stem".to_owned(),
+            HardwareKind::Dowel(stock) => stock,
+        }
+    }
 }
 
 /// The fit of the hardware in the parts.
@@ -88,7 +129,9 @@ pub fn measure_fit(
 ) -> Option<Fit> {
     let rooms = hardware.iter().map(|piece| room_mm(&piece.bar(), outer));
     let room_mm = rooms.min_by(f64::total_cmp)?;
-    let axle = hardware.iter().find(|piece| piece.what == "axle");
+    let axle = hardware
+        .iter()
+        .find(|piece| piece.kind == HardwareKind::Axle);
     let radius_mm = |axle: &Hardware| 0.5 * axle.socket_mm + GAP_WALL_RATIO * wall_mm;
     let gap_mm = axle.and_then(|axle| gap_mm(outer, goal, radius_mm(axle)));
     Some(Fit {
@@ -203,10 +246,10 @@ mod tests {
     use super::*;
     use crate::verify::test_meshes::block;
 
-    fn rod(what: &str, from_mm: [f64; 3], to_mm: [f64; 3]) -> Hardware {
+    fn rod(kind: HardwareKind, from_mm: [f64; 3], to_mm: [f64; 3]) -> Hardware {
         Hardware {
             id: "H1".into(),
-            what: what.into(),
+            kind,
             from_mm,
             to_mm,
             diameter_mm: 2.0,
@@ -226,9 +269,19 @@ mod tests {
     }
 
     #[test]
+    fn a_kind_reads_back_from_its_key() {
+        for key in ["axle", "ring", "tip", "stem", "filament-1.75"] {
+            let kind = HardwareKind::from(key.to_owned());
+            let is_dowel = matches!(kind, HardwareKind::Dowel(_));
+            assert_eq!(serde_json::to_value(&kind).unwrap(), key);
+            assert_eq!(is_dowel, key == "filament-1.75");
+        }
+    }
+
+    #[test]
     fn the_gap_between_two_blocks_is_their_distance() {
         let goal = Frame::identity();
-        let axle = rod("axle", [0.0, 0.0, -1.4], [0.0, 0.0, 1.4]);
+        let axle = rod(HardwareKind::Axle, [0.0, 0.0, -1.4], [0.0, 0.0, 1.4]);
         let fit = measure_fit(&[axle], &goal, &blocks(), 1.0).unwrap();
         assert!((fit.gap_mm.unwrap() - 3.0).abs() < 1e-12);
         // Between the faces the rod is in the open: nothing lies beside it.
@@ -237,11 +290,12 @@ mod tests {
 
     #[test]
     fn a_rod_has_the_room_that_the_wall_beside_it_leaves() {
-        let beside = |x: f64| room_mm(&rod("tip", [x, 0.0, -3.0], [x, 0.0, 9.0]).bar(), &blocks());
+        let tip = |from_mm, to_mm| rod(HardwareKind::Tip, from_mm, to_mm).bar();
+        let beside = |x: f64| room_mm(&tip([x, 0.0, -3.0], [x, 0.0, 9.0]), &blocks());
         assert!((beside(7.5) - 1.5).abs() < 1e-12);
         assert!((beside(5.4) + 0.6).abs() < 1e-12);
-        let within = rod("tip", [0.0, 0.0, 2.0], [0.0, 0.0, 4.0]);
-        assert_eq!(room_mm(&within.bar(), &blocks()), -1.0);
+        let within = tip([0.0, 0.0, 2.0], [0.0, 0.0, 4.0]);
+        assert_eq!(room_mm(&within, &blocks()), -1.0);
     }
 
     #[test]

@@ -69,7 +69,7 @@ pub use reading::read_promise;
 pub use crate::printer::{Cleaning, CleaningRule};
 pub use ballast::{BallastOrder, FillOrder};
 pub use fingerprint::{Fingerprint, Likeness};
-pub use hardware::Hardware;
+pub use hardware::{Hardware, HardwareKind};
 pub use pose::Pose;
 pub use promise::{
     Aim, Density, FigureName, GlueFilm, Mark, Peg, PrinterLimits, Promise, PromisedCut,

@@ -142,7 +142,7 @@ fn kit_with_dowel(made: [f64; 2]) -> Evidence {
     let [x, y, z] = SEAT;
     evidence.promise.dowels = vec![Hardware {
         id: "N1".to_owned(),
-        what: "beech-4".to_owned(),
+        kind: HardwareKind::Dowel("beech-4".to_owned()),
         from_mm: [x, y, z - PIN[1]],
         to_mm: [x, y, z + PIN[1]],
         diameter_mm: PIN[0],

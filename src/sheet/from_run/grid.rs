@@ -5,7 +5,7 @@ use crate::cut::PinSite;
 use crate::geom::{Point, Vector};
 use crate::printer::{Grid, whole_steps};
 use crate::run::{Placed, WrittenPart};
-use crate::sheet::GridRow;
+use crate::sheet::{Direction, GridRow};
 
 /// Deviation up to which a length counts as a whole number of steps, in steps. Files round to 1e-5
 /// mm, and cuts keep about 1e-6 mm off vertices.
@@ -17,7 +17,7 @@ const UPRIGHT: f64 = 1.0 - 1e-7;
 /// The grid of the printer along one direction.
 #[derive(Clone, Copy)]
 struct Ruler {
-    along: &'static str,
+    along: Direction,
     steps_of: &'static str,
     step_mm: f64,
 }
@@ -54,17 +54,17 @@ fn rulers(placed: &Placed) -> [Ruler; 3] {
     let steps_of = printer.grid.steps();
     [
         Ruler {
-            along: "x",
+            along: Direction::X,
             steps_of,
             step_mm: printer.pixel_x_mm.value,
         },
         Ruler {
-            along: "y",
+            along: Direction::Y,
             steps_of,
             step_mm: printer.pixel_y_mm.value,
         },
         Ruler {
-            along: "z",
+            along: Direction::Z,
             steps_of: "layers",
             step_mm: printer.layer_mm.value,
         },
@@ -93,7 +93,7 @@ impl Ruler {
     ) -> GridRow {
         GridRow {
             what,
-            along: self.along.to_owned(),
+            along: self.along,
             asked_mm,
             drawn_mm,
             steps_of: self.steps_of.to_owned(),
@@ -205,7 +205,7 @@ fn pegs<'a>(
         // A hole is not made of lines; only its depth is made of layers.
         peg_rows(upright, lengths, rulers)
             .into_iter()
-            .filter(move |row| !is_of_lines || row.along == "z")
+            .filter(move |row| !is_of_lines || row.along == Direction::Z)
     });
     pins.chain(sockets)
 }
@@ -221,7 +221,7 @@ fn peg_rows(
         let coarser = if x.step_mm > y.step_mm { x } else { y };
         let tilted = |ruler: Ruler, length| {
             Ruler {
-                along: "tilted",
+                along: Direction::Tilted,
                 ..ruler
             }
             .nearest(length)

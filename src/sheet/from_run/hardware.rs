@@ -7,7 +7,7 @@ use crate::mass::moments_of_mesh;
 use crate::mesh::{TriMesh, bodies, winding_number};
 use crate::run::{Placed, WrittenPart};
 use crate::sheet::Half;
-use crate::verify::Hardware;
+use crate::verify::{Hardware, HardwareKind};
 
 /// Number of vertices of a part that are sampled to find its half.
 const SAMPLED_VERTICES: usize = 8;
@@ -65,7 +65,12 @@ fn order(index: usize, piece: &Piece) -> Hardware {
     let bar = &piece.bar;
     Hardware {
         id: format!("H{}", index + 1),
-        what: piece.kind.word().to_owned(),
+        kind: match piece.kind {
+            Kind::Axle => HardwareKind::Axle,
+            Kind::Ring => HardwareKind::Ring,
+            Kind::Tip => HardwareKind::Tip,
+            Kind::Stem => HardwareKind::Stem,
+        },
         from_mm: bar.from.into(),
         to_mm: bar.to.into(),
         diameter_mm: 2.0 * bar.radius_mm,
@@ -87,7 +92,7 @@ fn dowel(pin: &PinSite) -> Option<Hardware> {
     let (dowel, bar) = (pin.dowel.as_ref()?, pin.dowel_bar()?);
     Some(Hardware {
         id: pin.id.to_string(),
-        what: dowel.rod.clone(),
+        kind: HardwareKind::Dowel(dowel.rod.clone()),
         from_mm: bar.from.into(),
         to_mm: bar.to.into(),
         diameter_mm: pin.diameter_mm,

@@ -1,6 +1,6 @@
 //! The rows of the printer and its material, with the sources of their numbers.
 
-use crate::printer::Support;
+use crate::printer::{Support, Unknown};
 use crate::run::Placed;
 use crate::sheet::{MaterialRow, PrinterRow, SupportMethod};
 
@@ -48,8 +48,8 @@ fn sources(placed: &Placed) -> Vec<String> {
     let unknown: Vec<String> = printer
         .unknown()
         .into_iter()
-        .filter(|key| *key != "build_volume_mm")
-        .map(words)
+        .filter(|unknown| *unknown != Unknown::BuildVolume)
+        .map(|unknown| words(unknown.key()))
         .collect();
     let unknown =
         (!unknown.is_empty()).then(|| format!("not known of this printer: {}", unknown.join(", ")));
