@@ -10,8 +10,7 @@ use crate::{
     mesh::ClipError,
 };
 
-/// The reason why a body has no plan, or a plan no parts: an answer, not a failure. The message
-/// counts voids from 0.
+/// The reason why a body has no plan, or a plan no parts: an answer, not a failure.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Obstacle {
@@ -94,13 +93,10 @@ pub enum CutError {
     Clip(#[from] ClipError),
 }
 
-/// Joins the indices with commas.
+/// Joins the ids with commas.
 fn list(voids: &[VoidId]) -> String {
-    voids
-        .iter()
-        .map(|void| void.index().to_string())
-        .collect::<Vec<_>>()
-        .join(", ")
+    let ids: Vec<String> = voids.iter().map(VoidId::to_string).collect();
+    ids.join(", ")
 }
 
 /// Turns an obstacle into the answer no; other errors stay errors.

@@ -312,6 +312,7 @@ fn check_pin(pin: &PinSite) -> Result<(), PinFault> {
 mod tests {
     use super::*;
     use crate::cut::scenes::{ball, plan, plan_by, request, with_balls};
+    use crate::cut::{LabelStyle, PlanRequest};
 
     fn ball_and_plan() -> (crate::cut::Hollowed, CutPlan) {
         let body = with_balls(ball([0.0; 3], 25.0), &[[0.0, 0.0, 0.0, 12.0]]);
@@ -383,6 +384,28 @@ mod tests {
                 let notes = made.notes.clone();
                 serde_json::to_string(&CutPlan { notes, ..plan }).unwrap()
             }
+        );
+    }
+
+    #[test]
+    fn a_face_without_room_for_an_id_is_named_by_the_users_cut() {
+        let style = LabelStyle {
+            stroke_mm: 30.0,
+            depth_mm: 0.5,
+        };
+        let request = PlanRequest {
+            labels: Some(style),
+            ..request()
+        };
+        let (body, plan) = ball_and_plan();
+        let mut order = CutOrder::of(&plan).numbered();
+        order.pins = None;
+        order.cuts[0].id = "waist".into();
+        let notes = plan_by(&body, &request, &order).unwrap().notes;
+        let words = "no room for an id in the face of P01 in cut waist: write it on";
+        assert!(
+            notes.iter().any(|note| note.to_string() == words),
+            "{notes:?}"
         );
     }
 

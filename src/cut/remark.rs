@@ -84,6 +84,21 @@ impl Remark {
             }
         }
     }
+
+    /// Returns the cuts that the remark names, to rename them.
+    pub(crate) fn cuts_mut(&mut self) -> Vec<&mut CutId> {
+        match self {
+            Self::CleaningCut { cut, .. }
+            | Self::Score { cut, .. }
+            | Self::FittingCut(cut)
+            | Self::NoRoomForLabel { cut, .. } => vec![cut],
+            Self::LimitedCut { cut, sides } => {
+                let sides = sides.iter_mut().map(|side| &mut side.cut);
+                std::iter::once(cut).chain(sides).collect()
+            }
+            Self::Fewest(_) | Self::LacksPins { .. } | Self::NarrowPiece { .. } => Vec::new(),
+        }
+    }
 }
 
 impl fmt::Display for Remark {
@@ -131,8 +146,7 @@ impl fmt::Display for Remark {
                 least_opening_mm,
             } => write!(
                 f,
-                "void {}: a piece of it opens by {opening_mm:.2} mm only, asked are {least_opening_mm:.2} mm",
-                void.index()
+                "void {void}: a piece of it opens by {opening_mm:.2} mm only, asked are {least_opening_mm:.2} mm"
             ),
             Self::NoRoomForLabel { part, cut } => write!(
                 f,
@@ -331,7 +345,7 @@ impl fmt::Display for UncleanCause {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cut::side::Side;
+    use crate::cut::{error::Obstacle, side::Side};
 
     #[test]
     fn a_score_shows_the_terms_that_matter_and_sums_all() {
@@ -367,5 +381,23 @@ mod tests {
             lacking.to_string(),
             "joint P01–P02: room for one pin only; mind the turn when gluing"
         );
+    }
+
+    #[test]
+    fn voids_are_called_as_on_the_sheet() {
+        let narrow = Remark::NarrowPiece {
+            void: VoidId::of(0),
+            opening_mm: 2.5,
+            least_opening_mm: 4.0,
+        };
+        let words = "void V1: a piece of it opens by 2.50 mm only, asked are 4.00 mm";
+        assert_eq!(narrow.to_string(), words);
+        let closed = Obstacle::Unopenable {
+            voids: vec![VoidId::of(0), VoidId::of(2)],
+            widest_mm: 2.5,
+            needed_mm: 4.0,
+        };
+        let words = "no plane opens void V1, V3 wide enough: the widest opening found is 2.50 mm";
+        assert!(closed.to_string().starts_with(words), "{closed}");
     }
 }

@@ -186,7 +186,7 @@ impl<'r, 'a> Search<'r, 'a> {
             ..
         } = &self.state;
         let frame = self.resolver.placed().goal().frame;
-        Ok(bosses(&BossRequest {
+        let found = bosses(&BossRequest {
             hollowed: &voids.hollowed,
             request: self.request,
             plan,
@@ -197,7 +197,9 @@ impl<'r, 'a> Search<'r, 'a> {
                 quadric: voids.solution.quadric,
                 frame,
             },
-        })?)
+        })?;
+        // A plan that was made for these voids has its pins on their cut faces.
+        Ok(found.or_error::<CutError>()?)
     }
 
     /// Tries bosses all at once with nothing else kept solid, else joint by joint.

@@ -5,8 +5,9 @@
 //! boss.
 
 use crate::{
+    base::verdict::Verdict,
     cut::{
-        error::CutError,
+        error::{CutError, Obstacle, verdict},
         geometry::{
             chart::{Chart, Point2},
             outline::Outline,
@@ -43,8 +44,12 @@ const PRICED_PLACES: usize = 300;
 /// that closes some; what it closes must be kept solid.
 ///
 /// The axis of every boss keeps the wall thickness from the outside, pockets, other cuts and other
-/// pins.
-pub fn bosses(order: &BossRequest) -> Result<Vec<Boss>, CutError> {
+/// pins. The answer is no if a pin of the plan stands on no cut face of the body.
+pub fn bosses(order: &BossRequest) -> Result<Verdict<Vec<Boss>, Obstacle>, CutError> {
+    verdict(find_bosses(order))
+}
+
+fn find_bosses(order: &BossRequest) -> Result<Vec<Boss>, CutError> {
     if order.ordered.is_none() && order.plan.joints.iter().all(JointNote::is_aligned) {
         return Ok(Vec::new());
     }

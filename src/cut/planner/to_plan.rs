@@ -98,6 +98,10 @@ pub(crate) fn rename_cuts(mut plan: CutPlan, cuts: &[Cut]) -> CutPlan {
         .iter_mut()
         .flat_map(|void| &mut void.opened_by)
         .for_each(name);
+    plan.notes
+        .iter_mut()
+        .flat_map(Remark::cuts_mut)
+        .for_each(name);
     plan.cuts = cuts.to_vec();
     plan
 }
