@@ -1,9 +1,14 @@
 //! The figures the design holds, stage by stage: `cargo bench`, or `cargo bench -- NAME` for one of
 //! them.
 //!
-//! What is held, on two cores and 100 mm models with a wall of 1 mm: the solve at 100 columns a
-//! side in 30 ms and at the printer's own pitch in 3 s; the whole of `prepare` in 10 s for 12 000
-//! triangles (elephant) and in 15 s and 2 GiB for 86 000 (armadillo).
+//! Limits, on two cores and 100 mm models with a wall of 1 mm:
+//!
+//! | stage | limit |
+//! |---|---|
+//! | the solve at 100 columns a side | 30 ms |
+//! | the solve at the printer's own pitch | 3 s |
+//! | the whole of `prepare`, 12 000 triangles (elephant) | 10 s |
+//! | the whole of `prepare`, 86 000 triangles (armadillo) | 15 s and 2 GiB |
 
 #![allow(
     clippy::unwrap_used,

@@ -1,6 +1,6 @@
-//! The solver's figures as Markdown: the papers' tables beside the quadric, every goal at 100
-//! columns a side and at the printers' finest pitch, and Spin-It's teapot, in one run on one
-//! machine:
+//! The solver's figures as Markdown, in one run on one machine: the papers' tables beside the
+//! quadric, every goal, and Spin-It's teapot. Every goal is solved at 100 columns a side and at the
+//! printers' finest pitch.
 //!
 //! ```text
 //! cargo run --release --features papers --example solver_table

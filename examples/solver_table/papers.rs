@@ -1,5 +1,5 @@
-//! The papers' tables beside the quadric: rays (Wu et al. 2016, Table 1), voxels (their Table 2)
-//! and the octree of level 9 (Spin-It §5), all on the same columns.
+//! The papers' tables beside the quadric, all on the same columns. They are rays (Wu et al. 2016,
+//! Table 1), voxels (their Table 2), and the octree of level 9 (Spin-It §5).
 
 use anyhow::{Context, Result};
 use equipoise::base::watch::Watch;

@@ -6,12 +6,12 @@
 //! each in a pocket with a wall around it.
 //!
 //! # How the places are found
-//! A part of mass m at x adds (m/ρ) φ(x) to the ten moments, φ = (1, x, y, z, …), and its pocket is
-//! subtracted from them. Let g be the dual's quadric of the current interior; for an impossible
-//! goal it is the one that proves it. To first order the value changes by g·(the part − its
-//! pocket), so the part acts most at the site where that is least. One part is placed there, and
-//! the interior is solved again with it, which gives the next quadric. In the end each part in turn
-//! is taken out and placed again.
+//! A part of mass m at x adds (m/ρ) φ(x) to the ten moments, and its pocket is subtracted from
+//! them. Here φ = (1, x, y, z, …). Let g be the dual's quadric of the current interior; for an
+//! impossible goal it is the one that proves it. To first order the value changes by g·(the part −
+//! its pocket), so the part acts most at the site where that is least. One part is placed there,
+//! and the interior is solved again with it, which gives the next quadric. In the end each part in
+//! turn is taken out and placed again.
 //!
 //! # What is proved, and what is not
 //! With the parts at their places, the interior around them is optimal, with the same certificate

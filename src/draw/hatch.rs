@@ -174,7 +174,9 @@ mod tests {
             printed != rods && count(&printed) == count(&rods) && count(&ballast) > count(&rods)
         );
         // Up stripes repeat one sample right and one up, down stripes one right and one down.
-        assert!((0..26).all(|i| printed[28 + i + 1] == printed[56 + i] && rods[28 + i] == rods[56 + i + 1]));
+        let is_repeated =
+            |i: usize| printed[29 + i] == printed[56 + i] && rods[28 + i] == rods[57 + i];
+        assert!((0..26).all(is_repeated));
     }
 
     #[test]

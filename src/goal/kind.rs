@@ -33,7 +33,7 @@ pub enum Objective {
     /// 1).
     CriticalSpeed,
     /// Spin-It's functional. Yo-yo: γ_I ((I_xx² + 2 I_xy² + I_yy²)/I_zz²) (eq. 2, 5, 6). Top: the
-    /// same with I′, plus γ_c (s_z / s_z of the solid)² (eq. 3, 7, with s_z made free of units).
+    /// same with I′, plus γ_c (s_z / s_z of the solid)² (eq. 3, 7). The ratio frees s_z of units.
     SpinIt {
         /// The weight of a low, light body; yo-yos ignore it.
         gamma_c: f64,

@@ -69,13 +69,13 @@
 //!   of one quadric ([`crate::hollow::least_ballast`]).
 //!
 //! # 7. Ballast and fillings
-//! A stock part of mass m at x adds (m/ρ) φ(x), φ = (1, x, y, z, …), to the moments of the print
-//! and removes its pocket. With the parts in place this is one more known constant. The interior
-//! around them is solved for with the same certificate. The places are found by descent. To first
-//! order a part changes the value by g·(part − pocket). So the quadric g of the current answer, or
-//! of the proof that there is none, shows where the next part acts most ([`crate::ballast`]). Other
-//! places may do better. That less steel cannot do is proved by the bound of
-//! [`crate::hollow::least_ballast`].
+//! A stock part of mass m at x adds (m/ρ) φ(x) to the moments of the print, φ = (1, x, y, z, …).
+//! Its pocket is subtracted from them. With the parts in place this is one more known constant. The
+//! interior around them is solved for with the same certificate. The places are found by descent.
+//! To first order a part changes the value by g·(part − pocket). So the quadric g of the current
+//! answer, or of the proof that there is none, shows where the next part acts most
+//! ([`crate::ballast`]). Other places may do better. That less steel cannot do is proved by the
+//! bound of [`crate::hollow::least_ballast`].
 //!
 //! A filling of density ρ_f in the voids gives s = s_fixed − (1 − ρ_f/ρ) ∫ β m. K is scaled by that
 //! factor, and reflected if the filling is the heavier material. Nothing else changes

@@ -51,8 +51,8 @@
 //!
 //! Equation numbers are those of Spin-It unless stated otherwise. Its functional is the square of
 //! the ratio. Here λ_max is that of the 2 × 2 tensor across the axis: half the trace plus the
-//! length of a 2-vector. Y is the unit ball for the norms, the unit disc for λ_max, and the simplex
-//! for the largest over the edges of the support.
+//! length of a 2-vector. Y is the unit ball for the norms and the unit disc for λ_max. It is the
+//! simplex for the largest over the edges of the support.
 //!
 //! # The one number that breaks convexity
 //! A top's tensor is about its centre, I′ = I − s_z²/s₁ across the axis. The term s_z²/s₁ is
@@ -68,9 +68,9 @@
 //! * The least over ℓ of the quasi-convex programmes at ℓ *is* the optimum over all interiors of
 //!   any height, without a row for the height. The search over that one number is smooth, and its
 //!   slope is free (`heights`).
-//! * Suppose that every interior is above a target at ℓ by a margin of δ s₁. Then every interior
-//!   with its centre within √(δ/κ) of ℓ is truly above it, κ being the share of s_z²/s₁ in the
-//!   numerator. About twelve such ℓ prove 1e-6 over all heights (`cover`).
+//! * Let κ be the share of s_z²/s₁ in the numerator. Suppose that every interior is above a target
+//!   at ℓ by a margin of δ s₁. Then every interior with its centre within √(δ/κ) of ℓ is truly
+//!   above it. About twelve such ℓ prove 1e-6 over all heights (`cover`).
 //!
 //! Spin-It's γ_c adds a second such number, the lever s_z. Its functional k s_z² + γρ² is no ratio,
 //! but at a given lever it is. Along a polygon around the ellipse k s_z² + γρ² = V two levers prove
@@ -110,15 +110,24 @@
 //! # Files
 //! In reading order:
 //!
-//! * `dual/`: `reach` K and its extreme points · `programme`, `table` the table above · `set` the
-//!   ball and the simplex · `visit`, `step`, `ascent` Newton's climb · `work` the state of a run ·
-//!   `mend`, `scout` the search on a few columns · `answer` back to mm, with a status.
-//! * `goals/`: `yoyo`, `stand`, `float`, `balance` with one programme or two each · `ballast` the
-//!   least of a denser material if hollowing is not enough · `fill` filled voids.
-//! * `top/`: `heights`, `valley`, `lever`, `search` the search over heights · `posts`, `cover`,
-//!   `frontier` the proof over all of them · `course` the data of the plots.
-//! * `papers/` (feature `papers`): Spin-It's octree and Wu, Kramer and Westermann's rays and voxels
-//!   on the same [`Problem`], behind one trait with this solver.
+//! | file | holds |
+//! |---|---|
+//! | `dual/`: `reach` | K and its extreme points |
+//! | `dual/`: `programme`, `table` | the table above |
+//! | `dual/`: `set` | the ball and the simplex |
+//! | `dual/`: `visit`, `step`, `ascent` | Newton's climb |
+//! | `dual/`: `work` | the state of a run |
+//! | `dual/`: `mend`, `scout` | the search on a few columns |
+//! | `dual/`: `answer` | the way back to mm, with a status |
+//! | `goals/`: `yoyo`, `stand`, `float`, `balance` | the programmes of each goal, one or two |
+//! | `goals/`: `ballast` | the least of a denser material if hollowing is not enough |
+//! | `goals/`: `fill` | filled voids |
+//! | `top/`: `heights`, `valley`, `lever`, `search` | the search over heights |
+//! | `top/`: `posts`, `cover`, `frontier` | the proof over all heights |
+//! | `top/`: `course` | the data of the plots |
+//! | `papers/` (feature `papers`) | Spin-It's octree and the rays and voxels of Wu et al. |
+//!
+//! Those of the papers solve the same [`Problem`], behind one trait with this solver.
 //!
 //! # Use
 //! ```
@@ -609,9 +618,10 @@ mod tests {
             .iter_mut()
             .for_each(|corner| corner[0] -= 20.0);
         let solution = solve(&world.problem(), &Settings::default(), &Watch::silent());
-        assert!(
-            matches!(solution.status, Status::CannotStand { greatest_angle_rad } if greatest_angle_rad < 0.0)
-        );
+        let Status::CannotStand { greatest_angle_rad } = solution.status else {
+            panic!("{:?}", solution.status)
+        };
+        assert!(greatest_angle_rad < 0.0);
     }
 
     #[test]

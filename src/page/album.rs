@@ -177,11 +177,18 @@ fn cut_away<'a>(
               surfaces of the voids inside are blue."
             .to_owned(),
         shot: Shot {
-            scene: Scene { items: vec![Item::new(outer, BODY), Item::new(voids, VOID)], cut: Some(view.cut) },
+            scene: Scene {
+                items: vec![Item::new(outer, BODY), Item::new(voids, VOID)],
+                cut: Some(view.cut),
+            },
             camera: view.camera,
             text_px: COVER_TEXT_PX,
             labels: names_on_cut(view, subject),
-            keys: keys.into_iter().filter(|(is_there, ..)| *is_there).map(|(_, key, words)| (key, words)).collect(),
+            keys: keys
+                .into_iter()
+                .filter(|(is_there, ..)| *is_there)
+                .map(|(_, key, words)| (key, words))
+                .collect(),
         },
     }
 }

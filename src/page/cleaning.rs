@@ -21,7 +21,9 @@ pub(super) fn clean_one(sheet: &Checklist, void: &VoidRow) -> Markup {
     let full_g = void.volume_mm3 / MM3_PER_CM3 * sheet.material.density_g_cm3;
     html! {
         li {
-            strong { (void.id) } @if !void.parts.is_empty() { " in " (void.parts.join(", ")) } ", " (quantity(void.volume_mm3 / MM3_PER_CM3, "cm³")) ", "
+            strong { (void.id) }
+            @if !void.parts.is_empty() { " in " (void.parts.join(", ")) }
+            ", " (quantity(void.volume_mm3 / MM3_PER_CM3, "cm³")) ", "
             @if void.opened_by.is_empty() { strong class="fail" { "opened by no cut" } }
             @else {
                 "opened by " (void.opened_by.join(", ")) " to " (quantity(void.opening_mm, "mm")) " across ("
@@ -73,8 +75,9 @@ fn in_sight(sheet: &Checklist, void: &VoidRow) -> String {
 pub(super) fn cost(sheet: &Checklist) -> Markup {
     let proof = &sheet.certificate;
     let (unit, name) = (proof.figure.unit(), proof.figure.name());
+    let is_reported = proof.kept_solid_mm3 >= LEAST_REPORTED_MM3;
     html! {
-        @if let (Some(before), true) = (proof.value_before_cleaning, proof.kept_solid_mm3 >= LEAST_REPORTED_MM3) {
+        @if let Some(before) = proof.value_before_cleaning.filter(|_| is_reported) {
             p {
                 "So that every void can be cleaned" (by_plan(sheet)) ", " (quantity(proof.kept_solid_mm3 / MM3_PER_CM3, "cm³"))
                 " that could have been emptied stays solid: the " (name) " is " (quantity(proof.value, unit)) " instead of "

@@ -11,7 +11,7 @@ use super::steps::step_names;
 use super::words;
 use crate::base::numbers::{extent, number, quantity};
 use crate::base::units::{MM3_PER_CM3, format_count};
-use crate::sheet::{Checklist, Verdict};
+use crate::sheet::{Checklist, MaterialRow, Verdict};
 
 /// Returns the first page.
 pub(super) fn cover(inputs: &PageInputs, job: &JobId) -> Markup {
@@ -31,7 +31,10 @@ pub(super) fn cover(inputs: &PageInputs, job: &JobId) -> Markup {
         section aria-label="Overview" {
             (order_fields())
             (warnings(sheet))
-            div class="cover-pictures" { (figures(inputs.pictures, Role::Cover)) (figures(inputs.pictures, Role::CutAway)) }
+            div class="cover-pictures" {
+                (figures(inputs.pictures, Role::Cover))
+                (figures(inputs.pictures, Role::CutAway))
+            }
             (facts(sheet))
             (overview(sheet))
         }
@@ -56,12 +59,43 @@ fn facts(sheet: &Checklist) -> Markup {
     html! {
         table class="facts" {
             tr { th scope="row" { "Goal" } td { (words::goal(&sheet.goal)) ". Coordinates are along the model's own axes." } }
-            tr { th scope="row" { "Model" } td { (sheet.model.file) ", " (extent(&sheet.model.size_mm)) ", " (quantity(sheet.model.volume_mm3 / MM3_PER_CM3, "cm³")) " solid" } }
-            tr { th scope="row" { "Printer" } td { (sheet.printer.name) " (" (sheet.printer.process) "), " (pixels(sheet)) ", layers of " (quantity(sheet.printer.layer_mm, "mm")) } }
-            tr { th scope="row" { "Material" } td { (sheet.material.name) ", " (quantity(sheet.material.density_g_cm3, "g/cm³")) " (" (sheet.material.density_sure) @if sheet.material.density_spread_ratio.is_none() { ", not measured by this shop" } ": " (sheet.material.density_source) ")" } }
-            tr { th scope="row" { "Mass" } td { (quantity(sheet.assembly.mass_g, "g")) " in all" (of_hardware(sheet)) @if !sheet.ballast.is_empty() { " with " (format_count(sheet.ballast.len(), "piece")) " of ballast" } "; " (quantity(sheet.solid.mass_g, "g")) " if it were solid" } }
+            tr {
+                th scope="row" { "Model" }
+                td {
+                    (sheet.model.file) ", " (extent(&sheet.model.size_mm)) ", "
+                    (quantity(sheet.model.volume_mm3 / MM3_PER_CM3, "cm³")) " solid"
+                }
+            }
+            tr {
+                th scope="row" { "Printer" }
+                td {
+                    (sheet.printer.name) " (" (sheet.printer.process) "), " (pixels(sheet))
+                    ", layers of " (quantity(sheet.printer.layer_mm, "mm"))
+                }
+            }
+            tr { th scope="row" { "Material" } td { (material(&sheet.material)) } }
+            tr {
+                th scope="row" { "Mass" }
+                td {
+                    (quantity(sheet.assembly.mass_g, "g")) " in all" (of_hardware(sheet))
+                    @if !sheet.ballast.is_empty() {
+                        " with " (format_count(sheet.ballast.len(), "piece")) " of ballast"
+                    }
+                    "; " (quantity(sheet.solid.mass_g, "g")) " if it were solid"
+                }
+            }
             tr { th scope="row" { "Wall" } td { (words::wall(&sheet.wall)) } }
         }
+    }
+}
+
+/// Names the material and its density, with the source.
+fn material(material: &MaterialRow) -> Markup {
+    html! {
+        (material.name) ", " (quantity(material.density_g_cm3, "g/cm³")) " ("
+        (material.density_sure)
+        @if material.density_spread_ratio.is_none() { ", not measured by this shop" }
+        ": " (material.density_source) ")"
     }
 }
 
@@ -85,7 +119,8 @@ fn overview(sheet: &Checklist) -> Markup {
     html! {
         nav class="steps" aria-label="Steps" {
             p {
-                "It comes as " strong { (format_count(sheet.parts.len(), "part")) } " with " (format_count(sheet.voids.len(), "void")) " inside, opened by "
+                "It comes as " strong { (format_count(sheet.parts.len(), "part")) }
+                " with " (format_count(sheet.voids.len(), "void")) " inside, opened by "
                 (format_count(sheet.cuts.len(), "cut")) " and joined at " (format_count(sheet.joints.len(), "glue joint")) ". Do these steps in order, and tick each one off:"
             }
             ol class="way" {

@@ -46,7 +46,10 @@ pub(super) fn mass_window(mass_g: f64, spread_ratio: f64) -> Markup {
 fn window(mass_g: f64, spread_ratio: f64) -> Markup {
     html! {
         br;
-        span class="small" { (number(mass_g * (1.0 - spread_ratio))) "–" (quantity(mass_g * (1.0 + spread_ratio), "g")) }
+        span class="small" {
+            (number(mass_g * (1.0 - spread_ratio))) "–"
+            (quantity(mass_g * (1.0 + spread_ratio), "g"))
+        }
     }
 }
 

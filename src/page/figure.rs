@@ -106,9 +106,10 @@ pub(super) fn figure(picture: &Picture) -> Markup {
 
 /// Returns the pictures of a role in a row; nothing if there are none.
 pub(super) fn figures(pictures: &[Picture], role: Role) -> Markup {
+    let mut of_role = pictures.iter().filter(|p| p.role == role).peekable();
     html! {
-        @if pictures.iter().any(|picture| picture.role == role) {
-            div class=(role.class()) { @for picture in pictures.iter().filter(|p| p.role == role) { (figure(picture)) } }
+        @if of_role.peek().is_some() {
+            div class=(role.class()) { @for picture in of_role { (figure(picture)) } }
         }
     }
 }

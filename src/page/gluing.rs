@@ -108,7 +108,10 @@ impl Closing<'_> {
             @for joint in &self.joints {
                 div {
                     @if !is_one { (joint.id) ": " }
-                    @if joint.pins > 0 { (format_count(joint.pins, "pin")) ", clearance " (quantity(joint.clearance_mm, "mm")) " a side" }
+                    @if joint.pins > 0 {
+                        (format_count(joint.pins, "pin"))
+                        ", clearance " (quantity(joint.clearance_mm, "mm")) " a side"
+                    }
                     @else if joint.note.is_none() { "no pins" }
                     @if let Some(note) = &joint.note { @if joint.pins > 0 { "; " } strong { (note) } }
                     @if let Some(other) = self.guide_of(joint) { "; the pins of " (other.id) " align it, as both close together" }
@@ -127,7 +130,13 @@ pub(super) fn dry_fit(sheet: &Checklist) -> Markup {
             @for closing in closings(sheet) {
                 @let [one, other] = closing.bodies();
                 li {
-                    strong { (closing.name()) } ": " (one) " on " (other) " along " (closing.cuts()) ". No gap and no step at the seam" @if closing.joints.iter().any(|joint| joint.pins > 0) { ", every pin all the way in" } "."
+                    strong { (closing.name()) } ": "
+                    (one) " on " (other) " along " (closing.cuts())
+                    ". No gap and no step at the seam"
+                    @if closing.joints.iter().any(|joint| joint.pins > 0) {
+                        ", every pin all the way in"
+                    }
+                    "."
                     (closing.alignment())
                 }
             }
@@ -146,7 +155,17 @@ pub(super) fn glue(sheet: &Checklist) -> Markup {
                 (films(sheet))
             }
             table {
-                thead { tr { th scope="col" { "Done" } th scope="col" { "Joint" } th scope="col" { "Bodies" } th scope="col" { "Cut" } th scope="col" class="n" { "Area" } th scope="col" { "Alignment" } th scope="col" { "Adhesive, clamped until" } } }
+                thead {
+                    tr {
+                        th scope="col" { "Done" }
+                        th scope="col" { "Joint" }
+                        th scope="col" { "Bodies" }
+                        th scope="col" { "Cut" }
+                        th scope="col" class="n" { "Area" }
+                        th scope="col" { "Alignment" }
+                        th scope="col" { "Adhesive, clamped until" }
+                    }
+                }
                 tbody { @for closing in closings(sheet) { (line(&closing)) } }
             }
         }
@@ -190,7 +209,8 @@ fn cut_list(sheet: &Checklist) -> Markup {
             ul class="ticks" {
                 @for row in &sheet.cut_list {
                     li {
-                        strong { (row.count) " × " (row.name) } " (" code { (row.rod) } "), " (quantity(row.length_mm, "mm")) " long, "
+                        strong { (row.count) " × " (row.name) } " (" code { (row.rod) } "), "
+                        (quantity(row.length_mm, "mm")) " long, "
                         (quantity(row.mass_g, "g")) " each" br; span class="small" { (row.sources.join("; ")) }
                     }
                 }

@@ -11,12 +11,21 @@ pub(super) fn table(rows: &[GridRow]) -> Markup {
         @if !rows.is_empty() {
             h2 { "Sizes on this printer" }
             table {
-                thead { tr { th scope="col" { "What" } th scope="col" { "Along" } th scope="col" class="n" { "Asked" } th scope="col" class="n" { "Drawn" } th scope="col" { "Printed as" } } }
+                thead {
+                    tr {
+                        th scope="col" { "What" }
+                        th scope="col" { "Along" }
+                        th scope="col" class="n" { "Asked" }
+                        th scope="col" class="n" { "Drawn" }
+                        th scope="col" { "Printed as" }
+                    }
+                }
                 tbody {
                     @for (row, along) in merge_directions(rows) {
                         tr {
                             td { (row.what) } td { (along) }
-                            td class="n" { (quantity(row.asked_mm, "mm")) } td class="n" { (quantity(row.drawn_mm, "mm")) }
+                            td class="n" { (quantity(row.asked_mm, "mm")) }
+                            td class="n" { (quantity(row.drawn_mm, "mm")) }
                             td { (steps_words(row)) }
                         }
                     }

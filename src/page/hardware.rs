@@ -14,13 +14,20 @@ pub(super) fn fit_hardware(sheet: &Checklist, pictures: &[Picture]) -> Markup {
     html! {
         div class="lead" {
             @for half in [Half::A, Half::B] {
-                @if let Some(parts) = parts_of(sheet, half) { p { "Half " strong { (half_name(half)) } " is " (parts) "." } }
+                @if let Some(parts) = parts_of(sheet, half) {
+                    p { "Half " strong { (half_name(half)) } " is " (parts) "." }
+                }
             }
         }
         (align_halves(sheet))
         (figures(pictures, Role::Halves))
         ul class="ticks" {
-            @for piece in &sheet.hardware { li { strong { (piece.id) } ", " (description(sheet, piece)) " " span class="field" { "Weighed, g " (blank()) } } }
+            @for piece in &sheet.hardware {
+                li {
+                    strong { (piece.id) } ", " (description(sheet, piece)) " "
+                    span class="field" { "Weighed, g " (blank()) }
+                }
+            }
         }
         p class="small" { "Weigh each piece before it goes in: a different mass moves the centre of mass, or slows the object down." }
     }

@@ -23,7 +23,15 @@ pub(super) fn checks(checks: &[Check]) -> Markup {
         section {
             h2 { "Checks on the written files" }
             table {
-                thead { tr { th scope="col" { "Check" } th scope="col" { "Promise" } th scope="col" class="n" { "Measured" } th scope="col" class="n" { "Limit" } th scope="col" { "Verdict" } } }
+                thead {
+                    tr {
+                        th scope="col" { "Check" }
+                        th scope="col" { "Promise" }
+                        th scope="col" class="n" { "Measured" }
+                        th scope="col" class="n" { "Limit" }
+                        th scope="col" { "Verdict" }
+                    }
+                }
                 tbody { @for check in checks { (check_line(check)) } }
             }
             p class="small" { "Measured on the triangles of the files in this kit, put together as on this sheet, by a part of the program that knows nothing of the solver." }
@@ -35,7 +43,13 @@ fn check_line(check: &Check) -> Markup {
     html! {
         tr {
             td { (check.kind) }
-            td { (check.promise) @if let Some(detail) = check.detail.as_ref().filter(|_| !check.pass) { br; span class="small" { (sentence(detail)) } } }
+            td {
+                (check.promise)
+                @if let Some(detail) = check.detail.as_ref().filter(|_| !check.pass) {
+                    br;
+                    span class="small" { (sentence(detail)) }
+                }
+            }
             td class="n" { (quantity_or_dash(check.value, &check.unit)) }
             td class="n" { (check.comparison.sign()) " " (quantity(check.limit, &check.unit)) }
             td { @if check.pass { strong class="pass" { "✓ kept" } } @else { strong class="fail" { "✗ broken" } } }
@@ -122,7 +136,9 @@ fn bodies(sheet: &Checklist) -> Markup {
                         th scope="row" { (name) }
                         td class="n" { (quantity(body.mass_g, "g")) }
                         td { (coordinates(&body.center_mm)) }
-                        @for (_, unit, of) in &columns { td class="n" { (quantity_or_dash(of(body), unit)) } }
+                        @for (_, unit, of) in &columns {
+                            td class="n" { (quantity_or_dash(of(body), unit)) }
+                        }
                     }
                 }
             }
@@ -147,7 +163,8 @@ pub(super) fn files(inputs: &PageInputs) -> Markup {
                 }
             }
             p {
-                "Made by " (sheet.tool.name) " " (sheet.tool.version) " from " (sheet.model.file) " (" (sheet.model.triangles)
+                "Made by " (sheet.tool.name) " " (sheet.tool.version) " from " (sheet.model.file)
+                " (" (sheet.model.triangles)
                 " triangles, scaled by " (number(sheet.model.scale_ratio)) ") for printer profile " code { (sheet.printer.id) } ", material "
                 code { (sheet.material.id) } ". The same numbers are in checklist.json; job.toml repeats the run."
             }

@@ -47,8 +47,11 @@ pub(super) fn steps(sheet: &Checklist, pictures: &[Picture]) -> Markup {
         Some(weigh_whole(sheet)),
         Some(test_step(sheet)),
     ];
+    let steps = step_names(sheet)
+        .into_iter()
+        .zip(steps.into_iter().flatten());
     html! {
-        @for (index, (name, step)) in step_names(sheet).into_iter().zip(steps.into_iter().flatten()).enumerate() {
+        @for (index, (name, step)) in steps.enumerate() {
             section class="step" { h2 id=(format!("step-{}", index + 1)) { (index + 1) ". " (name) } (step) }
         }
     }
@@ -74,7 +77,10 @@ fn filling(sheet: &Checklist, fill: FillOrder) -> Markup {
             @for void in &sheet.voids {
                 tr {
                     td { "☐" } td { strong { (void.id) } }
-                    td class="n" { (quantity(void.volume_mm3 / MM3_PER_CM3, "cm³")) ", " (quantity(void.volume_mm3 / MM3_PER_CM3 * fill.density_g_cm3, "g")) }
+                    td class="n" {
+                        (quantity(void.volume_mm3 / MM3_PER_CM3, "cm³")) ", "
+                        (quantity(void.volume_mm3 / MM3_PER_CM3 * fill.density_g_cm3, "g"))
+                    }
                     td { (blank()) }
                 }
             }
@@ -105,7 +111,10 @@ fn ballast_line(row: &BallastRow) -> Markup {
             td class="n" { (mass_window(lump.mass_g, row.mass_spread_ratio)) }
             td { (blank()) }
             td { "pocket " (row.void) ", open along " (row.opened_by.join(", ")) ", " (quantity(row.clearance_mm, "mm")) " of room all around" }
-            td { (coordinates(&lump.center_mm)) @if !lump.shape.is_ball() { ", axis " (coordinates(&lump.axis)) } }
+            td {
+                (coordinates(&lump.center_mm))
+                @if !lump.shape.is_ball() { ", axis " (coordinates(&lump.axis)) }
+            }
         }
     }
 }

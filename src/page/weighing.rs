@@ -19,12 +19,31 @@ pub(super) fn weigh_parts(sheet: &Checklist) -> Markup {
             }
         }
         table {
-            thead { tr { th scope="col" { "Part" } th scope="col" class="n" { "Expected" } th scope="col" { "Weighed, g" } th scope="col" { @if is_known { "In the window" } @else { "Share of all parts, %" } } } }
+            thead {
+                tr {
+                    th scope="col" { "Part" }
+                    th scope="col" class="n" { "Expected" }
+                    th scope="col" { "Weighed, g" }
+                    th scope="col" {
+                        @if is_known { "In the window" } @else { "Share of all parts, %" }
+                    }
+                }
+            }
             tbody {
                 @for part in &sheet.parts {
-                    tr { td { (part.id) } td class="n" { (mass_with_window(sheet, part.mass_g)) } td { (blank()) } td { (tick_or_blank(sheet)) } }
+                    tr {
+                        td { (part.id) }
+                        td class="n" { (mass_with_window(sheet, part.mass_g)) }
+                        td { (blank()) }
+                        td { (tick_or_blank(sheet)) }
+                    }
                 }
-                tr { td { strong { "all parts" } } td class="n" { (mass_with_window(sheet, mass_of_parts_g(sheet))) } td { (blank()) } td { (tick_or_blank(sheet)) } }
+                tr {
+                    td { strong { "all parts" } }
+                    td class="n" { (mass_with_window(sheet, mass_of_parts_g(sheet))) }
+                    td { (blank()) }
+                    td { (tick_or_blank(sheet)) }
+                }
             }
         }
         p class="small" { "A part too heavy still holds " (residue(&sheet.printer.process)) ": clean it again before gluing. A part too light was not printed solid." }
@@ -94,12 +113,29 @@ pub(super) fn weigh_whole(sheet: &Checklist) -> Markup {
     let whole_g = sheet.assembly.mass_g;
     html! {
         table {
-            thead { tr { th scope="col" { "What" } th scope="col" class="n" { "Expected" } th scope="col" class="n" { "Share of the whole" } th scope="col" { "Weighed, g" } } }
+            thead {
+                tr {
+                    th scope="col" { "What" }
+                    th scope="col" class="n" { "Expected" }
+                    th scope="col" class="n" { "Share of the whole" }
+                    th scope="col" { "Weighed, g" }
+                }
+            }
             tbody {
                 @for share in shares.iter().filter(|_| shares.len() > 1) {
-                    tr { td { (share.what) } td class="n" { (quantity(share.mass_g, "g")) } td class="n" { (number(100.0 * share.mass_g / whole_g)) " %" } td { "as weighed before" } }
+                    tr {
+                        td { (share.what) }
+                        td class="n" { (quantity(share.mass_g, "g")) }
+                        td class="n" { (number(100.0 * share.mass_g / whole_g)) " %" }
+                        td { "as weighed before" }
+                    }
                 }
-                tr { td { strong { (all_together(sheet)) } } td class="n" { (whole_mass(sheet)) } td class="n" { "100 %" } td { (blank()) } }
+                tr {
+                    td { strong { (all_together(sheet)) } }
+                    td class="n" { (whole_mass(sheet)) }
+                    td class="n" { "100 %" }
+                    td { (blank()) }
+                }
             }
         }
     }

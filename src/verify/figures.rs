@@ -249,11 +249,10 @@ fn largest_transverse(inertia: &Matrix) -> f64 {
     0.5 * (xx + yy) + (0.5 * (xx - yy)).hypot(xy)
 }
 
-/// Returns ω = √(g M ℓ / (I_c − I_b)) in rpm, with the moments about the centre (Spin-It eq. 1),
-/// for a body in the goal frame.
+/// Returns ω = √(g M ℓ / (I_c − I_b)) in rpm, for a body in the goal frame (Spin-It eq. 1).
 ///
-/// Zero if the centre hangs below the contact. `None` if the axis is not dominant, since no speed
-/// is enough then.
+/// The moments are about the centre. Zero if the centre hangs below the contact. `None` if the axis
+/// is not dominant, since no speed is enough then.
 fn critical_speed_rpm(local: &Body) -> Option<f64> {
     let margin = local.inertia_g_mm2[(2, 2)] - largest_transverse(&local.inertia_g_mm2);
     let height_mm = local.center.z.max(0.0);

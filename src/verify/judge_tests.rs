@@ -9,7 +9,8 @@ use test_meshes::{block, tray};
 
 const SIZE: [f64; 3] = [60.0, 40.0, 12.0];
 const WALL: f64 = 3.0;
-/// The seat of a pin, in the middle of a side of the box of [`sound_kit`], whose halves meet at z = 16.
+/// The seat of a pin, in the middle of a side of the box of [`sound_kit`]. Its halves meet at
+/// z = 16.
 pub(crate) const SEAT: [f64; 3] = [28.5, 0.0, 16.0];
 
 /// Returns a hollow box top of 60 × 40 × 12 mm, 10 mm over its contact.

@@ -21,12 +21,6 @@ const FLAG_FILES: [&str; 2] = [
 
 /// The share of the doc comments that still begin with a question. Final value: 0.01.
 const QUESTION_SHARE: f64 = 0.01;
-/// Docs that still have such an idiom. Final value: 0.
-const NONE_WHERES: usize = 0;
-/// Lines that are still too wide. Final value: 0.
-const WIDE_LINES: usize = 40;
-/// Sentences that are still too long. Final value: 0.
-const LONG_SENTENCES: usize = 15;
 
 /// Comment lines that follow each other with one and the same mark.
 struct Comment {
@@ -68,13 +62,13 @@ fn doc_comments_say_none_if() {
     };
     let wrong = comments().filter(|(_, comment)| comment.is_doc && says(comment));
     let wrong = wrong.map(|(source, comment)| comment.first_line(source));
-    at_most(NONE_WHERES, wrong, "write \"`None` if\"");
+    holds(wrong, "write \"`None` if\"");
 }
 
 #[test]
 fn lines_are_narrow() {
     let wide = scanner::all().flat_map(wide_lines);
-    at_most(WIDE_LINES, wide, "break the line");
+    holds(wide, "break the line");
 }
 
 #[test]
@@ -86,7 +80,7 @@ fn sentences_are_short() {
         long.map(|sentence| format!("{place}: {sentence}"))
             .collect::<Vec<_>>()
     });
-    at_most(LONG_SENTENCES, long, "make two sentences of it");
+    holds(long, "make two sentences of it");
 }
 
 #[test]

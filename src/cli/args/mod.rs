@@ -51,7 +51,12 @@ pub struct GlobalArgs {
     #[arg(short, long, global = true, action = clap::ArgAction::Count)]
     pub verbose: u8,
     /// Use this many threads, up to 256; the result does not depend on it [default: one per core]
-    #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=MAX_THREADS))]
+    #[arg(
+        long,
+        global = true,
+        value_name = "N",
+        value_parser = clap::value_parser!(u16).range(1..=MAX_THREADS)
+    )]
     pub threads: Option<u16>,
     /// Print the result as JSON on the standard output
     #[arg(long, global = true)]

@@ -45,7 +45,12 @@ pub struct PrepareArgs {
     pub wall: Option<Length>,
 
     /// The goal: the object spins (top, yoyo), stands, floats, or runs true (balance)
-    #[arg(long, value_parser = words::<GoalKind>(GoalKind::WORDS), required_unless_present = "job", help_heading = "Goal")]
+    #[arg(
+        long,
+        value_parser = words::<GoalKind>(GoalKind::WORDS),
+        required_unless_present = "job",
+        help_heading = "Goal"
+    )]
     pub goal: Option<GoalKind>,
     /// The spin axis or the direction up: x, y, z, -x, -y, -z or a vector X,Y,Z. Or principal (the
     /// axis easiest to spin about), or auto (the best of all) [default: z]

@@ -91,10 +91,10 @@ fn a_void_too_narrow_to_open_is_named() {
         &[[10.0, 10.0, 10.0, 5.0], [22.0, 22.0, 22.0, 1.0]],
     );
     let refused = plan(&body, &request()).unwrap_err();
-    assert!(
-        matches!(&refused, CutError::Obstacle(Obstacle::Unopenable { voids, .. }) if *voids == [VoidId::of(1)]),
-        "{refused}"
-    );
+    let CutError::Obstacle(Obstacle::Unopenable { voids, .. }) = refused else {
+        panic!("{refused}")
+    };
+    assert_eq!(voids, [VoidId::of(1)]);
 }
 
 /// Returns a body of 60 × 30 × 30 mm with a void. Behind it are pockets for balls of 5 mm with a

@@ -145,12 +145,14 @@ mod tests {
     fn too_heavy_too_light_and_too_far_aside_are_each_proved() {
         let of = |mass, aside| solution(&worlds::tank(mass, aside)).status;
         // It weighs 40 empty and 200 full.
-        assert!(
-            matches!(of(32.0, [0.0; 2]), Status::Sinks { least_ratio } if (least_ratio - 1.25).abs() < 1e-12)
-        );
-        assert!(
-            matches!(of(250.0, [0.0; 2]), Status::RidesHigh { greatest_ratio } if (greatest_ratio - 0.8).abs() < 1e-12)
-        );
+        let Status::Sinks { least_ratio } = of(32.0, [0.0; 2]) else {
+            panic!("it must sink")
+        };
+        assert!((least_ratio - 1.25).abs() < 1e-12);
+        let Status::RidesHigh { greatest_ratio } = of(250.0, [0.0; 2]) else {
+            panic!("it must ride high")
+        };
+        assert!((greatest_ratio - 0.8).abs() < 1e-12);
         // 80 of 120 can move, by 2 mm at most, so the centre moves less than 4/3 mm.
         let Status::CannotTrim {
             least_offset_mm, ..
@@ -201,10 +203,10 @@ mod tests {
         });
         let got = solution(&world).status;
         let want = 4.0 - 560.0 / 120.0;
-        assert!(
-            matches!(got, Status::Capsizes { greatest_gm_mm } if (greatest_gm_mm - want).abs() < 1e-6),
-            "{got:?}"
-        );
+        let Status::Capsizes { greatest_gm_mm } = got else {
+            panic!("{got:?}")
+        };
+        assert!((greatest_gm_mm - want).abs() < 1e-6, "{got:?}");
         assert!(got.is_impossible() && !got.remedies(&world.goal).is_empty());
         assert_eq!(
             world.goal.afloat.unwrap().buoyancy,

@@ -28,9 +28,15 @@
 //! λ_max is smoothed for them. `benches/README.md` has the times.
 //!
 //! # Files
-//! In reading order: `method` the trait · `target` f and A · `descent` L-BFGS between bounds ·
-//! `lagrangian` the constraints · `measure` the result · `rays`, `voxels`, `octree` the three
-//! methods · `quadric` the solver behind the same trait.
+//! | file | holds |
+//! |---|---|
+//! | `method` | the trait |
+//! | `target` | f and A |
+//! | `descent` | L-BFGS between bounds |
+//! | `lagrangian` | the constraints |
+//! | `measure` | the result |
+//! | `rays`, `voxels`, `octree` | the three methods |
+//! | `quadric` | the solver behind the same trait |
 //!
 //! Sources: Wu, Kramer, Westermann 2016; Bächer, Whiting, Bickel, Sorkine-Hornung 2014
 //! ([`crate::hollow`]). Hestenes, "Multiplier and gradient methods", J. Optim. Theory Appl. 4,

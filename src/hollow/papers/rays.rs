@@ -18,8 +18,8 @@ const REOPENINGS: usize = 4;
 /// The moments are at most cubic in them, so the programme is smooth but not convex. A vanished
 /// segment has no gradient towards material elsewhere on its ray. So after each solution such
 /// segments open again where material is wanted ([`Rays::reopen`]). An interior-point method does
-/// not need this, as its segments never quite vanish. λ_max (critical speed, dominance) is smoothed
-/// by 1e-4 of the solid's moments.
+/// not need this, as its segments never quite vanish. The λ_max of critical speed and dominance is
+/// smoothed by 1e-4 of the solid's moments.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ByRays {
     /// Accuracy and cost limits.

@@ -37,15 +37,20 @@ const MOST_SIDES: usize = 80;
 /// ```
 ///
 /// An interior with s_z = (1 − x)σ₁ + xσ₂ has s₁ = s_z/h. By the same mixture of both inequalities
-/// it is above the side if (1 − x)m₁ + xm₂ ≥ x(1 − x)(σ₂ − σ₁)(a₁ − a₂)h/s_z. This holds for all x
-/// if √m₁ + √m₂ ≥ √((σ₂ − σ₁)(a₁ − a₂)h/σ₁). The loss of the mixture is quadratic in the side's
-/// length. The margin m grows with the square of the distance from the best lever. So the number of
-/// sides, too, is about the logarithm of the precision.
+/// it is above the side if
 ///
-/// Beyond a corner (σ, t), t changes along the ellipse by less than |t′| = kσ/(γt) per unit of
-/// lever below σ, and by more above it. So the posts of a corner cover all smaller levers if a ≥
-/// |t′| times the greatest I_zz. They cover all greater levers if a ≤ |t′| times the least I_zz,
-/// plus m/h.
+/// ```text
+/// (1 − x)m₁ + xm₂ ≥ x(1 − x)(σ₂ − σ₁)(a₁ − a₂)h/s_z.
+/// ```
+///
+/// This holds for all x if √m₁ + √m₂ ≥ √((σ₂ − σ₁)(a₁ − a₂)h/σ₁). The loss of the mixture is
+/// quadratic in the side's length. The margin m grows with the square of the distance from the best
+/// lever. So the number of sides, too, is about the logarithm of the precision.
+///
+/// Put |t′| = kσ/(γt) at a corner (σ, t). Beyond it, t changes along the ellipse by less than that
+/// per unit of lever below σ, and by more above it. So the posts of a corner cover all smaller
+/// levers if a is at least |t′| times the greatest I_zz. They cover all greater levers if a is at
+/// most |t′| times the least I_zz, plus m/h.
 pub(crate) struct Frontier<'a> {
     pub heights: &'a Heights<'a>,
     pub weighed: Weighed,
