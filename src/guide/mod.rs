@@ -1,5 +1,5 @@
-//! The manual behind the code: [`conventions`], the [`map`] of the code, the [`theory`] of the solver,
-//! and the [`bibliography`].
+//! The manual behind the code: [`conventions`], the [`map`] of the code, the [`theory`] of the
+//! solver, and the [`bibliography`].
 
 pub mod bibliography;
 pub mod conventions;
