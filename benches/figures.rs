@@ -373,7 +373,7 @@ fn void_bodies(bencher: Bencher, name: &str) {
     let cavity = scene.cavity();
     bencher.bench(|| {
         cavity
-            .void_bodies(black_box(&solution.quadric), frame)
+            .void_bodies(black_box(&solution.quadric), frame, &Watch::silent())
             .unwrap()
     });
 }

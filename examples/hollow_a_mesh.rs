@@ -35,7 +35,7 @@ fn main() -> anyhow::Result<()> {
     let printer = Printer::find("objet-connex350")?;
     let spec = CavitySpec::for_printer(&printer, WALL_MM, &placed.keeps);
     let cavity = Cavity::extract(&solid, &spec, &watch)?;
-    let voids = cavity.void_bodies(&solution.quadric, &placed.goal.frame)?;
+    let voids = cavity.void_bodies(&solution.quadric, &placed.goal.frame, &watch)?;
     let volume_mm3 = |void: &Solid| void.mesh().signed_volume_mm3();
     println!(
         "{} void(s), {:.0} mm³ of {:.0} mm³; spins upright from {:.0} rpm, at best {:.0} rpm",

@@ -19,7 +19,7 @@ fn main() -> anyhow::Result<()> {
         Some(folder) => PathBuf::from(folder),
         None => make_kit(&made.path().join("kit"))?,
     };
-    let judgement = verify_kit(&folder)?;
+    let judgement = verify_kit(&folder, &Watch::silent())?;
     for check in &judgement.checks {
         let verdict = if check.pass { "kept  " } else { "broken" };
         println!("{verdict} {}", check.kind);

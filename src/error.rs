@@ -71,10 +71,10 @@ pub enum Error {
     Shell(#[from] ShellError),
     /// The columns cannot be built.
     #[error(transparent)]
-    Columns(#[from] BuildError),
+    Columns(BuildError),
     /// The order for ballast cannot be processed.
     #[error(transparent)]
-    Ballast(#[from] BallastError),
+    Ballast(BallastError),
     /// The ballast that was ordered does not fit.
     #[error(
         "`{}` has no room inside; remedy: order fewer or smaller parts, or none",
@@ -120,13 +120,13 @@ pub enum Error {
     },
     /// The surface of the voids cannot be made.
     #[error(transparent)]
-    Voids(#[from] VoidError),
+    Voids(VoidError),
     /// A boolean failed.
     #[error(transparent)]
     Clip(#[from] ClipError),
     /// The cuts or the parts cannot be made.
     #[error(transparent)]
-    Cut(#[from] CutError),
+    Cut(CutError),
     /// A written STL does not read back.
     #[error(transparent)]
     Stl(#[from] StlError),
@@ -138,18 +138,18 @@ pub enum Error {
     /// A package cannot be written.
     #[error(transparent)]
     Package(#[from] PackageError),
-    /// A picture cannot be encoded.
+    /// A picture cannot be drawn.
     #[error(transparent)]
-    Picture(#[from] PictureError),
+    Picture(PictureError),
     /// The checklist cannot be written.
     #[error(transparent)]
     Checklist(#[from] ChecklistError),
     /// The kit cannot be written.
     #[error(transparent)]
-    Kit(#[from] KitError),
+    Kit(KitError),
     /// A kit cannot be judged.
     #[error(transparent)]
-    Verify(#[from] VerifyError),
+    Verify(VerifyError),
     /// The caller stopped the run.
     #[error("stopped before the end")]
     Cancelled,
@@ -159,4 +159,29 @@ impl From<Cancelled> for Error {
     fn from(_: Cancelled) -> Self {
         Self::Cancelled
     }
+}
+
+/// Converts the errors of rooms that a caller can stop. However deep a run was stopped, the error
+/// says so.
+macro_rules! from_stoppable {
+    ($($error:ident => $variant:ident),*) => {$(
+        impl From<$error> for Error {
+            fn from(error: $error) -> Self {
+                match error {
+                    $error::Cancelled(cancelled) => cancelled.into(),
+                    error => Self::$variant(error),
+                }
+            }
+        }
+    )*};
+}
+
+from_stoppable! {
+    BallastError => Ballast,
+    BuildError => Columns,
+    CutError => Cut,
+    KitError => Kit,
+    PictureError => Picture,
+    VerifyError => Verify,
+    VoidError => Voids
 }

@@ -18,6 +18,7 @@ use std::path::Path;
 use std::time::Instant;
 
 use equipoise::base::verdict::Verdict;
+use equipoise::base::watch::Watch;
 use equipoise::cut::{
     Cut, CutId, CutOrder, CutPlan, CutSide, GoalAxis, Hollowed, LabelStyle, Obstacle, Part,
     PinSettings, PinSite, PlanRequest, PosePreference, Side, parts, plan_by, rods,
@@ -102,8 +103,8 @@ fn bodies() -> Vec<(String, TriMesh)> {
             let Ok(mesh) = read_model(&path) else {
                 continue;
             };
-            let mesh = repair(mesh).0;
-            if Solid::new(mesh.clone()).is_ok_and(|solid| one_body(&solid).is_ok()) {
+            let (mesh, watch) = (repair(mesh).0, Watch::silent());
+            if Solid::new(mesh.clone()).is_ok_and(|solid| one_body(&solid, &watch) == Ok(Ok(()))) {
                 all.push((
                     path.file_name().unwrap().to_string_lossy().into_owned(),
                     mesh,
@@ -149,6 +150,7 @@ fn request(dice: &mut Dice) -> PlanRequest {
             stroke_mm: 0.5,
             depth_mm: 0.5,
         }),
+        watch: Watch::silent(),
     }
 }
 
@@ -319,8 +321,9 @@ fn beside_axis(pin: &PinSite, height_mm: f64) -> Point {
 }
 
 fn assert_written_parts_are_sound(label: &str, made: &[Part]) {
+    let watch = Watch::silent();
     for part in made {
-        let written = write(part.clone(), &format!("soak_{}", part.id), [1.0; 3]).unwrap();
+        let written = write(part.clone(), &format!("soak_{}", part.id), [1.0; 3], &watch).unwrap();
         let surface = weld(&written.read_back);
         let crossings = Crossings::of(&surface).pairs;
         let defect = Solid::new(surface).err();

@@ -11,6 +11,7 @@
     reason = "a test whose input cannot be had has failed"
 )]
 
+use equipoise::base::watch::Watch;
 use equipoise::cut::{GoalAxis, Hollowed, PinSettings, PlanRequest, PosePreference, plan};
 use equipoise::geom::{Point, Vector};
 use equipoise::mesh::{Csg, Solid, TriMesh, primitives};
@@ -44,6 +45,7 @@ fn request() -> PlanRequest {
         pose: PosePreference::CutFaceDown,
         rods: Vec::new(),
         labels: None,
+        watch: Watch::silent(),
     }
 }
 

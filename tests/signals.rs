@@ -16,8 +16,8 @@ use std::time::Duration;
 
 use common::ELLIPSOID;
 
-/// Starts a `prepare` that takes some seconds, and sends it a signal after half a second.
-fn stopped(signal: &str, out: &Path) -> Output {
+/// Starts a `prepare` that takes some seconds, and sends it a signal after a time.
+fn stopped(signal: &str, after: Duration, out: &Path) -> Output {
     let child = Command::new(env!("CARGO_BIN_EXE_equipoise"))
         .args(["prepare", ELLIPSOID, "--printer", "objet-connex350"])
         .args(["--goal", "top", "--size", "100mm", "--force", "--out"])
@@ -26,7 +26,7 @@ fn stopped(signal: &str, out: &Path) -> Output {
         .stderr(Stdio::piped())
         .spawn()
         .unwrap();
-    thread::sleep(Duration::from_millis(500));
+    thread::sleep(after);
     let kill = format!("kill -{signal} {}", child.id());
     let sent = Command::new("sh").args(["-c", &kill]).status().unwrap();
     assert!(sent.success(), "the run ended before the signal");
@@ -42,9 +42,10 @@ fn names(folder: &Path) -> Vec<String> {
 
 #[test]
 fn a_stopped_run_says_so_and_leaves_nothing_behind() {
-    for (signal, code) in [("INT", 130), ("TERM", 143)] {
+    for (signal, code, after_ms) in [("INT", 130, 300), ("TERM", 143, 1000)] {
         let room = tempfile::tempdir().unwrap();
-        let output = stopped(signal, &room.path().join("deep/er/kit"));
+        let out = room.path().join("deep/er/kit");
+        let output = stopped(signal, Duration::from_millis(after_ms), &out);
         let said = String::from_utf8_lossy(&output.stderr).into_owned();
         assert_eq!(output.status.code(), Some(code), "{said}");
         assert_eq!(said, "stopped; nothing was written\n");
@@ -59,7 +60,7 @@ fn a_kit_that_was_to_be_replaced_is_still_there() {
     let kit = room.path().join("kit");
     fs::create_dir(&kit).unwrap();
     fs::write(kit.join("checklist.json"), "old").unwrap();
-    let output = stopped("INT", &kit);
+    let output = stopped("INT", Duration::from_millis(500), &kit);
     assert_eq!(output.status.code(), Some(130));
     assert_eq!(names(room.path()), ["kit"]);
     assert_eq!(names(&kit), ["checklist.json"]);

@@ -72,7 +72,7 @@ fn find_least_steel(model: &SampledModel) -> Option<Steel> {
             passes_per_ascent: PASSES,
             ..Settings::default()
         };
-        let ballast = least_ballast(&question, 1.0 + excess_ratio, &settings, &Watch::silent())?;
+        let ballast = least_ballast(&question, 1.0 + excess_ratio, &settings, &model.watch)?;
         Some((placement, ballast))
     };
     let found = model
@@ -87,25 +87,36 @@ fn find_least_steel(model: &SampledModel) -> Option<Steel> {
             ballast.filled,
             (1.0 + excess) * ballast.volume_mm3,
         )?;
-        confirm(&placement, &columns, &filled, excess_ratio)
+        let heavy = Heavy {
+            filled,
+            excess_ratio,
+        };
+        model.watch.check().ok()?;
+        confirm(&placement, &columns, &heavy, &model.watch)
     })
+}
+
+/// The region of the steel, and the ratio by which its density exceeds that of the print.
+struct Heavy {
+    filled: Quadric,
+    excess_ratio: f64,
 }
 
 /// Solves with the steel as part of the fixed mass; its region may not be emptied.
 fn confirm(
     placement: &Placement,
     columns: &Columns,
-    filled: &Quadric,
-    excess_ratio: f64,
+    heavy: &Heavy,
+    watch: &Watch,
 ) -> Option<Steel> {
-    let steel = moments_where_positive(columns, filled);
-    let rest = columns.outside(filled);
+    let steel = moments_where_positive(columns, &heavy.filled);
+    let rest = columns.outside(&heavy.filled);
     let question = problem(placement, &rest);
     let weighted = Problem {
-        fixed: question.fixed + steel * excess_ratio,
+        fixed: question.fixed + steel * heavy.excess_ratio,
         ..question
     };
-    let solution = solve(&weighted, &Settings::default(), &Watch::silent());
+    let solution = solve(&weighted, &Settings::default(), watch);
     let trial = Trial {
         placement: placement.clone(),
         solution,

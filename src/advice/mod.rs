@@ -54,6 +54,7 @@ mod tests;
 
 use rayon::prelude::*;
 
+use crate::base::watch::{Cancelled, Watch};
 use crate::goal::GoalKind;
 
 pub use case::Case;
@@ -70,10 +71,14 @@ use sampled_model::{FINE_SAMPLES, SampledModel};
 ///
 /// Costs some hundred trials and a few exact solves: about a second on 10 000 triangles, a few on
 /// 100 000. The remedies are the same for any number of threads.
-pub fn remedies(case: &Case) -> Vec<Remedy> {
-    let model = SampledModel::new(*case, FINE_SAMPLES);
+///
+/// # Errors
+/// The watch was stopped.
+pub fn remedies(case: &Case, watch: &Watch) -> Result<Vec<Remedy>, Cancelled> {
+    let model = SampledModel::new(*case, FINE_SAMPLES, watch);
     let Some(asked) = model.trial(&case.request, case.wall_mm) else {
-        return Vec::new();
+        watch.check()?;
+        return Ok(Vec::new());
     };
     let goal = &asked.placement.goal;
     let moves = Moves::of(case, goal);
@@ -96,5 +101,6 @@ pub fn remedies(case: &Case) -> Vec<Remedy> {
         all.push(footing::remedy(&model, &goal.frame.axis()));
     }
     all.push(ballast);
-    all
+    watch.check()?;
+    Ok(all)
 }

@@ -7,6 +7,7 @@ use super::directions::{distinct, is_new, lattice, round_direction, with_axis};
 use super::footing::resting_directions;
 use super::reached::Reached;
 use super::sampled_model::{COARSE_SAMPLES, FINE_SAMPLES, SampledModel, Trial};
+use crate::base::watch::{Cancelled, Watch};
 use crate::geom::{Frame, Point, Vector};
 use crate::goal::{Contact, GoalKind, Request};
 use crate::mass::{Body, moments_of_mesh};
@@ -56,30 +57,30 @@ pub struct Orientation {
 ///
 /// The best few are refined by smaller and smaller tilts. Costs some hundred trials, about a second
 /// on 10 000 triangles.
-pub fn best_orientation(case: &Case) -> Option<Orientation> {
-    let center = Request {
+///
+/// # Errors
+/// The watch was stopped.
+pub fn best_orientation(case: &Case, watch: &Watch) -> Result<Option<Orientation>, Cancelled> {
+    let best = best_with_contact_rule(case, watch);
+    watch.check()?;
+    if best.is_some() || case.request.contact != Some(Contact::Lowest) {
+        return Ok(best);
+    }
+    let request = Request {
         contact: Some(Contact::Center),
         ..case.request
     };
-    let is_lowest = case.request.contact == Some(Contact::Lowest);
-    best_with_contact_rule(case).or_else(|| {
-        if is_lowest {
-            best_with_contact_rule(&Case {
-                request: center,
-                ..*case
-            })
-        } else {
-            None
-        }
-    })
+    let best = best_with_contact_rule(&Case { request, ..*case }, watch);
+    watch.check()?;
+    Ok(best)
 }
 
-fn best_with_contact_rule(case: &Case) -> Option<Orientation> {
-    let coarse = SampledModel::new(*case, COARSE_SAMPLES);
+fn best_with_contact_rule(case: &Case, watch: &Watch) -> Option<Orientation> {
+    let coarse = SampledModel::new(*case, COARSE_SAMPLES, watch);
     let axes = candidates(case);
     let ranked = rank_axes(&coarse, &axes);
     let starts = spread(&ranked);
-    let model = SampledModel::new(*case, FINE_SAMPLES);
+    let model = SampledModel::new(*case, FINE_SAMPLES, watch);
     let refined: Vec<Option<Place>> = starts
         .par_iter()
         .map(|start| refine(&model, start))

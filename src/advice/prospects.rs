@@ -8,6 +8,7 @@ use super::directions::{distinct, with_axis};
 use super::orientation::{points_down, special_axes};
 use super::reached::Reached;
 use super::sampled_model::{COARSE_SAMPLES, SampledModel, Trial};
+use crate::base::watch::Watch;
 use crate::geom::Vector;
 use crate::goal::{Contact, GoalKind, Request, Up};
 use crate::hollow::Status;
@@ -40,7 +41,7 @@ pub struct Prospect {
 ///
 /// Ignores the request of the case. Costs about thirty trials.
 pub fn prospects(case: &Case) -> Vec<Prospect> {
-    let model = SampledModel::new(*case, COARSE_SAMPLES);
+    let model = SampledModel::new(*case, COARSE_SAMPLES, &Watch::silent());
     let axes = distinct(special_axes(case), SAME_COSINE);
     let requests: Vec<Request> = [GoalKind::Top, GoalKind::Yoyo, GoalKind::Stand]
         .iter()

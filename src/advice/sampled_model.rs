@@ -25,9 +25,10 @@ pub(super) const CONFIRMING_COLUMNS: usize = 200;
 /// The number of waterlines that are tried if the waterline is free.
 const WATERLINES: usize = 12;
 
-/// A model with samples of its depths.
+/// A model with samples of its depths. Once its watch is stopped, no request can be placed.
 pub(super) struct SampledModel<'a> {
     pub case: Case<'a>,
+    pub watch: Watch,
     weighed: MeasuredSolid<'a>,
     depths: Depths,
 }
@@ -55,7 +56,7 @@ impl Trial {
 }
 
 impl<'a> SampledModel<'a> {
-    pub fn new(case: Case<'a>, samples: usize) -> Self {
+    pub fn new(case: Case<'a>, samples: usize, watch: &Watch) -> Self {
         let weighed = MeasuredSolid {
             solid: case.solid,
             moments: moments_of_mesh(case.solid.mesh()),
@@ -64,6 +65,7 @@ impl<'a> SampledModel<'a> {
             depths: Depths::of_solid(case.solid, samples),
             weighed,
             case,
+            watch: watch.muted(),
         }
     }
 
@@ -105,12 +107,13 @@ impl<'a> SampledModel<'a> {
         )
         .ok()?;
         let pitch_mm = shell.coarse_pitch(columns_a_side);
-        let columns = Columns::of_shell(&shell, pitch_mm, &Watch::silent()).ok()?;
+        let columns = Columns::of_shell(&shell, pitch_mm, &self.watch).ok()?;
         Some((placement, columns))
     }
 
-    /// Places a request. Returns `None` if that fails.
+    /// Places a request. Returns `None` if that fails, or if the run was stopped.
     pub fn place(&self, request: &Request, wall_mm: f64) -> Option<Placement> {
+        self.watch.check().ok()?;
         let stock = PrintStock {
             wall_mm,
             density_g_cm3: self.case.density_g_cm3,
@@ -146,7 +149,7 @@ impl<'a> SampledModel<'a> {
             let solution = ask(
                 &problem(&placement, columns),
                 &Settings::default(),
-                &Watch::silent(),
+                &self.watch,
             );
             Trial {
                 columns: columns.len(),

@@ -48,8 +48,16 @@ fn case(solid: &Solid, request: Request, wall_mm: f64) -> Case<'_> {
     }
 }
 
+fn remedies(case: &Case) -> Vec<Remedy> {
+    super::remedies(case, &Watch::silent()).unwrap()
+}
+
+fn best_orientation(case: &Case) -> Option<Orientation> {
+    super::best_orientation(case, &Watch::silent()).unwrap()
+}
+
 fn is_possible(case: &Case, request: &Request, wall_mm: f64) -> bool {
-    SampledModel::new(*case, FEW)
+    SampledModel::new(*case, FEW, &Watch::silent())
         .confirm(request, wall_mm)
         .is_some()
 }
@@ -119,7 +127,7 @@ fn a_tower_stands_at_the_advised_size_and_wall_and_falls_a_little_short_of_them(
 fn possible_walls_are_below_one_number_and_impossible_ones_above() {
     let tower = leaning_tower();
     let case = case(&tower, Request::new(GoalKind::Stand), 3.0);
-    let model = SampledModel::new(case, 20_000);
+    let model = SampledModel::new(case, 20_000, &Watch::silent());
     let possible: Vec<bool> = (1..=30)
         .map(|i| model.allows(&case.request, 0.1 * f64::from(i)))
         .collect();
@@ -256,7 +264,7 @@ fn a_tower_stands_on_the_advised_face_and_with_the_advised_steel() {
 fn sampled_depths_and_exact_columns_agree_away_from_the_border() {
     let lens = bulging_lens();
     let case = case(&lens, Request::new(GoalKind::Yoyo), 1.5);
-    let model = SampledModel::new(case, 20_000);
+    let model = SampledModel::new(case, 20_000, &Watch::silent());
     let on_edge = Request {
         up: Up::X,
         ..case.request
@@ -307,7 +315,7 @@ fn of_all_axes_a_lens_spins_best_about_its_own() {
             up: Up::Along(axis.into()),
             ..request
         };
-        let other = SampledModel::new(case, 20_000)
+        let other = SampledModel::new(case, 20_000, &Watch::silent())
             .trial(&request, 1.5)
             .unwrap();
         let is_worse =
@@ -366,7 +374,11 @@ fn the_hull_of_a_cross_has_the_cross_within() {
 #[test]
 fn the_confirming_solve_is_finer_than_the_search() {
     let lens = bulging_lens();
-    let model = SampledModel::new(case(&lens, askew_yoyo(), 1.5), FINE_SAMPLES);
+    let model = SampledModel::new(
+        case(&lens, askew_yoyo(), 1.5),
+        FINE_SAMPLES,
+        &Watch::silent(),
+    );
     let request = Request::new(GoalKind::Yoyo);
     let (_, exact) = model
         .exact_columns(&request, 1.5, CONFIRMING_COLUMNS)

@@ -1,6 +1,7 @@
 //! Errors in the catalogue of stock parts, or in an order from it.
 
 use crate::base::toml_text::TextFault;
+use crate::base::watch::Cancelled;
 use crate::interior::BuildError;
 use crate::shell::ShellError;
 
@@ -78,5 +79,17 @@ pub enum BallastError {
     Shell(#[from] ShellError),
     /// The columns cannot be built.
     #[error(transparent)]
-    Columns(#[from] BuildError),
+    Columns(BuildError),
+    /// The caller stopped the run.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+}
+
+impl From<BuildError> for BallastError {
+    fn from(error: BuildError) -> Self {
+        match error {
+            BuildError::Cancelled(cancelled) => cancelled.into(),
+            error => Self::Columns(error),
+        }
+    }
 }

@@ -55,9 +55,10 @@ pub struct Found {
     pub solution: Solution,
 }
 
-/// The search for ballast in one model.
+/// The search for ballast in one model. Once its watch is stopped, nothing has room.
 pub struct Search<'a> {
     shop: Workshop<'a>,
+    watch: Watch,
     sites: Sites<'a>,
     coarse: Columns,
     fine: Columns,
@@ -65,14 +66,16 @@ pub struct Search<'a> {
 
 impl<'a> Search<'a> {
     /// Finds the sites where parts may lie. Costs the columns and some ten thousand distances.
-    pub fn new(shop: Workshop<'a>) -> Result<Self, BallastError> {
+    pub fn new(shop: Workshop<'a>, watch: &Watch) -> Result<Self, BallastError> {
+        let watch = watch.muted();
         let Placement { goal, keeps, .. } = shop.placement;
         let shell = Shell::new(shop.solid, &goal.frame, shop.wall_mm, keeps)?;
-        let columns = |side| Columns::of_shell(&shell, shell.coarse_pitch(side), &Watch::silent());
+        let columns = |side| Columns::of_shell(&shell, shell.coarse_pitch(side), &watch);
         let (coarse, fine) = (columns(SEARCHING_COLUMNS)?, columns(CONFIRMING_COLUMNS)?);
         let sites = Sites::new(shop.solid, shop.placement, shop.wall_mm, &fine);
         Ok(Self {
             shop,
+            watch,
             sites,
             coarse,
             fine,
@@ -83,19 +86,24 @@ impl<'a> Search<'a> {
     /// possible, or if the ordered parts do not fit.
     ///
     /// An ordered number of parts is placed even if the goal stays impossible.
+    ///
+    /// # Errors
+    /// The order or the catalogue is at fault, or the watch was stopped.
     pub fn of_order(&self, order: &Order) -> Result<Option<Found>, BallastError> {
-        match order {
-            Order::None => Ok(None),
-            Order::Auto => Ok(self.fewest_balls(&catalogue()?)),
+        let found = match order {
+            Order::None => None,
+            Order::Auto => self.fewest_balls(&catalogue()?),
             Order::Parts {
                 id,
                 count: Some(count),
-            } => Ok(self.place_parts(&find(id)?, *count)),
+            } => self.place_parts(&find(id)?, *count),
             Order::Parts { id, count: None } => {
                 let part = find(id)?;
-                Ok((1..=MOST_PARTS).find_map(|count| self.place_if_possible(&part, count)))
+                (1..=MOST_PARTS).find_map(|count| self.place_if_possible(&part, count))
             }
-        }
+        };
+        self.watch.check()?;
+        Ok(found)
     }
 
     /// Returns the fewest steel balls that make the goal possible, and of as many the lightest.
@@ -129,7 +137,7 @@ impl<'a> Search<'a> {
             fixed: goal.solid,
             columns: &self.coarse,
         };
-        let least = least_ballast(&problem, density_ratio, &settings, &Watch::silent())?;
+        let least = least_ballast(&problem, density_ratio, &settings, &self.watch)?;
         Some(SURE_RATIO * least.bound_mm3 * metal_g_mm3)
     }
 
@@ -187,12 +195,14 @@ impl<'a> Search<'a> {
 
     /// Places the part where it acts most on an answer.
     fn place_part(&self, part: &Part, found: &Found) -> Option<PlacedPart> {
+        self.watch.check().ok()?;
         let solution = &found.solution;
         let prices = solution.status.separator().unwrap_or(solution.quadric);
         self.sites.best(&PlaceQuery {
             part,
             prices,
             load: &found.load,
+            watch: &self.watch,
         })
     }
 
@@ -206,7 +216,7 @@ impl<'a> Search<'a> {
             fixed,
             columns: &columns,
         };
-        let solution = solve(&problem, &Settings::default(), &Watch::silent());
+        let solution = solve(&problem, &Settings::default(), &self.watch);
         Found { load, solution }
     }
 
@@ -275,7 +285,7 @@ mod tests {
             fit,
             density_g_cm3: DENSITY_G_CM3,
         };
-        let found = Search::new(shop)
+        let found = Search::new(shop, &Watch::silent())
             .unwrap()
             .of_order(&order.parse().unwrap())
             .unwrap()?;

@@ -5,6 +5,7 @@ use rayon::prelude::*;
 use super::load::{Load, PlacedPart};
 use super::pocket::{Fit, Pocket};
 use super::stock::Part;
+use crate::base::watch::Watch;
 use crate::geom::{Frame, Point, Quadric, Vector};
 use crate::goal::Placement;
 use crate::interior::Columns;
@@ -43,6 +44,8 @@ pub(super) struct PlaceQuery<'w> {
     pub prices: Quadric,
     /// The parts already placed, their fit, and the print's density.
     pub load: &'w Load,
+    /// The watch over the run.
+    pub watch: &'w Watch,
 }
 
 /// A part with its pocket at the origin, with one direction of its axis, goal frame.
@@ -76,7 +79,8 @@ impl<'a> Sites<'a> {
         }
     }
 
-    /// Returns the place where the part acts most; `None` if it does not fit.
+    /// Returns the place where the part acts most; `None` if it does not fit, or if the run was
+    /// stopped.
     ///
     /// All sites are sorted by their cost. The first with room is refined by moves along the axes.
     pub fn best(&self, query: &PlaceQuery) -> Option<PlacedPart> {
@@ -100,13 +104,12 @@ impl<'a> Sites<'a> {
         let is_deep = |&&(_, oriented, site): &&(f64, usize, usize)| {
             self.points[site].1 >= self.wall_mm + oriented_parts[oriented].least_depth_mm
         };
-        let first = order.iter().filter(is_deep).find(|&&(_, oriented, site)| {
-            self.has_room(
-                &self.lump(query, &oriented_parts[oriented], &self.points[site].0),
-                query.load,
-            )
-        });
-        let &(_, oriented, site) = first?;
+        let mut deep = order.iter().filter(is_deep);
+        let &(_, oriented, site) = deep.find(|&&(_, oriented, site)| {
+            let at = &self.points[site].0;
+            let lump = self.lump(query, &oriented_parts[oriented], at);
+            query.watch.check().is_ok() && self.has_room(&lump, query.load)
+        })?;
         let lump = self.refine(query, &oriented_parts[oriented], self.points[site].0);
         Some(PlacedPart {
             part: query.part.clone(),

@@ -1,6 +1,7 @@
 //! The watch over a long run: progress for the caller, a stop button, and a stopwatch in one.
 
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::fmt;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Instant;
 
@@ -121,9 +122,15 @@ pub type Observer = dyn Fn(Progress) + Send + Sync;
 #[error("stopped before the end")]
 pub struct Cancelled;
 
-/// Share of what is left of a phase by which a check moves the progress. A phase that does not
-/// know its own length makes about a hundred checks.
-const CHECK_STEP_RATIO: f64 = 0.02;
+/// Least time between two reports of checks, ms. Loops check at every turn, and a bar is drawn no
+/// more often.
+const CHECK_PERIOD_MS: u64 = 100;
+/// Share of what is left of a phase by which a report of checks moves the progress. A phase that
+/// does not know its own length takes some ten seconds.
+const CHECK_STEP_RATIO: f64 = 0.01;
+/// Share of a phase left at which it takes longer than usual. From then on checks move the progress
+/// towards the end of the run, as if as much time were left as it took so far.
+const OVERDUE_RATIO: f64 = 0.05;
 
 /// The watch over a run. Clones share one run: any of them reports, stops and measures it.
 ///
@@ -149,6 +156,9 @@ pub struct Watch {
 struct Run {
     observer: Option<Box<Observer>>,
     stop: Arc<AtomicBool>,
+    start: Instant,
+    /// Time from the start before which checks are not reported, ms.
+    due_ms: AtomicU64,
     course: Mutex<Course>,
 }
 
@@ -190,15 +200,18 @@ impl Watch {
             phase_ratio: 0.0,
             whole_ratio: 0.0,
         };
+        let start = Instant::now();
         let course = Mutex::new(Course {
             progress,
-            since: Instant::now(),
+            since: start,
             laps: Vec::new(),
         });
         Self {
             run: Arc::new(Run {
                 observer,
                 stop,
+                start,
+                due_ms: AtomicU64::new(0),
                 course,
             }),
             is_muted: false,
@@ -227,32 +240,36 @@ impl Watch {
     }
 
     /// Reports that the phase at work is done so far, 0 to 1. A smaller share than before counts
-    /// as a check.
+    /// as a check, and so does one that the whole run has passed.
     pub fn advance(&self, done_ratio: f64) {
-        let course = self.course();
+        let mut course = self.course();
         let Progress {
             phase,
             phase_ratio,
             whole_ratio,
         } = course.progress;
-        if self.is_muted || done_ratio.is_nan() || done_ratio <= phase_ratio {
-            return self.creep(course);
+        let is_news = !self.is_muted && done_ratio > phase_ratio;
+        if is_news {
+            course.progress.phase_ratio = done_ratio.min(1.0);
         }
-        let done_ratio = done_ratio.min(1.0);
-        let mut course = course;
-        course.progress.phase_ratio = done_ratio;
-        let reached = phase.share_before() + phase.share() * done_ratio;
-        self.report(course, whole_ratio.max(reached));
+        let reached = phase.share_before() + phase.share() * course.progress.phase_ratio;
+        if is_news && reached > whole_ratio {
+            self.report(course, reached);
+        } else if self.is_due() {
+            self.creep(course);
+        }
     }
 
-    /// Returns an error if the caller has stopped the run; else moves the progress a little.
+    /// Returns an error if the caller has stopped the run. Now and then it moves the progress a
+    /// little, so that it does not stand still.
     ///
-    /// Loops of unknown length call it once a turn.
+    /// Every loop that may take more than some hundredths of a second calls it once a turn. A call
+    /// costs less than a tenth of a microsecond.
     pub fn check(&self) -> Result<(), Cancelled> {
         if self.is_cancelled() {
             return Err(Cancelled);
         }
-        if self.run.observer.is_some() {
+        if self.run.observer.is_some() && self.is_due() {
             self.creep(self.course());
         }
         Ok(())
@@ -280,14 +297,35 @@ impl Watch {
         course.unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Moves on by a share of what is left of the phase, or of the run if the phase came back.
+    /// Returns whether a report of checks is due; the next one is then due a period later.
+    fn is_due(&self) -> bool {
+        let now_ms = self.elapsed_ms();
+        let next = |due_ms: u64| (now_ms >= due_ms).then_some(now_ms + CHECK_PERIOD_MS);
+        let due_ms = &self.run.due_ms;
+        let claimed = due_ms.fetch_update(Ordering::Relaxed, Ordering::Relaxed, next);
+        claimed.is_ok()
+    }
+
+    fn elapsed_ms(&self) -> u64 {
+        let elapsed_ms = self.run.start.elapsed().as_millis();
+        u64::try_from(elapsed_ms).unwrap_or(u64::MAX)
+    }
+
+    /// Moves on by a share of what is left of the phase, or of the run if the phase came back or is
+    /// overdue.
     fn creep(&self, mut course: MutexGuard<'_, Course>) {
         let progress = &mut course.progress;
         progress.phase_ratio += CHECK_STEP_RATIO * (1.0 - progress.phase_ratio);
-        let end = progress.phase.share_before() + progress.phase.share();
-        let end = if progress.whole_ratio < end { end } else { 1.0 };
-        let whole_ratio = progress.whole_ratio + CHECK_STEP_RATIO * (end - progress.whole_ratio);
-        self.report(course, whole_ratio);
+        let (phase, whole_ratio) = (progress.phase, progress.whole_ratio);
+        let left_ratio = phase.share_before() + phase.share() - whole_ratio;
+        let step_ratio = if left_ratio > OVERDUE_RATIO * phase.share() {
+            CHECK_STEP_RATIO * left_ratio
+        } else {
+            let elapsed_ms = self.elapsed_ms().max(1) as f64;
+            let slow_ratio = CHECK_PERIOD_MS as f64 / elapsed_ms;
+            CHECK_STEP_RATIO.min(slow_ratio) * (1.0 - whole_ratio)
+        };
+        self.report(course, whole_ratio + step_ratio);
     }
 
     fn report(&self, mut course: MutexGuard<'_, Course>, whole_ratio: f64) {
@@ -296,6 +334,14 @@ impl Watch {
             // Called under the lock, so that reports of two threads arrive in their order.
             observer(course.progress);
         }
+    }
+}
+
+impl fmt::Debug for Watch {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut words = formatter.debug_struct("Watch");
+        words.field("is_cancelled", &self.is_cancelled());
+        words.finish_non_exhaustive()
     }
 }
 
@@ -315,6 +361,9 @@ impl Course {
 
 #[cfg(test)]
 mod tests {
+    use std::thread;
+    use std::time::Duration;
+
     use super::*;
 
     fn recorded() -> (Watch, Arc<Mutex<Vec<Progress>>>) {
@@ -331,8 +380,13 @@ mod tests {
         assert!(Phase::ALL.windows(2).all(|pair| pair[0] < pair[1]));
     }
 
+    fn whole_ratios(seen: &Mutex<Vec<Progress>>) -> Vec<f64> {
+        let seen = seen.lock().unwrap();
+        seen.iter().map(|progress| progress.whole_ratio).collect()
+    }
+
     #[test]
-    fn progress_rises_with_every_report_even_when_a_phase_comes_back() {
+    fn progress_never_falls_even_when_a_phase_comes_back() {
         let (watch, seen) = recorded();
         for phase in [Phase::Shell, Phase::Plan, Phase::Parts, Phase::Plan] {
             watch.enter(phase);
@@ -341,11 +395,53 @@ mod tests {
                 watch.check().unwrap();
             }
         }
-        let whole: Vec<f64> = seen.lock().unwrap().iter().map(|p| p.whole_ratio).collect();
+        let whole = whole_ratios(&seen);
         assert!(whole.windows(2).all(|pair| pair[0] <= pair[1]));
         assert!(whole.iter().all(|ratio| (0.0..=1.0).contains(ratio)));
-        let moved = whole.windows(2).filter(|pair| pair[0] < pair[1]).count();
-        assert!(moved >= whole.len() - 5, "{moved} of {}", whole.len());
+        assert!(whole.last() >= Some(&end(Phase::Parts)));
+    }
+
+    /// Returns the share of a run that is usually done after a phase.
+    fn end(phase: Phase) -> f64 {
+        phase.share_before() + phase.share()
+    }
+
+    #[test]
+    fn checks_move_the_progress_in_a_phase_that_comes_back() {
+        let (watch, seen) = recorded();
+        watch.enter(Phase::Parts);
+        watch.enter(Phase::Plan);
+        assert_checks_move(&watch, &seen);
+    }
+
+    #[test]
+    fn checks_move_the_progress_in_a_phase_that_takes_longer_than_it_said() {
+        let (watch, seen) = recorded();
+        watch.enter(Phase::Plan);
+        watch.advance(1.0);
+        assert_checks_move(&watch, &seen);
+        assert!(whole_ratios(&seen).last() > Some(&end(Phase::Plan)));
+    }
+
+    fn assert_checks_move(watch: &Watch, seen: &Mutex<Vec<Progress>>) {
+        for _ in 0..2 {
+            let before = whole_ratios(seen).last().copied();
+            thread::sleep(Duration::from_millis(2 * CHECK_PERIOD_MS));
+            watch.check().unwrap();
+            assert!(whole_ratios(seen).last().copied() > before);
+        }
+    }
+
+    #[test]
+    fn a_million_checks_make_few_reports() {
+        let (watch, seen) = recorded();
+        watch.enter(Phase::Plan);
+        let start = Instant::now();
+        for _ in 0..1_000_000 {
+            watch.check().unwrap();
+        }
+        let periods = start.elapsed().as_millis() as usize / CHECK_PERIOD_MS as usize;
+        assert!(whole_ratios(&seen).len() <= 3 + periods);
     }
 
     #[test]

@@ -13,6 +13,7 @@ use crate::advice::{Case, Prospect, prospects};
 use crate::base::numbers::quantity;
 use crate::base::setting::{Key, Setting};
 use crate::base::units::{format_count, show_mm};
+use crate::base::watch::Watch;
 use crate::geom::Vector;
 use crate::goal::{Contact, GoalKind, Request, Up};
 use crate::io::{ReadError, read_model};
@@ -144,7 +145,7 @@ fn findings(facts: &MeshFacts, repairs: String, solid: &Result<Solid, Defects>) 
         not_one_body: solid
             .as_ref()
             .ok()
-            .and_then(|solid| Some(one_body(solid).err()?.to_string())),
+            .and_then(|solid| Some(one_body(solid, &Watch::silent()).ok()?.err()?.to_string())),
         solid: solid.as_ref().ok().map(|solid| mass(solid.mesh())),
         could_become: None,
     }

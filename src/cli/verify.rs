@@ -7,6 +7,7 @@ use super::exit::Exit;
 use super::show::{GREEN, RED, paint, say};
 use super::summary::{checks_table, summary};
 use super::voice::{Manner, Voice};
+use crate::base::watch::Watch;
 use crate::verify::{Check, CheckKind, FileChange, VerifyError, files_check, verify_kit};
 
 /// A reason why `verify` could not run.
@@ -30,7 +31,8 @@ pub fn verify(
     voice: Voice,
     out: &mut dyn Write,
 ) -> Result<Exit, VerifyCommandError> {
-    let judged = verify_kit(folder).map(|judgement| (judgement.checks, judgement.changes));
+    let judged =
+        verify_kit(folder, &Watch::silent()).map(|judgement| (judgement.checks, judgement.changes));
     let (checks, changes) = judged.or_else(|error| match error.changes(folder) {
         changes if changes.is_empty() => Err(error),
         changes => Ok((vec![files_check(&changes)], changes)),

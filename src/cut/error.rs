@@ -5,6 +5,7 @@ use crate::{
         setting::{Key, Setting},
         toml_text::TextFault,
         verdict::Verdict,
+        watch::Cancelled,
     },
     cut::ids::{CutId, PartId, PinId, VoidId},
     mesh::ClipError,
@@ -91,6 +92,9 @@ pub enum CutError {
     /// A boolean operation failed.
     #[error(transparent)]
     Clip(#[from] ClipError),
+    /// The caller stopped the run.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
 }
 
 /// Joins the ids with commas.

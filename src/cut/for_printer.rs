@@ -1,5 +1,6 @@
 //! Requests for cuts that a printer can make.
 
+use crate::base::watch::Watch;
 use crate::cut::request::{GoalAxis, LabelStyle, PinSettings, PlanRequest, PosePreference};
 use crate::printer::{Grid, PrintPose, Printer, Quantity};
 
@@ -12,7 +13,7 @@ impl PlanRequest {
     /// openings, pins and grid.
     ///
     /// Cuts keep away from the point of `axis`. Pins are printed, and ids are sunk into the cut
-    /// faces: change `rods` and `labels` for anything else.
+    /// faces, and nobody watches: change `rods`, `labels` and `watch` for anything else.
     pub fn for_printer(printer: &Printer, size_mm: f64, axis: GoalAxis) -> Self {
         let elephant_foot = printer.number(Quantity::ElephantFootMm);
         let elephant_foot_mm = elephant_foot.map_or(0.0, |foot| foot.value);
@@ -47,6 +48,7 @@ impl PlanRequest {
             },
             rods: Vec::new(),
             labels: Some(LabelStyle::for_printer(printer)),
+            watch: Watch::silent(),
         }
     }
 }

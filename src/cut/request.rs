@@ -3,13 +3,14 @@
 use serde::{Deserialize, Serialize};
 
 use crate::{
+    base::watch::Watch,
     cut::joints::rod::Rod,
     geom::{Point, Vector},
     printer::Cleaning,
 };
 
 /// Requirements of the printer, the material and the goal for cuts, pins and parts.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct PlanRequest {
     /// Diameter of the disc that must pass through the opening of every void, mm.
     pub min_opening_mm: f64,
@@ -44,6 +45,8 @@ pub struct PlanRequest {
     pub rods: Vec<Rod>,
     /// The style in which part ids are sunk into cut faces; `None` for no ids.
     pub labels: Option<LabelStyle>,
+    /// The watch over the run: it hears that planning and cutting go on, and may stop them.
+    pub watch: Watch,
 }
 
 /// The axis of the goal in the model frame.

@@ -1,6 +1,7 @@
 //! Bodies and requests for the tests of this folder.
 
 use crate::{
+    base::watch::Watch,
     cut::{
         self, CutError, CutOrder, CutPlan, GoalAxis, Part, PinSettings, PlanRequest,
         PosePreference, hollowed::Hollowed,
@@ -109,6 +110,7 @@ pub(crate) fn request() -> PlanRequest {
         pose: PosePreference::CutFaceDown,
         rods: Vec::new(),
         labels: None,
+        watch: Watch::silent(),
     }
 }
 

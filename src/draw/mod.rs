@@ -4,6 +4,7 @@
 
 mod base64;
 mod callouts;
+mod error;
 mod hatch;
 mod legend;
 mod palette;
@@ -19,6 +20,7 @@ mod visibility;
 
 pub(crate) use base64::base64;
 pub(crate) use callouts::Mark;
+pub use error::PictureError;
 pub use hatch::{Hatch, Stripes};
 pub(crate) use legend::{Key, draw_legend, draw_peg};
 pub(crate) use palette::{BALLAST, BODY, CURVES, HARDWARE, INK, PAPER, PLATE, VOID};
@@ -26,7 +28,7 @@ pub use palette::{Color, hex, part_color};
 pub(crate) use plot::{Curve, Plot};
 pub use projection::Projection;
 pub(crate) use qr::code_path;
-pub use render::{Image, PictureError, render};
+pub use render::{Image, render};
 pub(crate) use scene::view_direction;
 pub use scene::{Camera, Item, Scene};
 pub(crate) use section::convex_section;

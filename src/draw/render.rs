@@ -1,6 +1,7 @@
 //! A small z-buffer that renders shaded and outlined meshes to PNG, with the same bytes on any
 //! number of threads.
 
+use super::error::PictureError;
 use super::hatch::Hatch;
 use super::palette::{Color, INK};
 use super::projection::Projection;
@@ -28,15 +29,6 @@ const STEP_RATIO: f64 = 0.02;
 /// their facets.
 const CREASE_COSINE: f64 = 0.64;
 
-/// An error of the PNG encoder.
-#[derive(Debug, thiserror::Error)]
-#[error("a picture of {width} × {height} pixels cannot be written as PNG")]
-pub struct PictureError {
-    width: usize,
-    height: usize,
-    source: png::EncodingError,
-}
-
 /// A rendered picture, rows from the top.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Image {
@@ -60,7 +52,7 @@ impl Image {
         });
         match written {
             Ok(()) => Ok(bytes),
-            Err(source) => Err(PictureError {
+            Err(source) => Err(PictureError::Png {
                 width: self.width,
                 height: self.height,
                 source,

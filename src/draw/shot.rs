@@ -1,9 +1,10 @@
 //! A scene as a picture with names on it, each with a line to what it names.
 
 use super::callouts::Mark;
+use super::error::PictureError;
 use super::legend::{Key, draw_legend};
 use super::projection::Projection;
-use super::render::{PictureError, render_with_visibility};
+use super::render::render_with_visibility;
 use super::scene::{Camera, Scene};
 use super::svg::Drawing;
 use super::visibility::Visibility;

@@ -9,7 +9,7 @@ use super::columns::Columns;
 use super::row::{Reaching, Row};
 use crate::base::setting::{Key, Setting};
 use crate::base::units::show_mm;
-use crate::base::watch::Watch;
+use crate::base::watch::{Cancelled, Watch};
 use crate::shell::{Bins, Ruler, Shell};
 
 /// Rows that a thread sweeps at a time. With more, the last blocks wait for one thread; with fewer,
@@ -38,8 +38,8 @@ pub enum BuildError {
         pitch_mm: [f64; 2],
     },
     /// The caller stopped the run.
-    #[error("stopped while building columns")]
-    Cancelled,
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
 }
 
 /// Returns a pitch in words, however small.
@@ -154,9 +154,7 @@ impl Sweep<'_> {
         let blocks = self.grid.ys.len().div_ceil(ROWS_PER_BLOCK);
         let done = AtomicUsize::new(0);
         let sweep = |row: &mut Row, block| {
-            if watch.is_cancelled() {
-                return Err(BuildError::Cancelled);
-            }
+            watch.check()?;
             let swept = self.sweep_block(row, block);
             watch.advance((done.fetch_add(1, Ordering::Relaxed) + 1) as f64 / blocks as f64);
             Ok(swept)
@@ -549,7 +547,7 @@ mod tests {
         stopped.cancel();
         assert_eq!(
             Columns::of_shell(&shell, [0.5; 2], &stopped),
-            Err(BuildError::Cancelled)
+            Err(BuildError::Cancelled(Cancelled))
         );
     }
 }

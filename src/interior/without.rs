@@ -1,9 +1,15 @@
 //! The columns without a body that must stay solid although the wall would let it be emptied.
 
+use std::convert::Infallible;
+
 use super::columns::Columns;
 use super::row::subtract;
+use crate::base::watch::{Cancelled, Watch};
 use crate::mesh::TriMesh;
 use crate::shell::{RowCrossings, Ruler, inside_stretches};
+
+/// Columns between two checks of the watch: a fraction of a millisecond.
+const COLUMNS_PER_CHECK: usize = 1024;
 
 /// Length below which an interval is dropped, mm: rounding at the body's surface that meets an
 /// interval's end.
@@ -16,6 +22,17 @@ impl Columns {
     /// Columns with nothing rest are rest out. Costs a pass over the columns, and one over the mesh
     /// for each row that it reaches.
     pub fn without(&self, body: &TriMesh) -> Self {
+        let Ok(rest) = self.subtract(body, || Ok::<(), Infallible>(()));
+        rest
+    }
+
+    /// Returns the columns less a body like [`Columns::without`], until the watch is stopped.
+    pub fn without_watched(&self, body: &TriMesh, watch: &Watch) -> Result<Self, Cancelled> {
+        self.subtract(body, || watch.check())
+    }
+
+    /// Returns the columns less a body, and checks now and then that it may go on.
+    fn subtract<E>(&self, body: &TriMesh, check: impl Fn() -> Result<(), E>) -> Result<Self, E> {
         let mut carver = Carver::new(self, body);
         let mut rest = Self {
             pitch_mm: self.pitch_mm,
@@ -24,6 +41,9 @@ impl Columns {
         };
         let mut intervals = Vec::new();
         for column in 0..self.len() {
+            if column % COLUMNS_PER_CHECK == 0 {
+                check()?;
+            }
             let center = self.centers[column];
             intervals.clear();
             intervals.extend_from_slice(self.intervals_of(column));
@@ -34,7 +54,7 @@ impl Columns {
                 rest.starts.push(rest.intervals.len() as u32);
             }
         }
-        rest
+        Ok(rest)
     }
 }
 
@@ -84,7 +104,6 @@ impl<'a> Carver<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::base::watch::Watch;
     use crate::geom::{Frame, Point};
     use crate::mesh::primitives::{ball, cuboid};
     use crate::shell::{Shell, fixtures};

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use rayon::prelude::*;
 
+use crate::base::watch::Watch;
 use crate::draw::part_color;
 use crate::error::Error;
 use crate::geom::{Aabb, Matrix, Vector};
@@ -22,13 +23,14 @@ pub type File = (String, Vec<u8>);
 
 /// Puts the parts into the files that are judged: their STL files, or their packages read back if
 /// the job asks for 3MF alone.
-pub fn repack(placed: &Placed, mut made: Made) -> Result<Made, Error> {
+pub fn repack(placed: &Placed, mut made: Made, watch: &Watch) -> Result<Made, Error> {
     if placed.job.format != PartFormat::ThreeMf {
         return Ok(made);
     }
     let scale = Vector::from(placed.shop.printer.print_scale_ratio());
     let parts = std::mem::take(&mut made.parts);
     let parts = parts.into_par_iter().enumerate().map(|(index, part)| {
+        watch.check()?;
         let printed = stl::decode(&part.bytes)?;
         let (file, bytes) = pack(placed, &part, &[object(index, &part, &printed)])?;
         let read_back = decode_model(&bytes)?;
@@ -45,7 +47,7 @@ pub fn repack(placed: &Placed, mut made: Made) -> Result<Made, Error> {
 
 /// The packages beside the judged files: twins of STL parts where both formats are asked for, the
 /// assembly and the plates.
-pub fn packages(placed: &Placed, made: &Made) -> Result<Vec<File>, Error> {
+pub fn packages(placed: &Placed, made: &Made, watch: &Watch) -> Result<Vec<File>, Error> {
     if placed.job.format == PartFormat::Stl {
         return Ok(Vec::new());
     }
@@ -60,13 +62,17 @@ pub fn packages(placed: &Placed, made: &Made) -> Result<Vec<File>, Error> {
         .collect();
     let mut jobs = plates(placed, &printed);
     jobs.insert(0, (ASSEMBLY.to_owned(), together(placed, parts)));
-    let shared = jobs
-        .into_par_iter()
-        .map(|(file, (description, build))| package(placed, &objects, file, (description, build)));
+    let shared = jobs.into_par_iter().map(|(file, arrangement)| {
+        watch.check()?;
+        package(placed, &objects, file, arrangement)
+    });
     let twins = (0..parts.len())
         .into_par_iter()
         .filter(|_| placed.job.format == PartFormat::Both);
-    let twins = twins.map(|i| pack(placed, &parts[i], &objects[i..=i]));
+    let twins = twins.map(|i| {
+        watch.check()?;
+        pack(placed, &parts[i], &objects[i..=i])
+    });
     twins.chain(shared).collect()
 }
 

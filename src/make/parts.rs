@@ -99,7 +99,7 @@ impl Corrector<'_, '_> {
     fn attempt(&mut self, voids: Voids, plan: CutPlan, more: Moments) -> Result<Attempt, Error> {
         self.watch.check()?;
         let goal = self.placed.goal();
-        let voids = finish(self.resolver.correct(voids, more)?)?;
+        let voids = finish(self.resolver.correct(voids, more)?, self.watch)?;
         let (parts, plan) = self.write_parts(&voids, plan)?;
         let evidence: Vec<PartEvidence> = parts.iter().map(WrittenPart::evidence).collect();
         let whole = assembly_moments(&evidence) + self.placed.joining_moments(&plan);
@@ -140,7 +140,7 @@ impl Corrector<'_, '_> {
         let count = parts.len();
         let parts = parts.into_par_iter().map(|part| {
             let name = format!("{job}_{}of{count:02}", part.id);
-            write(part, &name, scale_ratio)
+            write(part, &name, scale_ratio, self.watch)
         });
         Ok((parts.collect::<Result<_, _>>()?, plan))
     }

@@ -1,5 +1,6 @@
 //! Writing a part: its STL file in memory, read back, free of folds.
 
+use crate::base::watch::Watch;
 use crate::cut::Part;
 use crate::error::Error;
 use crate::geom::Vector;
@@ -22,39 +23,62 @@ const PLACE_STEP_MM: [f64; 2] = [0.013_7, 0.009_1];
 /// It lies at the first place on the plate where the rounding of the file's coordinates folds no
 /// sliver of its surface. The file is larger than the part by `scale_ratio` along x, y and z; what
 /// is read back is in the part's own size.
-pub fn write(part: Part, name: &str, scale_ratio: [f64; 3]) -> Result<WrittenPart, Error> {
-    let mut written = write_at(part.clone(), name, 0, scale_ratio)?;
+///
+/// # Errors
+/// The file does not read back, or the watch was stopped.
+pub fn write(
+    part: Part,
+    name: &str,
+    scale_ratio: [f64; 3],
+    watch: &Watch,
+) -> Result<WrittenPart, Error> {
+    let writer = Writer {
+        name,
+        scale: Vector::from(scale_ratio),
+        watch,
+    };
+    let mut written = writer.write(part.clone(), 0)?;
     for writing in 1..WRITINGS {
-        if Crossings::of(&weld(&written.read_back)).pairs == 0 {
+        if Crossings::of_watched(&weld(&written.read_back), watch)?.pairs == 0 {
             break;
         }
-        written = write_at(part.clone(), name, writing, scale_ratio)?;
+        written = writer.write(part.clone(), writing)?;
     }
     Ok(written)
 }
 
-/// Writes a part in one of the writings.
-fn write_at(
-    mut part: Part,
-    name: &str,
-    writing: usize,
-    scale_ratio: [f64; 3],
-) -> Result<WrittenPart, Error> {
-    let rows = &mut part.pose.print_from_model;
-    let place = writing.saturating_sub(1);
-    rows[0][3] += PLACE_STEP_MM[0] * place as f64;
-    rows[1][3] += PLACE_STEP_MM[1] * place as f64;
-    let pose = Pose { rows: *rows };
-    let scale = Vector::from(scale_ratio);
-    let mesh = part.solid.mesh();
-    let laid = mesh.map_vertices(|p| pose.to_print(p).coords.component_mul(&scale).into());
-    let laid = if writing > 0 { unfold(&laid) } else { laid };
-    let bytes = stl::encode(&laid, name);
-    let read_back = stl::decode(&bytes)?;
-    Ok(WrittenPart {
-        part,
-        file: format!("parts/{name}.stl"),
-        bytes,
-        read_back: read_back.map_vertices(|p| p.coords.component_div(&scale).into()),
-    })
+/// Writes a part again and again.
+struct Writer<'a> {
+    name: &'a str,
+    /// Size of the file over that of the part, along x, y and z.
+    scale: Vector,
+    watch: &'a Watch,
+}
+
+impl Writer<'_> {
+    /// Writes a part in one of the writings.
+    fn write(&self, mut part: Part, writing: usize) -> Result<WrittenPart, Error> {
+        let Self { name, scale, watch } = self;
+        let rows = &mut part.pose.print_from_model;
+        let place = writing.saturating_sub(1);
+        rows[0][3] += PLACE_STEP_MM[0] * place as f64;
+        rows[1][3] += PLACE_STEP_MM[1] * place as f64;
+        let pose = Pose { rows: *rows };
+        let mesh = part.solid.mesh();
+        let laid = mesh.map_vertices(|p| pose.to_print(p).coords.component_mul(scale).into());
+        let laid = if writing > 0 {
+            unfold(&laid, watch)?
+        } else {
+            laid
+        };
+        watch.check()?;
+        let bytes = stl::encode(&laid, name);
+        let read_back = stl::decode(&bytes)?;
+        Ok(WrittenPart {
+            part,
+            file: format!("parts/{name}.stl"),
+            bytes,
+            read_back: read_back.map_vertices(|p| p.coords.component_div(scale).into()),
+        })
+    }
 }

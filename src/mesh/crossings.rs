@@ -1,11 +1,13 @@
 //! Self-intersections of a surface.
 
+use std::convert::Infallible;
 use std::ops::ControlFlow;
 
 use rayon::prelude::*;
 use robust::{Coord, Coord3D, orient2d, orient3d};
 
 use super::TriMesh;
+use crate::base::watch::{Cancelled, Watch};
 use crate::geom::{Aabb, Bvh, Point};
 
 /// Largest number of crossings counted for one triangle. A sound mesh has none, a crossing surface
@@ -34,19 +36,32 @@ impl Crossings {
     /// finite. Takes about 0.3 s for 100 000 triangles on two cores. The count does not depend
     /// on the number of threads.
     pub fn of(mesh: &TriMesh) -> Self {
+        let Ok(found) = Self::count(mesh, || Ok::<(), Infallible>(()));
+        found
+    }
+
+    /// Counts the pairs like [`Crossings::of`], until the watch is stopped.
+    pub fn of_watched(mesh: &TriMesh, watch: &Watch) -> Result<Self, Cancelled> {
+        Self::count(mesh, || watch.check())
+    }
+
+    /// Counts the pairs, and checks before every triangle that it may go on.
+    fn count<E: Send>(mesh: &TriMesh, check: impl Fn() -> Result<(), E> + Sync) -> Result<Self, E> {
         let bvh = Bvh::new(mesh.iter_corners());
-        let counts: Vec<usize> = (0..mesh.triangles().len())
-            .into_par_iter()
-            .map(|index| crossings_after(index, &mesh.corners(index), &bvh))
-            .collect();
+        let count = |index: usize| {
+            check()?;
+            Ok(crossings_after(index, &mesh.corners(index), &bvh))
+        };
+        let counts = (0..mesh.triangles().len()).into_par_iter().map(count);
+        let counts = counts.collect::<Result<Vec<usize>, E>>()?;
         let first = counts
             .iter()
             .position(|&count| count > 0)
             .map(|t| centroid(&mesh.corners(t)));
-        Self {
+        Ok(Self {
             pairs: counts.iter().sum(),
             first,
-        }
+        })
     }
 }
 

@@ -83,7 +83,7 @@ impl<'a> Ladder<'a> {
     /// Draws the voids, without what the job's plan keeps solid.
     fn new(placed: &'a Placed, solved: Solved, watch: &Watch) -> Result<Self, Error> {
         watch.enter(Phase::Shell);
-        let request = request(placed);
+        let request = request(placed, watch);
         let mut resolver = Resolver::new(placed, solved, watch)?;
         watch.enter(Phase::Voids);
         let voids = resolver.draw()?;
@@ -258,6 +258,7 @@ impl<'a> Ladder<'a> {
                 &last.bossed.voids.hollowed,
                 &last.bossed.plan,
                 margin_mm,
+                &self.watch,
             );
             let ends = unless_refused(ends.map_err(Error::from))?.unwrap_or_default();
             if ends.is_empty() {

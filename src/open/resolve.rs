@@ -187,7 +187,9 @@ impl<'a> Resolver<'a> {
     fn voids(&mut self, solution: Solution, fixed: Moments, rounds: usize) -> Result<Voids, Error> {
         self.watch.check()?;
         let goal = self.placed.goal();
-        let bodies = self.cavity.void_bodies(&solution.quadric, &goal.frame)?;
+        let bodies = self
+            .cavity
+            .void_bodies(&solution.quadric, &goal.frame, &self.watch)?;
         let refused_mm3 = self.refused_mm3 + bodies.too_small_mm3();
         let policy = &self.placed.policy;
         let least_mm3 = policy.significant_void_ratio * goal.solid.volume();
@@ -214,7 +216,7 @@ impl<'a> Resolver<'a> {
         let join = |all: TriMesh, body: &TriMesh| all.joined(body);
         let all = bodies.iter().fold(TriMesh::default(), join);
         let margin_mm = margin_openings * self.placed.shop.printer.min_opening_mm.value;
-        let solid = grow_bodies(&all, margin_mm)?;
+        let solid = grow_bodies(&all, margin_mm, &self.watch)?;
         self.refused_mm3 += all.signed_volume_mm3();
         self.exclude(&solid)
     }
@@ -226,10 +228,10 @@ impl<'a> Resolver<'a> {
         let local = || solid.map_vertices(|p| frame.to_local(p));
         let (cavity, columns) = rayon::join(
             || self.cavity.without(solid),
-            || self.solved.columns.without(&local()),
+            || self.solved.columns.without_watched(&local(), &self.watch),
         );
         self.cavity = cavity?;
-        self.solved.columns = columns;
+        self.solved.columns = columns?;
         Ok(())
     }
 }
@@ -252,10 +254,10 @@ fn pockets(load: &Load) -> Result<Vec<Void>, Error> {
 }
 
 /// Returns the voids without the slivers that the rounding of a file would fold.
-pub fn finish(mut voids: Voids) -> Result<Voids, Error> {
+pub fn finish(mut voids: Voids, watch: &Watch) -> Result<Voids, Error> {
     let bodies = std::mem::take(&mut voids.hollowed.voids);
     let finish = |void: Void| {
-        let body = without_slivers(&void.body)?;
+        let body = without_slivers(&void.body, watch)?;
         Ok::<_, Error>(Void { body, ..void })
     };
     let finished = bodies.into_par_iter().map(finish);

@@ -11,6 +11,7 @@ use super::inserts::{lump_mesh, rod_mesh};
 use super::plate;
 use super::subject::{Subject, parts_in_model};
 use super::viewpoint::Viewpoint;
+use crate::base::watch::Watch;
 use crate::draw::{
     BALLAST, BODY, HARDWARE, Hatch, Item, Key, Label, PictureError, Scene, Shot, TEXT_PX, VOID,
     convex_section, part_color,
@@ -56,7 +57,10 @@ impl Inserts {
 
 /// Draws the model, the cut-away, the parts apart, the halves of a yo-yo and each part; the same
 /// bytes on any number of threads.
-pub fn render_pictures(subject: &Subject) -> Result<Vec<Picture>, PictureError> {
+///
+/// # Errors
+/// A picture cannot be encoded, or the watch was stopped.
+pub fn render_pictures(subject: &Subject, watch: &Watch) -> Result<Vec<Picture>, PictureError> {
     let (outer, voids) = (subject.shells.outer_mesh(), subject.shells.inner_mesh());
     let view = Viewpoint::of(&outer, &subject.aim.frame()).through_inserts(subject);
     let in_place = parts_in_model(subject.parts);
@@ -78,7 +82,11 @@ pub fn render_pictures(subject: &Subject) -> Result<Vec<Picture>, PictureError> 
     drafts.extend(halves(subject, &in_place, &inserts.hardware));
     let parts = subject.parts.iter().zip(&plates).enumerate();
     drafts.extend(parts.map(|(index, (part, plate))| plate::draft(part, plate, part_color(index))));
-    drafts.par_iter().map(Draft::draw).collect()
+    let draw = |draft: &Draft| {
+        watch.check()?;
+        draft.draw()
+    };
+    drafts.par_iter().map(draw).collect()
 }
 
 /// Draws the pictures that show numbers of the sheet: the cuts with their lengths, the mass

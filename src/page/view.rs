@@ -7,11 +7,11 @@ use serde::Serialize;
 use super::apart::{gap_for_mm, shift_of_lump, shifts};
 use super::inserts::{lump_mesh, rod_mesh};
 use super::subject::{Subject, parts_in_model};
-use crate::draw::{BALLAST, Color, HARDWARE, Hatch, base64, hex, part_color};
+use crate::base::watch::{Cancelled, Watch};
+use crate::draw::{BALLAST, Color, HARDWARE, Hatch, PictureError, base64, hex, part_color};
 use crate::geom::{Aabb, Vector};
 use crate::mesh::{Csg, TriMesh};
 use crate::repair::weld;
-use crate::sheet::ChecklistError;
 
 /// The script that draws the view.
 const SCRIPT: &str = include_str!("view.js");
@@ -75,8 +75,11 @@ struct PackedItem {
 impl View {
     /// Packs the view of a kit; the same bytes on any number of threads. Takes about 10 µs per
     /// triangle of the parts.
-    pub fn of(subject: &Subject) -> Result<Self, ChecklistError> {
-        let items = items(subject);
+    ///
+    /// # Errors
+    /// [`PictureError::Cancelled`] if the watch was stopped.
+    pub fn of(subject: &Subject, watch: &Watch) -> Result<Self, PictureError> {
+        let items = items(subject, watch)?;
         let bounds = items
             .iter()
             .map(|item| item.mesh.aabb())
@@ -97,7 +100,7 @@ impl View {
 }
 
 /// Returns the simplified parts, the hardware and the ballast in the goal's frame.
-fn items(subject: &Subject) -> Vec<Item> {
+fn items(subject: &Subject, watch: &Watch) -> Result<Vec<Item>, Cancelled> {
     let in_place = parts_in_model(subject.parts);
     let shifts = shifts(&in_place, &subject.partings());
     let frame = subject.aim.frame();
@@ -108,15 +111,16 @@ fn items(subject: &Subject) -> Vec<Item> {
         .zip(&in_place)
         .zip(&shifts)
         .enumerate();
-    let mut items: Vec<Item> = parts
-        .map(|(index, ((part, mesh), shift))| Item {
+    let parts = parts.map(|(index, ((part, mesh), shift))| {
+        Ok(Item {
             name: part.id.clone(),
-            mesh: simplify(mesh, budget).in_frame(&frame),
+            mesh: simplify(mesh, budget, watch)?.in_frame(&frame),
             color: part_color(index),
             hatch: Hatch::PRINTED,
             shift: frame.direction_to_local(shift),
         })
-        .collect();
+    });
+    let mut items = parts.collect::<Result<Vec<Item>, Cancelled>>()?;
     items.extend(subject.hardware.iter().map(|piece| Item {
         name: piece.id.clone(),
         mesh: rod_mesh(piece).in_frame(&frame),
@@ -132,28 +136,29 @@ fn items(subject: &Subject) -> Vec<Item> {
         hatch: Hatch::BALLAST,
         shift: frame.direction_to_local(&shift_of_lump(&order.lump, &subject.partings(), apart_mm)),
     }));
-    items
+    Ok(items)
 }
 
 /// Returns the mesh with at most `budget` triangles, if the greatest tolerance suffices. A mesh
 /// that cannot be simplified is returned as it is.
-fn simplify(mesh: &TriMesh, budget: usize) -> TriMesh {
+fn simplify(mesh: &TriMesh, budget: usize, watch: &Watch) -> Result<TriMesh, Cancelled> {
     let welded = weld(mesh);
     let tolerance_mm = TOLERANCE_RATIO * welded.longest_side_mm();
-    let simple = Csg::of_mesh(&welded).and_then(|mut body| {
-        for doubled in 0..=DOUBLINGS {
-            if body.triangle_count() <= budget {
-                break;
-            }
-            let coarser = body.coarsen(tolerance_mm * f64::powi(2.0, doubled as i32));
-            if coarser.is_empty() {
-                break;
-            }
-            body = coarser;
+    let Ok(mut body) = Csg::of_mesh(&welded) else {
+        return Ok(welded);
+    };
+    for doubled in 0..=DOUBLINGS {
+        watch.check()?;
+        if body.triangle_count() <= budget {
+            break;
         }
-        body.to_mesh()
-    });
-    simple.unwrap_or(welded)
+        let coarser = body.coarsen(tolerance_mm * f64::powi(2.0, doubled as i32));
+        if coarser.is_empty() {
+            break;
+        }
+        body = coarser;
+    }
+    Ok(body.to_mesh().unwrap_or(welded))
 }
 
 fn pack(item: &Item, bounds: &Aabb) -> PackedItem {
@@ -239,7 +244,7 @@ mod tests {
     #[test]
     fn a_fine_ball_is_simplified_to_the_budget_and_stays_a_ball() {
         let fine = ball(Point::origin(), 10.0, 256);
-        let simple = simplify(&fine, 5000);
+        let simple = simplify(&fine, 5000, &Watch::silent()).unwrap();
         assert!(simple.triangles().len() <= 5000 && fine.triangles().len() > 50_000);
         // The greatest tolerance is 64 · 2.5e-4 of 20 mm; the lost volume is less than a shell of
         // it.

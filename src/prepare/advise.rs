@@ -4,7 +4,7 @@ use super::hints::hint;
 use super::outcome::{Failure, Impossible, Prepared};
 use crate::advice::{self, Case, Kind, Remedy};
 use crate::base::numbers::quantity;
-use crate::base::watch::{Phase, Watch};
+use crate::base::watch::{Cancelled, Phase, Watch};
 use crate::error::Error;
 use crate::goal::Request;
 use crate::run::{Model, Placed, Shop};
@@ -47,8 +47,8 @@ pub fn remedies(
             ..impossible
         });
     }
-    let remedies = advice::remedies(&case(&placed.model, &placed.shop, placed.request));
-    watch.check()?;
+    let case = case(&placed.model, &placed.shop, placed.request);
+    let remedies = advice::remedies(&case, watch)?;
     let hints = if remedies.iter().any(Remedy::helps) {
         Vec::new()
     } else {
@@ -81,12 +81,11 @@ pub fn on_failure(placed: &Placed, prepared: Prepared, watch: &Watch) -> Result<
         reason: reason(&prepared, &broken),
         hints,
         remedies: if falls_over {
-            other_faces(placed)
+            other_faces(placed, watch)?
         } else {
             Vec::new()
         },
     };
-    watch.check()?;
     Ok(Prepared {
         failure: Some(failure),
         ..prepared
@@ -112,9 +111,9 @@ fn reason(prepared: &Prepared, broken: &[&Check]) -> String {
 }
 
 /// Returns the nearest other faces that the object surely stands on.
-fn other_faces(placed: &Placed) -> Vec<Remedy> {
+fn other_faces(placed: &Placed, watch: &Watch) -> Result<Vec<Remedy>, Cancelled> {
     let case = case(&placed.model, &placed.shop, placed.request);
-    let found = advice::remedies(&case).into_iter();
+    let found = advice::remedies(&case, watch)?.into_iter();
     let is_face = |remedy: &Remedy| remedy.kind == Kind::NearestFace && remedy.helps();
-    found.filter(is_face).collect()
+    Ok(found.filter(is_face).collect())
 }

@@ -2,6 +2,7 @@
 
 use rayon::prelude::*;
 
+use crate::base::watch::{Cancelled, Watch};
 use crate::cut::{CutError, Point2, Ring, Section, UncutFace, VoidAccess, clip_to_limits};
 use crate::error::Error;
 use crate::geom::{Parting, Plane, Point, rings::thinnest};
@@ -18,18 +19,19 @@ const LOOKS: usize = 8;
 const OFF_MM: f64 = 0.02;
 
 /// The section of the uncut body at every cut.
-pub fn faces(made: &Made) -> Result<Vec<CutFace>, Error> {
+pub fn faces(made: &Made, watch: &Watch) -> Result<Vec<CutFace>, Error> {
     let body = made.hollowed.to_mesh();
     let plan = &made.plan;
     let solid = |written: &WrittenPart| {
-        (
-            written.part.id.to_string(),
-            MeshDistance::new(written.part.solid.mesh()),
-        )
+        watch.check()?;
+        let distance = MeshDistance::new(written.part.solid.mesh());
+        Ok((written.part.id.to_string(), distance))
     };
-    let solids: Vec<(String, MeshDistance)> = made.parts.par_iter().map(solid).collect();
+    let solids = made.parts.par_iter().map(solid);
+    let solids = solids.collect::<Result<Vec<(String, MeshDistance)>, Cancelled>>()?;
     let partings = plan.partings()?;
     let face = |(cut, parting): (&crate::cut::Cut, &Parting)| {
+        watch.check()?;
         let plane = parting.plane;
         let section = Section::of_mesh(&clip_to_limits(parting, &body)?, &plane);
         let regions = regions(&sections(&body, parting, &partings)?, &plane, &solids);
@@ -39,7 +41,7 @@ pub fn faces(made: &Made) -> Result<Vec<CutFace>, Error> {
             .iter()
             .filter(|face| face.cut == cut.id)
             .map(|face| flat_point(&plane, face));
-        let (whole, mouths) = (whole.collect(), mouths(made, parting)?);
+        let (whole, mouths) = (whole.collect(), mouths(made, parting, watch)?);
         // What ends where the cut ends is no wall.
         let wall = thinnest(&rings).filter(|ends| !ends.iter().any(|end| is_at_end(parting, *end)));
         Ok(CutFace {
@@ -139,8 +141,9 @@ fn regions(sections: &[Section], plane: &Plane, solids: &[(String, MeshDistance)
 }
 
 /// Returns the mouths of voids in the cut, each with the largest disc that passes.
-fn mouths(made: &Made, parting: &Parting) -> Result<Vec<Mouth>, CutError> {
+fn mouths(made: &Made, parting: &Parting, watch: &Watch) -> Result<Vec<Mouth>, CutError> {
     let of_void = |access: &VoidAccess| -> Result<Vec<Mouth>, CutError> {
+        watch.check()?;
         let Some(body) = made.hollowed.voids.get(access.void.index()) else {
             return Ok(Vec::new());
         };

@@ -48,7 +48,7 @@ impl Draft {
 
 /// Encodes the files of a kit, reads them back and judges them.
 pub fn draft(placed: &Placed, made: Made, watch: &Watch) -> Result<Draft, Error> {
-    let made = repack(placed, made)?;
+    let made = repack(placed, made, watch)?;
     watch.enter(Phase::Verify);
     let title = format!("{} hollowed", placed.name());
     let hollowed = stl::encode(&made.hollowed.to_mesh(), &title);
@@ -60,15 +60,16 @@ pub fn draft(placed: &Placed, made: Made, watch: &Watch) -> Result<Draft, Error>
     let shells = Shells::of_mesh(&weld(&evidence.hollowed));
     let cuts = made.plan.partings()?;
     let subject = subject(&evidence, &shells, &cuts);
-    let (mut judgement, ((pictures, view), packages)) = rayon::join(
-        || judge(&evidence),
+    let (judgement, ((pictures, view), packages)) = rayon::join(
+        || judge(&evidence, watch),
         || {
-            let drawn = || rayon::join(|| render_pictures(&subject), || View::of(&subject));
-            rayon::join(drawn, || packages(placed, &made))
+            let pictures = || render_pictures(&subject, watch);
+            let drawn = || rayon::join(pictures, || View::of(&subject, watch));
+            rayon::join(drawn, || packages(placed, &made, watch))
         },
     );
-    let (pictures, view, packages) = (pictures?, view?, packages?);
-    watch.check()?;
+    let (mut judgement, pictures, view) = (judgement?, pictures?, view?);
+    let packages = packages?;
     // A buyer may rely on the figure that the written parts reach.
     let figure = promised_figure(placed.goal().kind, placed.goal().objective);
     let reached = judgement.assembly.value_of(figure);

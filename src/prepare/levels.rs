@@ -11,7 +11,6 @@ use crate::hollow::{
     Certificate, Fill, Pass, Problem, Settings, Solution, TopCourse, bound_over_heights, top_course,
 };
 use crate::interior::Columns;
-use crate::mass::Moments;
 use crate::run::{HeightProof, Placed, Solved};
 use crate::shell::Shell;
 
@@ -43,6 +42,11 @@ pub fn with_load(placed: &Placed, load: Load, watch: &Watch) -> Result<Answer, E
         let known = coarser.as_ref().map(|level| &level.solution);
         let solution = placed.solve(&columns, fixed, known, watch);
         watch.check()?;
+        let problem = Problem {
+            goal,
+            fixed,
+            columns: &columns,
+        };
         if level >= first_to_refuse && !solution.is_usable() {
             return Ok(Verdict::No(impossible(placed, &solution)));
         }
@@ -51,7 +55,7 @@ pub fn with_load(placed: &Placed, load: Load, watch: &Watch) -> Result<Answer, E
             height_proof: height_proof(&columns, &solution)
                 .or(coarser.as_ref().and_then(|level| level.height_proof)),
             course: coarser.map_or_else(
-                || course(placed, &columns, fixed, &solution),
+                || course(placed, &problem, &solution, watch),
                 |level| level.course,
             ),
             load,
@@ -109,15 +113,10 @@ fn height_proof(columns: &Columns, solution: &Solution) -> Option<HeightProof> {
 }
 
 /// Returns the course of the first answer.
-fn course(placed: &Placed, columns: &Columns, fixed: Moments, solution: &Solution) -> TopCourse {
-    let problem = Problem {
-        goal: placed.goal(),
-        fixed,
-        columns,
-    };
+fn course(placed: &Placed, problem: &Problem, solution: &Solution, watch: &Watch) -> TopCourse {
     let is_plain = placed.fill == Fill::AIR && solution.is_usable();
     let of_top = if is_plain {
-        top_course(&problem, &Settings::default(), solution)
+        top_course(problem, &Settings::default(), solution, &watch.muted())
     } else {
         TopCourse::default()
     };

@@ -41,7 +41,7 @@ pub fn model(job: &Job, printer: &Printer, watch: &Watch) -> Result<Model, Error
         source: Box::new(Defects::of(&mesh).unwrap_or(defects)),
     })?;
     watch.check()?;
-    one_body(&solid).map_err(|source| Error::NotOneBody {
+    one_body(&solid, watch)?.map_err(|source| Error::NotOneBody {
         path: path(),
         source: Box::new(source),
     })?;

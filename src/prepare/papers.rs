@@ -26,7 +26,7 @@ const CUTS: &str = "cuts.toml";
 pub fn finish(placed: &Placed, mut draft: Draft, watch: &Watch) -> Result<Prepared, Error> {
     watch.enter(Phase::Report);
     let mut checklist = fill(placed, &draft);
-    let faces = faces(&draft.made)?;
+    let faces = faces(&draft.made, watch)?;
     let of_cuts = draw_figures(&checklist, &draft.subject(), &faces)?;
     draft.pictures.extend(of_cuts);
     watch.check()?;

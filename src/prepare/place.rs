@@ -2,7 +2,7 @@
 
 use super::{advise, hardware, waterline};
 use crate::advice::best_orientation;
-use crate::base::watch::Watch;
+use crate::base::watch::{Cancelled, Watch};
 use crate::error::Error;
 use crate::goal::{GoalKind, PrintStock, Request, Up, place_in_material};
 use crate::hollow::Fill;
@@ -11,7 +11,7 @@ use crate::run::{AxisChoice, Model, Placed, Policy, Shop};
 
 /// Places the job's goal in the model and settles what the job leaves open.
 pub fn goal(job: &Job, model: Model, shop: Shop, watch: &Watch) -> Result<Placed, Error> {
-    let choice = choose_axis(&job.goal, &model, &shop);
+    let choice = choose_axis(&job.goal, &model, &shop, watch)?;
     let request = match &choice {
         Some(AxisChoice::Best { request, .. }) => **request,
         Some(AxisChoice::NonePossible { up }) => Request {
@@ -20,7 +20,6 @@ pub fn goal(job: &Job, model: Model, shop: Shop, watch: &Watch) -> Result<Placed
         },
         None => job.goal,
     };
-    watch.check()?;
     let stock = PrintStock {
         wall_mm: shop.wall.wall_mm,
         density_g_cm3: shop.material.density_g_cm3.value,
@@ -43,24 +42,29 @@ pub fn goal(job: &Job, model: Model, shop: Shop, watch: &Watch) -> Result<Placed
 }
 
 /// Chooses the axis of a request that leaves it open; `None` if the request names one.
-fn choose_axis(request: &Request, model: &Model, shop: &Shop) -> Option<AxisChoice> {
+fn choose_axis(
+    request: &Request,
+    model: &Model,
+    shop: &Shop,
+    watch: &Watch,
+) -> Result<Option<AxisChoice>, Cancelled> {
     if request.up != Up::Auto {
-        return None;
+        return Ok(None);
     }
-    let Some(best) = best_orientation(&advise::case(model, shop, *request)) else {
+    let Some(best) = best_orientation(&advise::case(model, shop, *request), watch)? else {
         let up = if request.kind == GoalKind::Stand {
             Up::Z
         } else {
             Up::Principal
         };
-        return Some(AxisChoice::NonePossible { up });
+        return Ok(Some(AxisChoice::NonePossible { up }));
     };
-    Some(AxisChoice::Best {
+    Ok(Some(AxisChoice::Best {
         request: Box::new(best.request),
         tried: best.tried,
         possible: best.possible,
         reached: best.reached,
-    })
+    }))
 }
 
 /// Returns the filling of the voids; an error if it does not go with the rest of the job.

@@ -32,8 +32,7 @@ fn with_ballast(
 ) -> Result<Answer, Error> {
     watch.enter(Phase::Ballast);
     let order = &placed.job.ballast;
-    let found = Search::new(shop(placed))?.of_order(order)?;
-    watch.check()?;
+    let found = Search::new(shop(placed), watch)?.of_order(order)?;
     if let Some(found) = found {
         return with_load(placed, found.load, watch);
     }

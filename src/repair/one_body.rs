@@ -3,6 +3,7 @@
 
 use std::fmt;
 
+use crate::base::watch::{Cancelled, Watch};
 use crate::geom::Point;
 use crate::mesh::edges::EdgeTable;
 use crate::mesh::shells::{Shells, shell_box};
@@ -114,18 +115,21 @@ fn remedies(shells: &[ShellFact]) -> Vec<&'static str> {
 ///
 /// A kit's voids, cuts and moments depend on it. Costs as much as [`Crossings::of`], plus a pass
 /// over the triangles for each pair of shells.
-pub fn one_body(solid: &Solid) -> Result<(), NotOneBody> {
+///
+/// # Errors
+/// The watch was stopped before the answer was found.
+pub fn one_body(solid: &Solid, watch: &Watch) -> Result<Result<(), NotOneBody>, Cancelled> {
     let mesh = solid.mesh();
-    let crossings = Crossings::of(mesh);
+    let crossings = Crossings::of_watched(mesh, watch)?;
     if crossings.pairs > 0 {
-        return Err(NotOneBody::Crosses(crossings));
+        return Ok(Err(NotOneBody::Crosses(crossings)));
     }
     let shells = Shells::of(mesh, &EdgeTable::of(mesh));
-    if shells.count() == 1 {
+    Ok(if shells.count() == 1 {
         Ok(())
     } else {
         Err(NotOneBody::SeveralShells(facts(mesh, &shells)))
-    }
+    })
 }
 
 /// Returns the facts of each shell, the largest first.
@@ -167,8 +171,12 @@ mod tests {
         )
     }
 
+    fn judge(mesh: TriMesh) -> Result<(), NotOneBody> {
+        one_body(&Solid::new(mesh).unwrap(), &Watch::silent()).unwrap()
+    }
+
     fn refusal(mesh: TriMesh) -> NotOneBody {
-        one_body(&Solid::new(mesh).unwrap()).unwrap_err()
+        judge(mesh).unwrap_err()
     }
 
     fn roles(mesh: TriMesh) -> Vec<ShellRole> {
@@ -181,7 +189,7 @@ mod tests {
     #[test]
     fn a_single_closed_surface_is_one_body() {
         for mesh in [cube(2.0), ball(&Point::origin(), 1.0, 2)] {
-            assert_eq!(one_body(&Solid::new(mesh).unwrap()), Ok(()));
+            assert_eq!(judge(mesh), Ok(()));
         }
     }
 

@@ -4,6 +4,7 @@ use std::ops::ControlFlow;
 
 use rayon::prelude::*;
 
+use crate::base::watch::{Cancelled, Watch};
 use crate::geom::{Aabb, Bvh, Point, Vector};
 use crate::mesh::TriMesh;
 use crate::mesh::crossings::cross;
@@ -26,24 +27,28 @@ const MAX_ROUNDS: usize = 12;
 /// edge moves it by the bend of the surface along 0.02 mm. Returns the mesh unchanged if nothing
 /// folds; a fold that neither mends is left. Examines slivers only, so a sound mesh costs little
 /// more than its search tree.
-#[must_use]
-pub fn unfold(mesh: &TriMesh) -> TriMesh {
+///
+/// # Errors
+/// The watch was stopped.
+pub fn unfold(mesh: &TriMesh, watch: &Watch) -> Result<TriMesh, Cancelled> {
     let mut best = (usize::MAX, mesh.clone());
     let mut mended = mesh.clone();
     for _ in 0..MAX_ROUNDS {
+        watch.check()?;
         let found = find_folds(&round_to_single(&mended));
         if found.len() < best.0 {
             best = (found.len(), mended.clone());
         }
         let Some(next) = (!found.is_empty())
-            .then(|| mend_folds(&mended, &found))
+            .then(|| mend_folds(&mended, &found, watch))
+            .transpose()?
             .flatten()
         else {
             break;
         };
         mended = next;
     }
-    best.1
+    Ok(best.1)
 }
 
 /// Rounds the mesh as a file in single precision does.
@@ -93,22 +98,26 @@ fn triangles_near_slivers(mesh: &TriMesh) -> Vec<u32> {
 }
 
 /// Mends the thinnest triangle at each fold; `None` if no fold can be mended.
-fn mend_folds(mesh: &TriMesh, folds: &[[u32; 2]]) -> Option<TriMesh> {
+fn mend_folds(
+    mesh: &TriMesh,
+    folds: &[[u32; 2]],
+    watch: &Watch,
+) -> Result<Option<TriMesh>, Cancelled> {
     let mut patch = Patch {
         vertices: mesh.vertices().to_vec(),
         triangles: mesh.triangles().to_vec(),
         touched: Vec::new(),
     };
     for pair in folds {
+        watch.check()?;
         patch.mend(pair);
     }
     let is_mended = !patch.touched.is_empty();
     patch
         .triangles
         .retain(|[a, b, c]| a != b && b != c && c != a);
-    TriMesh::new(patch.vertices, patch.triangles)
-        .ok()
-        .filter(|_| is_mended)
+    let mended = TriMesh::new(patch.vertices, patch.triangles).ok();
+    Ok(mended.filter(|_| is_mended))
 }
 
 /// A surface under repair. A removed triangle repeats a corner.
@@ -299,6 +308,10 @@ fn rotate_to(mut triangle: [u32; 3], first: Option<usize>) -> [u32; 3] {
 mod tests {
     use super::*;
     use crate::mesh::Solid;
+
+    fn unfold(mesh: &TriMesh) -> TriMesh {
+        super::unfold(mesh, &Watch::silent()).unwrap()
+    }
 
     /// A skew tetrahedron far from the origin, whose coordinates are not exact in single
     /// precision.

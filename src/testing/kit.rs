@@ -1,14 +1,15 @@
 //! The checklist, the pictures and the view of a sound kit: the hollow box of the judge's tests.
 
+use crate::base::watch::Watch;
 use crate::geom::{Parting, Plane, Point, Vector};
 use crate::page::{CutFace, Mouth, Picture, Region, Subject, View, draw_figures, render_pictures};
 use crate::repair::weld;
 use crate::sheet::part_picture_file;
 use crate::sheet::*;
-use crate::verify::judge_tests::sound_kit;
+use crate::verify::judge_tests::{judge, sound_kit};
 use crate::verify::{
     Cleaning, Evidence, FigureName, Judgement, PartFacts, Promise, PromisedCut, PromisedFigure,
-    PromisedPart, PromisedVoid, Shells, judge,
+    PromisedPart, PromisedVoid, Shells,
 };
 
 /// The cleaning rule of a water jet.
@@ -91,9 +92,9 @@ pub fn sample_pictures(sheet: &Checklist, evidence: &Evidence) -> (Vec<Picture>,
             diameter_mm: 34.0,
         }],
     };
-    let mut pictures = render_pictures(&subject).unwrap();
+    let mut pictures = render_pictures(&subject, &Watch::silent()).unwrap();
     pictures.extend(draw_figures(sheet, &subject, &[face]).unwrap());
-    (pictures, View::of(&subject).unwrap())
+    (pictures, View::of(&subject, &Watch::silent()).unwrap())
 }
 
 fn checklist(evidence: &Evidence, found: &Judgement) -> Checklist {

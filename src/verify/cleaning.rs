@@ -8,9 +8,10 @@ use super::mouths::{MouthPoint, sample_mouths};
 use super::part_probe::PartProbe;
 use super::shells::connected_pieces;
 use super::{Promise, PromisedCut};
+use crate::base::watch::{Cancelled, Watch};
 use crate::geom::triangle::closest_on_segment;
 use crate::geom::{Bvh, Plane, Point, Vector};
-use crate::mesh::{TriMesh, area_mm2, spread_points};
+use crate::mesh::{SurfacePoint, TriMesh, area_mm2, spread_points};
 use crate::repair::weld;
 
 /// Distance within which triangles belong to a void's wall and points lie in a cut, mm. It is a
@@ -59,9 +60,10 @@ pub(super) fn inspect_voids(
     promise: &Promise,
     cavities: &[TriMesh],
     probes: &[PartProbe],
-) -> Vec<VoidFacts> {
+    watch: &Watch,
+) -> Result<Vec<VoidFacts>, Cancelled> {
     let Some(cleaning) = promise.printer.cleaning else {
-        return Vec::new();
+        return Ok(Vec::new());
     };
     let plane =
         |cut: &PromisedCut| Plane::through(&Point::from(cut.point_mm), &Vector::from(cut.normal));
@@ -73,6 +75,7 @@ pub(super) fn inspect_voids(
         tool_mm,
         reach_mm: cleaning.reach_mm.unwrap_or(f64::INFINITY),
         overhang_deg: cleaning.overhang_deg,
+        watch,
     };
     let facts = |(index, cavity): (usize, &TriMesh)| {
         let id = promise
@@ -98,24 +101,32 @@ impl<'a> PlacedPart<'a> {
     }
 }
 
-/// The inspection of voids: the planes of the cuts, and the limits of the tool and the process.
+/// The inspection of voids: the planes of the cuts, the limits of the tool and the process, and the
+/// watch.
 struct Inspector<'a> {
     planes: &'a [Plane],
     tool_mm: f64,
     reach_mm: f64,
     overhang_deg: Option<f64>,
+    watch: &'a Watch,
 }
 
 impl Inspector<'_> {
     /// Measures the openings of a void and the shares of its wall on all parts.
-    fn inspect(&self, id: String, cavity: &TriMesh, parts: &[PlacedPart]) -> VoidFacts {
+    fn inspect(
+        &self,
+        id: String,
+        cavity: &TriMesh,
+        parts: &[PlacedPart],
+    ) -> Result<VoidFacts, Cancelled> {
         let surface = Bvh::new(cavity.iter_corners());
         let area = surface_mm2(cavity);
-        let mouths: Vec<Vec<MouthPoint>> = self
-            .planes
-            .iter()
-            .map(|plane| sample_mouths(cavity, plane, self.tool_mm / 2.0))
-            .collect();
+        let mouths = |plane: &Plane| {
+            self.watch.check()?;
+            Ok(sample_mouths(cavity, plane, self.tool_mm / 2.0))
+        };
+        let mouths = self.planes.iter().map(mouths);
+        let mouths = mouths.collect::<Result<Vec<Vec<MouthPoint>>, Cancelled>>()?;
         let (mut openings_mm, mut found, mut seen, mut clean) = (Vec::new(), 0.0, 0.0, 0.0);
         for part in parts {
             for patch in self.patches(&surface, part) {
@@ -123,10 +134,11 @@ impl Inspector<'_> {
                 if wall_mm2 < SLIVER_RATIO * area {
                     continue;
                 }
+                self.watch.check()?;
                 let own = patch.own_points(&mouths);
                 openings_mm.extend(self.openings(&patch, &own));
                 let [seen_ratio, clean_ratio] =
-                    self.shares(&patch, &own, (wall_mm2 / area * SAMPLES) as usize);
+                    self.shares(&patch, &own, (wall_mm2 / area * SAMPLES) as usize)?;
                 found += wall_mm2;
                 seen += seen_ratio * wall_mm2;
                 clean += clean_ratio * wall_mm2;
@@ -134,12 +146,12 @@ impl Inspector<'_> {
         }
         // Any of the wall that is on no part counts as out of sight.
         let whole = f64::max(found, area).max(f64::MIN_POSITIVE);
-        VoidFacts {
+        Ok(VoidFacts {
             id,
             openings_mm,
             sight_ratio: seen / whole,
             clean_ratio: clean / whole,
-        }
+        })
     }
 
     /// Returns the connected pieces of a void's wall on a part.
@@ -199,24 +211,23 @@ impl Inspector<'_> {
     }
 
     /// Returns the shares of a piece's wall in sight, and in sight or printed without support.
-    fn shares(&self, patch: &Patch, own: &[OwnPoint], count: usize) -> [f64; 2] {
+    fn shares(&self, patch: &Patch, own: &[OwnPoint], count: usize) -> Result<[f64; 2], Cancelled> {
         let viewpoints = self.viewpoints(own);
         let corners: Vec<[Point; 3]> = patch.wall.iter_corners().collect();
         let points = spread_points(&corners, count.max(1));
-        let seen_and_clean: Vec<[bool; 2]> = points
-            .par_iter()
-            .map(|point| {
-                let is_seen = viewpoints
-                    .iter()
-                    .any(|eye| self.sees(patch.probe, eye, &point.at));
-                [
-                    is_seen,
-                    is_seen || self.is_self_supporting(patch.probe, &corners[point.triangle]),
-                ]
-            })
-            .collect();
+        let is_seen_and_clean = |point: &SurfacePoint| {
+            self.watch.check()?;
+            let is_seen = viewpoints
+                .iter()
+                .any(|eye| self.sees(patch.probe, eye, &point.at));
+            let is_clean =
+                is_seen || self.is_self_supporting(patch.probe, &corners[point.triangle]);
+            Ok([is_seen, is_clean])
+        };
+        let seen_and_clean = points.par_iter().map(is_seen_and_clean);
+        let seen_and_clean = seen_and_clean.collect::<Result<Vec<[bool; 2]>, Cancelled>>()?;
         let total = seen_and_clean.len().max(1) as f64;
-        [0, 1].map(|i| seen_and_clean.iter().filter(|is| is[i]).count() as f64 / total)
+        Ok([0, 1].map(|i| seen_and_clean.iter().filter(|is| is[i]).count() as f64 / total))
     }
 
     /// Returns a thinned list of the points that let the tool in, or the widest if none does.

@@ -1,6 +1,6 @@
 //! The cleaning of voids, on a hollow box cut in two and with one fault at a time.
 
-use super::judge_tests::{failures, sound_kit};
+use super::judge_tests::{failures, judge, sound_kit};
 use super::test_meshes::block;
 use super::*;
 use crate::geom::Point;

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::{Change, FileChange, SCHEMA};
+use crate::base::watch::Cancelled;
 use crate::io::ReadError;
 
 /// A kit cannot be judged at all.
@@ -64,6 +65,9 @@ pub enum VerifyError {
         /// The fault.
         source: ReadError,
     },
+    /// The caller stopped the judge.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
 }
 
 impl VerifyError {

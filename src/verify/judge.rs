@@ -10,9 +10,11 @@ use super::joints::{count_lost_strokes, film_error, film_moments};
 use super::part_probe::PartProbe;
 use super::pegs::{count_overlaps, measure_pegs};
 use super::{
-    Evidence, Figures, Judgement, PartFacts, Setting, Shells, SurfaceFacts, assembly_moments,
+    Evidence, Figures, Judgement, PartEvidence, PartFacts, Setting, Shells, SurfaceFacts,
+    assembly_moments,
 };
-use crate::mass::moments_of_mesh;
+use crate::base::watch::{Cancelled, Watch};
+use crate::mass::{Moments, moments_of_mesh};
 use crate::repair::weld;
 
 /// Measures the evidence and checks every promise against it.
@@ -20,8 +22,10 @@ use crate::repair::weld;
 /// The figures are exact integrals of the written triangles; the wall is the distance between
 /// triangles. Some seconds for a million triangles. The judgement is the same on any number of
 /// threads.
-#[must_use]
-pub fn judge(evidence: &Evidence) -> Judgement {
+///
+/// # Errors
+/// The watch was stopped before the judgement was made.
+pub fn judge(evidence: &Evidence, watch: &Watch) -> Result<Judgement, Cancelled> {
     let promise = &evidence.promise;
     let welded = weld(&evidence.hollowed);
     let shells = Shells::of_mesh(&welded);
@@ -33,13 +37,22 @@ pub fn judge(evidence: &Evidence) -> Judgement {
     let joined = (film_moments(promise) + mass_moments(&promise.dowels)) * density_g_mm3.recip();
     let assembled = assembly_moments(&evidence.parts);
     let probes: Vec<PartProbe> = evidence.parts.par_iter().map(PartProbe::new).collect();
+    let part_facts = |part: &PartEvidence| PartFacts::of_part(part, watch);
+    let figures = |printed: &Moments, load: &Moments| {
+        watch.check()?;
+        Ok(Figures::with_load(printed, load, &setting))
+    };
     let mut judgement = Judgement {
         solid: Figures::new(&moments_of_mesh(&outer), &setting),
-        hollowed: Figures::with_load(&moments_of_mesh(&welded), &load, &setting),
-        assembly: Figures::with_load(&assembled, &(load + joined), &setting),
-        surface: SurfaceFacts::of_mesh(&welded),
-        parts: evidence.parts.par_iter().map(PartFacts::of_part).collect(),
-        wall_min_mm: shells.smallest_wall_mm(),
+        hollowed: figures(&moments_of_mesh(&welded), &load)?,
+        assembly: figures(&assembled, &(load + joined))?,
+        surface: SurfaceFacts::of_mesh(&welded, watch)?,
+        parts: evidence
+            .parts
+            .par_iter()
+            .map(part_facts)
+            .collect::<Result<_, _>>()?,
+        wall_min_mm: shells.smallest_wall_mm(watch)?,
         fit: measure_fit(
             &promise.hardware,
             &promise.goal.frame(),
@@ -47,14 +60,14 @@ pub fn judge(evidence: &Evidence) -> Judgement {
             promise.wall.required_mm,
         ),
         ballast_room_mm: least_room_mm(&promise.ballast, &welded, &outer),
-        pegs: measure_pegs(promise, &probes, &evidence.hollowed),
-        overlaps: count_overlaps(&probes),
-        voids: inspect_voids(promise, &shells.inward, &probes),
+        pegs: measure_pegs(promise, &probes, &evidence.hollowed, watch)?,
+        overlaps: count_overlaps(&probes, watch)?,
+        voids: inspect_voids(promise, &shells.inward, &probes, watch)?,
         film_error: film_error(promise, &evidence.parts),
         lost_strokes: count_lost_strokes(promise, &probes),
         checks: Vec::new(),
         changes: Vec::new(),
     };
     judgement.checks = checks(promise, &judgement);
-    judgement
+    Ok(judgement)
 }

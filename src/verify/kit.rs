@@ -8,17 +8,19 @@ use super::reading::{read_checklist, read_evidence};
 use super::seal::find_paper_changes;
 use super::sheet::{find_misstatements, sheet_check};
 use super::{Judgement, VerifyError, judge};
+use crate::base::watch::Watch;
 
 /// Reads every file of the kit in `folder` and judges it, without the solver. The checklist
 /// supplies the goal and the promises, the meshes everything else.
 ///
 /// # Errors
 ///
-/// If there is no kit in the folder, or if one of its files cannot be read.
-pub fn verify_kit(folder: &Path) -> Result<Judgement, VerifyError> {
+/// If there is no kit in the folder, if one of its files cannot be read, or if the watch was
+/// stopped.
+pub fn verify_kit(folder: &Path, watch: &Watch) -> Result<Judgement, VerifyError> {
     let (promise, sheet) = read_checklist(folder)?;
     let evidence = read_evidence(folder, promise)?;
-    let mut judgement = judge(&evidence);
+    let mut judgement = judge(&evidence, watch)?;
     let misstated = find_misstatements(&sheet, &evidence, &judgement);
     judgement.changes = find_changes(folder, &evidence)?;
     judgement

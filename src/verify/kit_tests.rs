@@ -5,10 +5,11 @@ use std::path::Path;
 
 use serde_json::{Value, json};
 
-use super::judge_tests::sound_kit;
+use super::judge_tests::{judge, sound_kit};
 use super::sheet::{restate, restate_before_rounding};
 use super::*;
 use crate::base::digest::sha256_hex;
+use crate::base::watch::Watch;
 use crate::io::stl;
 
 /// Writes the sound kit of the judge's tests with its papers. The checklist has only the keys that
@@ -115,7 +116,7 @@ fn kit_with(change: impl FnOnce(&Path)) -> Result<Judgement, VerifyError> {
     let room = tempfile::tempdir().unwrap();
     write_kit(room.path());
     change(room.path());
-    verify_kit(room.path())
+    verify_kit(room.path(), &Watch::silent())
 }
 
 fn failures(judgement: &Judgement) -> Vec<String> {
@@ -200,7 +201,7 @@ fn every_number_of_the_checklist_that_follows_from_the_files_is_checked() {
         fs::write(room.path().join(CHECKLIST_FILE), lie.to_string()).unwrap();
         // A careful forger makes the job sheet and the list of hashes anew.
         seal(room.path());
-        let judgement = verify_kit(room.path()).unwrap();
+        let judgement = verify_kit(room.path(), &Watch::silent()).unwrap();
         assert!(
             !judgement.passes(),
             "{key} may be {} instead of {old}",

@@ -1,6 +1,7 @@
 //! Facts about one written file: its surface, its place on the plate, and its exact moments.
 
 use super::{PartEvidence, Shells};
+use crate::base::watch::{Cancelled, Watch};
 use crate::mass::{Moments, moments_of_mesh};
 use crate::mesh::{Crossings, Solid, TriMesh};
 use crate::repair::weld;
@@ -39,31 +40,32 @@ pub struct PartFacts {
 
 impl SurfaceFacts {
     /// Measures a welded surface.
-    pub fn of_mesh(welded: &TriMesh) -> Self {
-        Self {
+    pub fn of_mesh(welded: &TriMesh, watch: &Watch) -> Result<Self, Cancelled> {
+        watch.check()?;
+        let defect = Solid::new(welded.clone()).err();
+        Ok(Self {
             triangles: welded.triangles().len(),
-            defect: Solid::new(welded.clone())
-                .err()
-                .map(|defects| defects.to_string()),
-            crossings: Crossings::of(welded).pairs,
+            defect: defect.map(|defects| defects.to_string()),
+            crossings: Crossings::of_watched(welded, watch)?.pairs,
             volume_mm3: moments_of_mesh(welded).volume(),
-        }
+        })
     }
 }
 
 impl PartFacts {
     /// Measures a part. Corners at one place are welded; nothing else is changed.
-    pub fn of_part(part: &PartEvidence) -> Self {
+    pub fn of_part(part: &PartEvidence, watch: &Watch) -> Result<Self, Cancelled> {
+        watch.check()?;
         let welded = weld(&part.mesh);
         let aabb = welded.aabb();
-        Self {
+        Ok(Self {
             id: part.id.clone(),
             cavities: Shells::of_mesh(&welded).inward.len(),
             lowest_mm: aabb.min.z,
             size_mm: aabb.size().into(),
             pose_error: part.pose.rigidity_error(),
             moments: part.moments(),
-            surface: SurfaceFacts::of_mesh(&welded),
-        }
+            surface: SurfaceFacts::of_mesh(&welded, watch)?,
+        })
     }
 }

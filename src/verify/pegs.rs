@@ -3,6 +3,7 @@
 
 use super::part_probe::PartProbe;
 use super::{Hardware, PartEvidence, Peg, Promise};
+use crate::base::watch::{Cancelled, Watch};
 use crate::geom::{Bvh, Point, Vector, orthonormal_basis};
 use crate::mesh::TriMesh;
 
@@ -105,7 +106,8 @@ pub(super) fn measure_pegs(
     promise: &Promise,
     probes: &[PartProbe],
     hollowed: &TriMesh,
-) -> Vec<PegFacts> {
+    watch: &Watch,
+) -> Result<Vec<PegFacts>, Cancelled> {
     let whole = Bvh::new(hollowed.iter_corners());
     let parts = || promise.parts.iter().zip(probes);
     let pins = parts().flat_map(|(part, probe)| {
@@ -114,20 +116,22 @@ pub(super) fn measure_pegs(
             .map(move |peg| PegOnPart { peg, part: probe })
     });
     let printed = pins.map(|pin| {
+        watch.check()?;
         let lost = PegFacts {
             ordered_gap_mm: promise.clearance_mm(&pin.peg.joint),
             ..PegFacts::lost(&pin.peg.id)
         };
-        match sockets_of(&pin.peg.id, promise, probes).first() {
+        Ok(match sockets_of(&pin.peg.id, promise, probes).first() {
             Some(socket) => measure_pin(pin, *socket, &whole, lost),
             None => lost,
-        }
+        })
     });
     let dowels = promise.dowels.iter().map(|dowel| {
+        watch.check()?;
         let sockets = sockets_of(&dowel.id, promise, probes);
         let lost = PegFacts::lost(&dowel.id);
         let [first, second] = sockets[..] else {
-            return lost;
+            return Ok(lost);
         };
         let wall_mm = wall_mm(first.peg, &whole).min(wall_mm(second.peg, &whole));
         let lost = PegFacts {
@@ -135,7 +139,7 @@ pub(super) fn measure_pegs(
             wall_mm,
             ..lost
         };
-        measure_dowel(dowel, [first, second], lost)
+        Ok(measure_dowel(dowel, [first, second], lost))
     });
     printed.chain(dowels).collect()
 }
@@ -254,11 +258,12 @@ fn wall_mm(socket: &Peg, whole: &Bvh) -> f64 {
 }
 
 /// Counts the sample points just under the parts' surfaces that lie in another part too.
-pub(super) fn count_overlaps(probes: &[PartProbe]) -> usize {
+pub(super) fn count_overlaps(probes: &[PartProbe], watch: &Watch) -> Result<usize, Cancelled> {
     let overlaps = |probe: &PartProbe| {
-        points_under_surface(probe.part)
-            .filter(|point| is_shared(point, probe, probes))
-            .count()
+        watch.check()?;
+        let points = points_under_surface(probe.part);
+        let shared = points.filter(|point| is_shared(point, probe, probes));
+        Ok(shared.count())
     };
     probes.iter().map(overlaps).sum()
 }

@@ -1,6 +1,6 @@
 //! Pins and sockets in files: a sound joint, and the same joint with one fault at a time.
 
-use super::judge_tests::{SEAT, failures, peg, sound_kit};
+use super::judge_tests::{SEAT, failures, judge, peg, sound_kit};
 use super::*;
 use crate::geom::Vector;
 use crate::mass::FlatFace;

@@ -24,7 +24,7 @@ pub(super) fn read_evidence(folder: &Path, promise: Promise) -> Result<Evidence,
     });
     Ok(Evidence {
         hollowed,
-        parts: parts.collect::<Result<_, _>>()?,
+        parts: parts.collect::<Result<_, VerifyError>>()?,
         promise,
     })
 }

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use crate::base::watch::{Cancelled, Watch};
 use crate::mass::moments_of_mesh;
 use crate::mesh::{MeshDistance, TriMesh};
 
@@ -38,11 +39,14 @@ impl Shells {
     /// is no cavity. It is the distance between triangles, not between samples.
     ///
     /// A cavity of the model itself counts as a void; one that pierces the outside gives 0.
-    pub fn smallest_wall_mm(&self) -> Option<f64> {
+    pub fn smallest_wall_mm(&self, watch: &Watch) -> Result<Option<f64>, Cancelled> {
         if self.inward.is_empty() || self.outward.is_empty() {
-            return None;
+            return Ok(None);
         }
-        Some(MeshDistance::new(&self.outer_mesh()).min_distance_to(&self.inner_mesh()))
+        watch.check()?;
+        let outside = MeshDistance::new(&self.outer_mesh());
+        watch.check()?;
+        Ok(Some(outside.min_distance_to(&self.inner_mesh())))
     }
 }
 

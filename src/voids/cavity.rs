@@ -2,7 +2,7 @@
 
 use super::error::VoidError;
 use super::offset::{CavitySpec, draw_offset_surface};
-use super::region::{Region, positive_region};
+use super::region::{Canvas, Region, positive_region};
 use super::split::{Voids, split_into_voids};
 use crate::base::watch::Watch;
 use crate::geom::{Aabb, Bvh, Frame, Point, Quadric};
@@ -37,6 +37,7 @@ impl Cavity {
             }
         }
         let mesh = draw_offset_surface(solid, spec, watch)?;
+        watch.check()?;
         let (body, bvh) = rayon::join(|| Csg::of_mesh(&mesh), || Bvh::new(mesh.iter_corners()));
         Ok(Self {
             body: body?,
@@ -77,13 +78,23 @@ impl Cavity {
     /// Material that would float loose in a void is emptied with it. On the quadric a void's
     /// surface is true within half the tolerance. Elsewhere it is the cavity's own surface, so it
     /// keeps the wall as the cavity does.
-    pub fn void_bodies(&self, quadric: &Quadric, frame: &Frame) -> Result<Voids, VoidError> {
-        let parts = match positive_region(quadric, frame, &self.bvh, self.tolerance_mm)? {
+    pub fn void_bodies(
+        &self,
+        quadric: &Quadric,
+        frame: &Frame,
+        watch: &Watch,
+    ) -> Result<Voids, VoidError> {
+        let canvas = Canvas {
+            body: &self.bvh,
+            tolerance_mm: self.tolerance_mm,
+            watch,
+        };
+        let parts = match positive_region(quadric, frame, canvas)? {
             Region::Nothing => TriMesh::default(),
             Region::Everything => self.mesh.clone(),
             Region::Part(region) => self.body.intersect(&region)?.to_mesh()?,
         };
-        split_into_voids(&parts, self.min_void_mm)
+        split_into_voids(&parts, self.min_void_mm, watch)
     }
 
     /// Returns the cavity less `solid`: one body, or several whose surfaces do not touch. The wall
@@ -104,8 +115,10 @@ impl Cavity {
 ///
 /// Slivers are collapsed; folds that are left are mended by [`unfold`]. No point of the surface
 /// moves by more than 2e-5 mm, except at those folds.
-pub fn without_slivers(void: &Solid) -> Result<Solid, VoidError> {
-    Ok(Solid::new(unfold(
-        &Csg::of_solid(void)?.without_slivers().to_mesh()?,
-    ))?)
+pub fn without_slivers(void: &Solid, watch: &Watch) -> Result<Solid, VoidError> {
+    watch.check()?;
+    let body = Csg::of_solid(void)?;
+    watch.check()?;
+    let simple = body.without_slivers().to_mesh()?;
+    Ok(Solid::new(unfold(&simple, watch)?)?)
 }

@@ -5,8 +5,8 @@
 
 use std::ops::ControlFlow;
 
-use rayon::prelude::*;
-
+use super::runs::flat_map_in_runs;
+use crate::base::watch::{Cancelled, Watch};
 use crate::geom::triangle::{
     segment_triangle_distance_squared, triangle_triangle_distance_squared,
 };
@@ -25,9 +25,16 @@ const FOLD_COSINE: f64 = 1.0 - 1e-10;
 /// ascending order. Only pairs with at least one triangle marked in `is_marked` are tested.
 ///
 /// Every such pair whose boxes overlap is measured exactly.
-pub(super) fn find_crossings_among(mesh: &TriMesh, is_marked: &[bool]) -> Vec<u32> {
+pub(super) fn find_crossings_among(
+    mesh: &TriMesh,
+    is_marked: &[bool],
+    watch: &Watch,
+) -> Result<Vec<u32>, Cancelled> {
     let bvh = Bvh::new(mesh.iter_corners());
-    let meetings_of = |i: u32| {
+    let marked = |&i: &u32| is_marked[i as usize];
+    let marked: Vec<u32> = (0..mesh.triangles().len() as u32).filter(marked).collect();
+    let meetings_of = |index: usize| {
+        let i = marked[index];
         let corners = mesh.corners(i as usize);
         let mut meeting = Vec::new();
         bvh.visit_overlapping(&Aabb::of_points(&corners).inflated(TOUCH_MM), |j, _| {
@@ -39,13 +46,10 @@ pub(super) fn find_crossings_among(mesh: &TriMesh, is_marked: &[bool]) -> Vec<u3
         });
         meeting
     };
-    let marked = (0..mesh.triangles().len() as u32)
-        .into_par_iter()
-        .filter(|&i| is_marked[i as usize]);
-    let mut crossing: Vec<u32> = marked.flat_map_iter(meetings_of).collect();
+    let mut crossing = flat_map_in_runs(marked.len(), watch, meetings_of)?;
     crossing.sort_unstable();
     crossing.dedup();
-    crossing
+    Ok(crossing)
 }
 
 /// Returns whether two triangles have a point in common that is not on a shared corner or side.
@@ -111,6 +115,10 @@ fn is_fold(a: &Point, b: &Point, c: &Point, d: &Point) -> bool {
 mod tests {
     use super::*;
     use crate::voids::shapes::{ball, block};
+
+    fn find_crossings_among(mesh: &TriMesh, is_marked: &[bool]) -> Vec<u32> {
+        super::find_crossings_among(mesh, is_marked, &Watch::silent()).unwrap()
+    }
 
     fn crossing_triangles(mesh: &TriMesh) -> Vec<u32> {
         find_crossings_among(mesh, &vec![true; mesh.triangles().len()])

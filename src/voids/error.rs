@@ -1,5 +1,6 @@
 //! Errors of the extraction of voids.
 
+use crate::base::watch::Cancelled;
 use crate::mesh::{ClipError, Defects, MeshError};
 
 /// An error in making the cavity or the voids.
@@ -43,7 +44,7 @@ pub enum VoidError {
     /// A void's surface does not bound a solid.
     #[error("a void is not a solid")]
     Defects(#[from] Defects),
-    /// The caller asked to stop.
-    #[error("stopped on request")]
-    Cancelled,
+    /// The caller stopped the run.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
 }

@@ -1,16 +1,17 @@
 //! Draws a surface: refines the lattice until its triangles follow the function, then marches.
 
-use rayon::prelude::*;
-
+use super::error::VoidError;
 use super::field::{Field, Known, Resolution};
 use super::lattice::{Across, Links};
 use super::march::{Piece, cap, piece};
 use super::nodes::{Nodes, Numbers};
 use super::octree::{FINEST_UNITS, Octree};
 use super::roots::{Roots, VertexKey, is_crossing};
+use super::runs::{flat_map_in_runs, map_in_runs, runs};
 use super::table::IndexMap;
+use crate::base::watch::{Cancelled, Watch};
 use crate::geom::{Aabb, Point};
-use crate::mesh::{MeshError, TriMesh};
+use crate::mesh::TriMesh;
 
 /// Cosine of the turn of the normals at a chord's ends below which the chord spans a crease, not a
 /// curve (20°). A curve of the wall's radius turns less within the cells that its sag alone
@@ -26,6 +27,7 @@ pub(super) struct Extractor<'a, F> {
     roots: Roots,
     /// For each cell, the pieces of surface in its tetrahedra.
     pieces: Vec<Vec<PlacedPiece>>,
+    watch: &'a Watch,
 }
 
 /// A piece of surface, and the two leaves in which it lies.
@@ -43,18 +45,28 @@ struct PlacedTriangle {
 }
 
 impl<'a, F: Field> Extractor<'a, F> {
-    /// Starts on the region inside `aabb`, coarse everywhere; `None` if the box is too large for
+    /// Starts on the region inside `aabb`, coarse everywhere; an error if the box is too large for
     /// the finest cell.
-    pub fn new(field: &'a F, aabb: &Aabb, resolution: Resolution) -> Option<Self> {
-        let mut tree = Octree::new(aabb, resolution.finest_mm, field)?;
-        tree.grow(field);
-        Some(Self {
+    pub fn new(
+        field: &'a F,
+        aabb: &Aabb,
+        resolution: Resolution,
+        watch: &'a Watch,
+    ) -> Result<Self, VoidError> {
+        let tree = Octree::new(aabb, resolution.finest_mm, field);
+        let mut tree = tree.ok_or(VoidError::TooFine {
+            size_mm: aabb.size().max(),
+            finest_mm: resolution.finest_mm,
+        })?;
+        tree.grow(field, watch)?;
+        Ok(Self {
             field,
             resolution,
             tree,
             nodes: Nodes::default(),
             roots: Roots::default(),
             pieces: Vec::new(),
+            watch,
         })
     }
 
@@ -67,19 +79,19 @@ impl<'a, F: Field> Extractor<'a, F> {
 
     /// Divides leaves until the triangles in and around `dirty` keep the tolerances. Returns the
     /// leaves whose triangles were drawn, in ascending order.
-    pub fn refine(&mut self, mut dirty: Vec<u32>) -> Vec<u32> {
+    pub fn refine(&mut self, mut dirty: Vec<u32>) -> Result<Vec<u32>, Cancelled> {
         let mut drawn = Vec::new();
         while !dirty.is_empty() {
-            self.prepare(&dirty);
+            self.prepare(&dirty)?;
             drawn.extend_from_slice(&dirty);
-            let bent = self.bent_leaves(&dirty);
-            dirty = self.divide(bent);
+            let bent = self.bent_leaves(&dirty)?;
+            dirty = self.divide(bent)?;
         }
-        self.roots.refresh(&self.nodes, self.field);
+        self.roots.refresh(&self.nodes, self.field, self.watch)?;
         drawn.sort_unstable();
         drawn.dedup();
         drawn.retain(|&leaf| self.tree.is_leaf(leaf));
-        drawn
+        Ok(drawn)
     }
 
     /// Returns the leaves to divide because a triangle in `leaves` is not allowed.
@@ -87,9 +99,10 @@ impl<'a, F: Field> Extractor<'a, F> {
         &self,
         leaves: &[u32],
         allows: impl Fn(&[Point; 3]) -> bool + Sync,
-    ) -> Vec<u32> {
-        let refused_in = |&leaf: &u32| {
-            let refused = self.triangles_of(leaf).into_iter().filter(|triangle| {
+    ) -> Result<Vec<u32>, Cancelled> {
+        let refused_in = |i: usize| {
+            let triangles = self.triangles_of(leaves[i]).into_iter();
+            let refused = triangles.filter(|triangle| {
                 let [a, b, c] = triangle
                     .keys
                     .map(|key| self.roots.vertex(&self.nodes, key).map(|known| known.at));
@@ -99,25 +112,24 @@ impl<'a, F: Field> Extractor<'a, F> {
                 .flat_map(|triangle| self.to_divide(triangle.leaves))
                 .collect::<Vec<u32>>()
         };
-        leaves.par_iter().flat_map_iter(refused_in).collect()
+        flat_map_in_runs(leaves.len(), self.watch, refused_in)
     }
 
     /// Divides those of `leaves` that are not the finest, and returns the leaves to check again.
-    pub fn divide(&mut self, mut leaves: Vec<u32>) -> Vec<u32> {
+    pub fn divide(&mut self, mut leaves: Vec<u32>) -> Result<Vec<u32>, Cancelled> {
         leaves.sort_unstable();
         leaves.dedup();
         leaves.retain(|&i| self.tree.cell(i).size > FINEST_UNITS);
-        let fresh = self.tree.refine(&leaves, self.field);
-        self.tree.widened(&fresh)
+        let fresh = self.tree.refine(&leaves, self.field, self.watch)?;
+        Ok(self.tree.widened(&fresh))
     }
 
     /// Returns the triangles as they are now.
-    pub fn mesh(&self) -> Result<TriMesh, MeshError> {
+    pub fn mesh(&self) -> Result<TriMesh, VoidError> {
         let leaves = self.leaves();
-        let triangles: Vec<PlacedTriangle> = leaves
-            .par_iter()
-            .flat_map_iter(|&leaf| self.triangles_of(leaf))
-            .collect();
+        let triangles_in = |i: usize| self.triangles_of(leaves[i]);
+        let triangles: Vec<PlacedTriangle> =
+            flat_map_in_runs(leaves.len(), self.watch, triangles_in)?;
         self.number_vertices(&triangles)
     }
 
@@ -139,27 +151,22 @@ impl<'a, F: Field> Extractor<'a, F> {
     }
 
     /// Marches through the leaves' tetrahedra and finds the crossings that the pieces name.
-    fn prepare(&mut self, leaves: &[u32]) {
-        let linked: Vec<(u32, Links)> = leaves
-            .par_iter()
-            .map(|&leaf| (leaf, Links::new(&self.tree, leaf)))
-            .collect();
-        let numbers = self.nodes.prepare(&self.tree, &linked, self.field);
-        let marched: Vec<Vec<PlacedPiece>> = linked
-            .par_iter()
-            .zip(&numbers)
-            .map(|((leaf, links), numbers)| self.march(*leaf, links, numbers))
-            .collect();
-        let keys: Vec<VertexKey> = marched
-            .par_iter()
-            .flat_map_iter(|pieces| crossings_of(pieces))
-            .collect();
-        self.roots
-            .prepare(&self.nodes, keys.into_iter(), self.field);
+    fn prepare(&mut self, leaves: &[u32]) -> Result<(), Cancelled> {
+        let (count, watch) = (leaves.len(), self.watch);
+        let link = |i: usize| (leaves[i], Links::new(&self.tree, leaves[i]));
+        let linked: Vec<(u32, Links)> = map_in_runs(count, watch, link)?;
+        let (tree, nodes) = (&self.tree, &mut self.nodes);
+        let numbers = nodes.prepare(tree, &linked, self.field, watch)?;
+        let march = |i: usize| self.march(leaves[i], &linked[i].1, &numbers[i]);
+        let marched: Vec<Vec<PlacedPiece>> = map_in_runs(count, watch, march)?;
+        let keys: Vec<VertexKey> = flat_map_in_runs(count, watch, |i| crossings_of(&marched[i]))?;
+        let (nodes, roots) = (&self.nodes, &mut self.roots);
+        roots.prepare(nodes, keys.into_iter(), self.field, watch)?;
         self.pieces.resize(self.tree.cells().len(), Vec::new());
         for (&leaf, pieces) in leaves.iter().zip(marched) {
             self.pieces[leaf as usize] = pieces;
         }
+        Ok(())
     }
 
     /// Returns the pieces of surface in a leaf's tetrahedra.
@@ -222,15 +229,15 @@ impl<'a, F: Field> Extractor<'a, F> {
     }
 
     /// Returns the leaves to divide because a triangle's side strays too far from the surface.
-    fn bent_leaves(&self, leaves: &[u32]) -> Vec<u32> {
-        let bent_in = |&leaf: &u32| {
-            let triangles = self.triangles_of(leaf);
+    fn bent_leaves(&self, leaves: &[u32]) -> Result<Vec<u32>, Cancelled> {
+        let bent_in = |i: usize| {
+            let triangles = self.triangles_of(leaves[i]);
             triangles
                 .into_iter()
                 .flat_map(|triangle| self.bent_leaves_of(triangle))
                 .collect::<Vec<u32>>()
         };
-        leaves.par_iter().flat_map_iter(bent_in).collect()
+        flat_map_in_runs(leaves.len(), self.watch, bent_in)
     }
 
     fn bent_leaves_of(&self, PlacedTriangle { keys, leaves }: PlacedTriangle) -> Vec<u32> {
@@ -272,7 +279,7 @@ impl<'a, F: Field> Extractor<'a, F> {
     }
 
     /// Builds the mesh; its vertices are numbered in the order in which the triangles name them.
-    fn number_vertices(&self, triangles: &[PlacedTriangle]) -> Result<TriMesh, MeshError> {
+    fn number_vertices(&self, triangles: &[PlacedTriangle]) -> Result<TriMesh, VoidError> {
         let mut index = IndexMap::default();
         let mut vertices: Vec<Point> = Vec::new();
         let mut number = |key: VertexKey| {
@@ -281,11 +288,13 @@ impl<'a, F: Field> Extractor<'a, F> {
                 vertices.len() as u32 - 1
             })
         };
-        let triangles = triangles
-            .iter()
-            .map(|triangle| triangle.keys.map(&mut number))
-            .collect();
-        TriMesh::new(vertices, triangles)
+        let mut numbered = Vec::with_capacity(triangles.len());
+        for run in runs(triangles.len()) {
+            self.watch.check()?;
+            let keys = triangles[run].iter().map(|triangle| triangle.keys);
+            numbered.extend(keys.map(|keys| keys.map(&mut number)));
+        }
+        Ok(TriMesh::new(vertices, numbered)?)
     }
 }
 

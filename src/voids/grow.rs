@@ -4,6 +4,7 @@ use super::VoidError;
 use super::extract::Extractor;
 use super::field::Resolution;
 use super::wall_field::WallField;
+use crate::base::watch::Watch;
 use crate::geom::Bvh;
 use crate::mesh::TriMesh;
 
@@ -22,7 +23,7 @@ const STRAY_RATIO: f64 = 0.4;
 ///
 /// A void too small for one quadric can so be kept solid for all quadrics that differ little. The
 /// margin must exceed the distance by which surfaces move when the quadric is solved for again.
-pub fn grow_bodies(bodies: &TriMesh, margin_mm: f64) -> Result<TriMesh, VoidError> {
+pub fn grow_bodies(bodies: &TriMesh, margin_mm: f64, watch: &Watch) -> Result<TriMesh, VoidError> {
     let surface = Bvh::new(bodies.iter_corners());
     let coarse_mm = COARSE_RATIO * margin_mm;
     let field = WallField {
@@ -39,13 +40,9 @@ pub fn grow_bodies(bodies: &TriMesh, margin_mm: f64) -> Result<TriMesh, VoidErro
         inside_mm: STRAY_RATIO * margin_mm,
     };
     let aabb = surface.aabb().inflated(2.0 * margin_mm);
-    let too_fine = VoidError::TooFine {
-        size_mm: aabb.size().max(),
-        finest_mm: resolution.finest_mm,
-    };
-    let mut extractor = Extractor::new(&field, &aabb, resolution).ok_or(too_fine)?;
+    let mut extractor = Extractor::new(&field, &aabb, resolution, watch)?;
     let leaves = extractor.leaves();
-    extractor.refine(leaves);
+    extractor.refine(leaves)?;
     Ok(extractor.mesh()?)
 }
 
@@ -60,7 +57,7 @@ mod tests {
     fn a_grown_body_clears_the_body_by_about_the_margin() {
         let bodies =
             block([0.0; 3], [8.0, 0.2, 5.0]).joined(&ball(Point::new(4.0, 6.0, 2.0), 1.0, 3));
-        let grown = grow_bodies(&bodies, 0.3).unwrap();
+        let grown = grow_bodies(&bodies, 0.3, &Watch::silent()).unwrap();
         let distance = MeshDistance::new(&bodies);
         for p in grown.vertices() {
             // Vertices lie on the surface itself; triangles sag by up to four tenths.

@@ -4,6 +4,7 @@ use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
 use super::octree::CIRCUMRADIUS;
+use crate::base::watch::{Cancelled, Watch};
 use crate::geom::{Bvh, NO_HINT, Point, Vector};
 use crate::mesh::TriMesh;
 
@@ -44,21 +45,22 @@ impl Ord for Candidate {
 ///
 /// Branch and bound over the distance to the surface. A ball that fits with less than a sixth of
 /// its radius to spare may be missed.
-pub(super) fn ball_fits(mesh: &TriMesh, radius_mm: f64) -> bool {
+pub(super) fn ball_fits(mesh: &TriMesh, radius_mm: f64, watch: &Watch) -> Result<bool, Cancelled> {
     let size = mesh.aabb().size();
     if size.min() < 2.0 * radius_mm {
-        return false;
+        return Ok(false);
     }
     let bvh = Bvh::new(mesh.iter_corners());
     let mut heap = BinaryHeap::new();
     let (root, depth_mm) = measure_cell(&bvh, mesh.aabb().center(), size.max() / 2.0, NO_HINT);
     if depth_mm >= radius_mm {
-        return true;
+        return Ok(true);
     }
     heap.extend(root);
     while let Some(cell) = heap.pop() {
+        watch.check()?;
         if cell.bound_mm < radius_mm {
-            return false;
+            return Ok(false);
         }
         if cell.half_mm < GIVE_UP_RATIO * radius_mm {
             continue;
@@ -68,12 +70,12 @@ pub(super) fn ball_fits(mesh: &TriMesh, radius_mm: f64) -> bool {
             let center = cell.center + Vector::new(sign(0), sign(1), sign(2)) * cell.half_mm;
             let (child, depth_mm) = measure_cell(&bvh, center, cell.half_mm / 2.0, cell.hint);
             if depth_mm >= radius_mm {
-                return true;
+                return Ok(true);
             }
             heap.extend(child.filter(|child| child.bound_mm >= radius_mm));
         }
     }
-    false
+    Ok(false)
 }
 
 /// Returns a cell with its bound, and the depth of its centre inside the body, mm.
@@ -99,6 +101,10 @@ fn measure_cell(bvh: &Bvh, center: Point, half_mm: f64, hint: u32) -> (Option<Ca
 mod tests {
     use super::*;
     use crate::voids::shapes::{ball, block};
+
+    fn ball_fits(mesh: &TriMesh, radius_mm: f64) -> bool {
+        super::ball_fits(mesh, radius_mm, &Watch::silent()).unwrap()
+    }
 
     #[test]
     fn a_ball_fits_into_a_plate_thicker_than_itself_only() {

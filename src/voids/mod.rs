@@ -22,6 +22,7 @@ mod march;
 mod nodes;
 mod octree;
 mod roots;
+mod runs;
 mod table;
 
 // Fewer triangles, checked for self-intersection.

@@ -1,12 +1,12 @@
 //! The lattice's corners, pushed off the surface so that no triangle is a sliver, with the function
 //! sampled there.
 
-use rayon::prelude::*;
-
 use super::field::{Field, Known, Sample};
 use super::lattice::{Key, Links, SLOTS, Slot, grid, key};
 use super::octree::Octree;
+use super::runs::map_in_runs;
 use super::table::IndexMap;
+use crate::base::watch::{Cancelled, Watch};
 
 /// Distance to which a corner too near the surface is pushed, as a share of its smallest cell. More
 /// would endanger the tetrahedra, whose least height is about 0.4 cells; less leaves thin
@@ -78,11 +78,10 @@ impl Nodes {
         tree: &Octree,
         leaves: &[(u32, Links)],
         field: &impl Field,
-    ) -> Vec<Numbers> {
-        let needs: Vec<(u64, Vec<Need>)> = leaves
-            .par_iter()
-            .map(|(leaf, links)| needs_of(tree, *leaf, links))
-            .collect();
+        watch: &Watch,
+    ) -> Result<Vec<Numbers>, Cancelled> {
+        let need = |i: usize| needs_of(tree, leaves[i].0, &leaves[i].1);
+        let needs: Vec<(u64, Vec<Need>)> = map_in_runs(leaves.len(), watch, need)?;
         let mut fresh: Vec<Need> = Vec::new();
         let mut shrunk: Vec<u32> = Vec::new();
         let mut numbers = Vec::with_capacity(needs.len());
@@ -96,15 +95,13 @@ impl Nodes {
                 numbers: numbered,
             });
         }
-        let new_nodes: Vec<Node> = fresh
-            .par_iter()
-            .map(|need| make_node(tree, need, field))
-            .collect();
+        let node = |i: usize| make_node(tree, &fresh[i], field);
+        let new_nodes: Vec<Node> = map_in_runs(fresh.len(), watch, node)?;
         self.positive
             .extend(new_nodes.iter().map(|node| node.raw.sample.is_positive()));
         self.nodes.extend(new_nodes);
-        self.place_again(tree, shrunk, field);
-        numbers
+        self.place_again(tree, shrunk, field, watch)?;
+        Ok(numbers)
     }
 
     /// Returns the number of a corner: its own if the corner is known, otherwise the next free one.
@@ -125,13 +122,17 @@ impl Nodes {
     }
 
     /// Places corners again whose smallest cell has shrunk.
-    fn place_again(&mut self, tree: &Octree, mut numbers: Vec<u32>, field: &impl Field) {
+    fn place_again(
+        &mut self,
+        tree: &Octree,
+        mut numbers: Vec<u32>,
+        field: &impl Field,
+        watch: &Watch,
+    ) -> Result<(), Cancelled> {
         numbers.sort_unstable();
         numbers.dedup();
-        let placed: Vec<Known> = numbers
-            .par_iter()
-            .map(|&number| place(tree, self.node(number), field))
-            .collect();
+        let place = |i: usize| place(tree, self.node(numbers[i]), field);
+        let placed: Vec<Known> = map_in_runs(numbers.len(), watch, place)?;
         for (number, placed) in numbers.into_iter().zip(placed) {
             let node = &mut self.nodes[number as usize];
             if placed.at != node.placed.at {
@@ -142,6 +143,7 @@ impl Nodes {
                 };
             }
         }
+        Ok(())
     }
 }
 

@@ -3,6 +3,8 @@
 use rayon::prelude::*;
 
 use super::field::{Field, Known};
+use super::runs::map_in_runs;
+use crate::base::watch::{Cancelled, Watch};
 use crate::geom::{Aabb, Point};
 
 /// A position on the finest grid. One unit is half the finest cell.
@@ -171,28 +173,34 @@ impl Octree {
 
     /// Divides cells until none that may hold the surface is too coarse, and balances the tree.
     /// Returns the new leaves.
-    pub fn grow(&mut self, field: &impl Field) -> Vec<u32> {
+    pub fn grow(&mut self, field: &impl Field, watch: &Watch) -> Result<Vec<u32>, Cancelled> {
         let mut latest = vec![0];
         let mut created = Vec::new();
         while !latest.is_empty() {
+            watch.check()?;
             let coarse: Vec<u32> = latest
                 .into_iter()
                 .filter(|&i| self.is_too_coarse(i, field))
                 .collect();
-            latest = self.split(&coarse, field);
+            latest = self.split(&coarse, field, watch)?;
             created.extend_from_slice(&latest);
         }
-        let balanced = self.balance(created.clone(), field);
+        let balanced = self.balance(created.clone(), field, watch)?;
         created.extend(balanced);
-        self.leaves_of(created)
+        Ok(self.leaves_of(created))
     }
 
     /// Divides these leaves, and others as balance requires. Returns the new leaves.
-    pub fn refine(&mut self, leaves: &[u32], field: &impl Field) -> Vec<u32> {
-        let mut created = self.split(leaves, field);
-        let balanced = self.balance(created.clone(), field);
+    pub fn refine(
+        &mut self,
+        leaves: &[u32],
+        field: &impl Field,
+        watch: &Watch,
+    ) -> Result<Vec<u32>, Cancelled> {
+        let mut created = self.split(leaves, field, watch)?;
+        let balanced = self.balance(created.clone(), field, watch)?;
         created.extend(balanced);
-        self.leaves_of(created)
+        Ok(self.leaves_of(created))
     }
 
     fn leaves_of(&self, cells: Vec<u32>) -> Vec<u32> {
@@ -208,21 +216,27 @@ impl Octree {
 
     /// Divides leaves that are more than twice as large as a neighbour across a face or an edge.
     /// Returns the new cells.
-    fn balance(&mut self, mut latest: Vec<u32>, field: &impl Field) -> Vec<u32> {
+    fn balance(
+        &mut self,
+        mut latest: Vec<u32>,
+        field: &impl Field,
+        watch: &Watch,
+    ) -> Result<Vec<u32>, Cancelled> {
         let mut created = Vec::new();
         while !latest.is_empty() {
+            watch.check()?;
             let mut large: Vec<u32> = latest
                 .par_iter()
                 .flat_map_iter(|&i| self.too_large_beside(i))
                 .collect();
             large.sort_unstable();
             large.dedup();
-            latest = self.split(&large, field);
+            latest = self.split(&large, field, watch)?;
             // A divided leaf's children may still be too large for the neighbour that asked.
             created.extend_from_slice(&latest);
             latest = self.widened(&latest);
         }
-        created
+        Ok(created)
     }
 
     /// Returns these cells' leaves and the leaves around them, in ascending order.
@@ -269,19 +283,21 @@ impl Octree {
     }
 
     /// Divides leaves into eight each and samples the centres. Returns the children.
-    fn split(&mut self, leaves: &[u32], field: &impl Field) -> Vec<u32> {
+    fn split(
+        &mut self,
+        leaves: &[u32],
+        field: &impl Field,
+        watch: &Watch,
+    ) -> Result<Vec<u32>, Cancelled> {
         let first = self.cells.len() as u32;
-        let children: Vec<Cell> = leaves
-            .par_iter()
-            .flat_map_iter(|&i| (0..8).map(move |k| (i, k)))
-            .map(|(i, k)| self.child(i, k, field))
-            .collect();
+        let child = |i: usize| self.child(leaves[i / 8], (i % 8) as i32, field);
+        let children: Vec<Cell> = map_in_runs(8 * leaves.len(), watch, child)?;
         for (k, &leaf) in leaves.iter().enumerate() {
             self.children[leaf as usize] = first + 8 * k as u32;
         }
         self.cells.extend(children);
         self.children.resize(self.cells.len(), 0);
-        (first..self.cells.len() as u32).collect()
+        Ok((first..self.cells.len() as u32).collect())
     }
 
     fn child(&self, parent: u32, number: i32, field: &impl Field) -> Cell {

@@ -144,13 +144,11 @@ pub(super) fn draw_offset_surface(
                 inside_mm: SIMPLE_INSIDE_RATIO * spec.tolerance_mm,
             };
             let allows = |corners: &[Point; 3]| limits.allow(corners, bias_mm, FINAL_LACK_MM);
-            return Ok(simplify(
-                drawn,
-                Rules {
-                    stray,
-                    allows: &allows,
-                },
-            )?);
+            let rules = Rules {
+                stray,
+                allows: &allows,
+            };
+            return simplify(drawn, rules, watch);
         }
     }
     Err(VoidError::WallNotKept {
@@ -177,22 +175,19 @@ fn draw(limits: &Limits, bias_mm: f64, watch: &Watch) -> Result<Option<TriMesh>,
         inside_mm: (spec.tolerance_mm - BIAS_MM).max(BIAS_MM),
     };
     let aabb = limits.surface.aabb();
-    let mut extractor = Extractor::new(&field, &aabb, resolution).ok_or(VoidError::TooFine {
-        size_mm: aabb.size().max(),
-        finest_mm: resolution.finest_mm,
-    })?;
+    let mut extractor = Extractor::new(&field, &aabb, resolution, watch)?;
     let mut dirty = extractor.leaves();
     for round in 0..CHECK_ROUNDS {
         watch.advance(round as f64 / CHECK_ROUNDS as f64);
-        watch.check().map_err(|_| VoidError::Cancelled)?;
-        let drawn = extractor.refine(dirty);
+        let drawn = extractor.refine(dirty)?;
         let refused = extractor.leaves_to_refine(&drawn, |corners| {
             limits.allow(corners, bias_mm, DRAWN_LACK_MM)
-        });
+        })?;
         if refused.is_empty() {
             return Ok(Some(extractor.mesh()?));
         }
-        dirty = extractor.divide(refused);
+        watch.check()?;
+        dirty = extractor.divide(refused)?;
     }
     Ok(None)
 }

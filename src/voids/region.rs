@@ -7,6 +7,7 @@ use super::field::{Field, Known, Resolution};
 use super::octree::CIRCUMRADIUS;
 use super::quadric_field::{CellSizes, QuadricField};
 use super::simplify::simplify;
+use crate::base::watch::Watch;
 use crate::geom::{Aabb, Bvh, Frame, Quadric};
 use crate::mesh::{Csg, TriMesh};
 
@@ -42,14 +43,28 @@ pub(super) enum Region {
     Part(Box<Csg>),
 }
 
-/// Draws the part of `body`'s box in which the quadric, given in `frame`, is positive. Inside the
-/// body it is true within half of `tolerance_mm`; elsewhere it need not be.
+/// The body in which a region is drawn.
+pub(super) struct Canvas<'a> {
+    /// Surface of the body.
+    pub body: &'a Bvh,
+    /// Tolerance of the drawing, mm.
+    pub tolerance_mm: f64,
+    /// The watch over the run.
+    pub watch: &'a Watch,
+}
+
+/// Draws the part of the body's box in which the quadric, given in `frame`, is positive. Inside the
+/// body it is true within half of the tolerance; elsewhere it need not be.
 pub(super) fn positive_region(
     quadric: &Quadric,
     frame: &Frame,
-    body: &Bvh,
-    tolerance_mm: f64,
+    canvas: Canvas,
 ) -> Result<Region, VoidError> {
+    let Canvas {
+        body,
+        tolerance_mm,
+        watch,
+    } = canvas;
     let aabb = body.aabb();
     let cells = CellSizes {
         coarse_mm: COARSE_MM,
@@ -69,7 +84,7 @@ pub(super) fn positive_region(
             Region::Nothing
         });
     }
-    let mesh = draw(&field, &aabb.inflated(MARGIN_MM), tolerance_mm)?;
+    let mesh = draw(&field, &aabb.inflated(MARGIN_MM), tolerance_mm, watch)?;
     if mesh.triangles().is_empty() {
         return Ok(Region::Nothing);
     }
@@ -84,22 +99,25 @@ pub(super) fn positive_region(
             stray,
             allows: &|_| true,
         },
+        watch,
     )?;
     Ok(Region::Part(Box::new(Csg::of_mesh(&simple)?)))
 }
 
-fn draw(field: &QuadricField, aabb: &Aabb, tolerance_mm: f64) -> Result<TriMesh, VoidError> {
+fn draw(
+    field: &QuadricField,
+    aabb: &Aabb,
+    tolerance_mm: f64,
+    watch: &Watch,
+) -> Result<TriMesh, VoidError> {
     let resolution = Resolution {
         finest_mm: COARSE_MM / f64::from(1 << HALVINGS),
         crease_mm: SINGULAR_MM,
         outside_mm: DRAW_RATIO * tolerance_mm,
         inside_mm: DRAW_RATIO * tolerance_mm,
     };
-    let mut extractor = Extractor::new(field, aabb, resolution).ok_or(VoidError::TooFine {
-        size_mm: aabb.size().max(),
-        finest_mm: resolution.finest_mm,
-    })?;
+    let mut extractor = Extractor::new(field, aabb, resolution, watch)?;
     let leaves = extractor.leaves();
-    extractor.refine(leaves);
+    extractor.refine(leaves)?;
     Ok(extractor.mesh()?)
 }

@@ -1,10 +1,10 @@
 //! The surface's vertices: the points in which the surface crosses the lattice's edges.
 
-use rayon::prelude::*;
-
 use super::field::{Field, Known};
 use super::nodes::Nodes;
+use super::runs::map_in_runs;
 use super::table::IndexMap;
+use crate::base::watch::{Cancelled, Watch};
 
 /// Value of the function at which a crossing counts as found, mm: a hundredth of the accuracy
 /// promised for a wall.
@@ -67,7 +67,12 @@ impl Roots {
     }
 
     /// Finds the crossings again on edges whose corners have moved.
-    pub fn refresh(&mut self, nodes: &Nodes, field: &impl Field) {
+    pub fn refresh(
+        &mut self,
+        nodes: &Nodes,
+        field: &impl Field,
+        watch: &Watch,
+    ) -> Result<(), Cancelled> {
         let stale = |root: &&Root| root.version != version(nodes, root.key);
         let keys: Vec<VertexKey> = self
             .roots
@@ -75,7 +80,7 @@ impl Roots {
             .filter(stale)
             .map(|root| root.key)
             .collect();
-        self.prepare(nodes, keys.into_iter(), field);
+        self.prepare(nodes, keys.into_iter(), field, watch)
     }
 
     /// Finds those crossings that are new or whose corners have moved.
@@ -84,7 +89,8 @@ impl Roots {
         nodes: &Nodes,
         keys: impl Iterator<Item = VertexKey>,
         field: &impl Field,
-    ) {
+        watch: &Watch,
+    ) -> Result<(), Cancelled> {
         let mut wanted: Vec<(u32, VertexKey)> = Vec::new();
         let mut count = self.roots.len() as u32;
         for key in keys {
@@ -99,16 +105,15 @@ impl Roots {
                 wanted.push((number, key));
             }
         }
-        let found: Vec<Root> = wanted
-            .par_iter()
-            .map(|&(_, key)| find_root(nodes, key, field))
-            .collect();
+        let find = |i: usize| find_root(nodes, wanted[i].1, field);
+        let found: Vec<Root> = map_in_runs(wanted.len(), watch, find)?;
         for ((number, _), root) in wanted.into_iter().zip(found) {
             match self.roots.get_mut(number as usize) {
                 Some(stale) => *stale = root,
                 None => self.roots.push(root),
             }
         }
+        Ok(())
     }
 }
 

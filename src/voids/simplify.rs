@@ -4,6 +4,9 @@ use rayon::prelude::*;
 
 use super::crossing::find_crossings_among;
 use super::decimate::{Decimation, Rules};
+use super::error::VoidError;
+use super::runs::flat_map_in_runs;
+use crate::base::watch::{Cancelled, Watch};
 use crate::mesh::{MeshError, TriMesh};
 
 /// Number of times the failures are locked and the rest is tried again, before the mesh is left as
@@ -15,13 +18,13 @@ const LOCKED_RINGS: usize = 2;
 
 /// Returns the mesh with fewer triangles by these rules, free of self-intersection. Returns the
 /// mesh itself if triangles still fail after the last round.
-pub(super) fn simplify(mesh: TriMesh, rules: Rules) -> Result<TriMesh, MeshError> {
+pub(super) fn simplify(mesh: TriMesh, rules: Rules, watch: &Watch) -> Result<TriMesh, VoidError> {
     let mut locked = vec![false; mesh.vertices().len()];
     let mut decimation = Decimation::new(&mesh, rules);
     let mut passed = Passed::default();
     for _ in 0..ROUNDS {
-        let (simple, names) = compact(&mesh, decimation.run(&locked))?;
-        let failed = passed.find_failures(&simple, &names, rules);
+        let (simple, names) = compact(&mesh, decimation.run(&locked, watch)?)?;
+        let failed = passed.find_failures(&simple, &names, rules, watch)?;
         if failed.is_empty() {
             return Ok(simple);
         }
@@ -42,18 +45,25 @@ struct Passed(Vec<[u32; 3]>);
 impl Passed {
     /// Returns the triangles that meet others or that the rules forbid. Only triangles that have
     /// not passed before are tested, with all that they meet.
-    fn find_failures(&mut self, mesh: &TriMesh, names: &[u32], rules: Rules) -> Vec<u32> {
+    fn find_failures(
+        &mut self,
+        mesh: &TriMesh,
+        names: &[u32],
+        rules: Rules,
+        watch: &Watch,
+    ) -> Result<Vec<u32>, Cancelled> {
         let named = |t: &[u32; 3]| t.map(|v| names[v as usize]);
         let is_new: Vec<bool> = mesh
             .triangles()
             .par_iter()
             .map(|t| self.0.binary_search(&named(t)).is_err())
             .collect();
-        let mut failed = find_crossings_among(mesh, &is_new);
-        let all = (0..mesh.triangles().len() as u32).into_par_iter();
-        failed.par_extend(
-            all.filter(|&i| is_new[i as usize] && !(rules.allows)(&mesh.corners(i as usize))),
-        );
+        let mut failed = find_crossings_among(mesh, &is_new, watch)?;
+        let forbidden = |i: usize| {
+            let is_forbidden = is_new[i] && !(rules.allows)(&mesh.corners(i));
+            is_forbidden.then_some(i as u32)
+        };
+        failed.extend(flat_map_in_runs(is_new.len(), watch, forbidden)?);
         let mut has_failed = vec![false; is_new.len()];
         failed.iter().for_each(|&i| has_failed[i as usize] = true);
         self.0 = mesh
@@ -64,7 +74,7 @@ impl Passed {
             .map(|(t, _)| named(t))
             .collect();
         self.0.par_sort_unstable();
-        failed
+        Ok(failed)
     }
 }
 

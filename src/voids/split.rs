@@ -4,6 +4,7 @@ use rayon::prelude::*;
 
 use super::error::VoidError;
 use super::inscribed::ball_fits;
+use crate::base::watch::{Cancelled, Watch};
 use crate::mesh::{Solid, TriMesh, bodies, shells, winding_number};
 
 /// The voids of a hollowing.
@@ -33,7 +34,11 @@ const NO_VOLUME_MM3: f64 = 1e-6;
 const HALF_TURN: f64 = 0.5;
 
 /// Splits `parts` into bodies and sorts out those into which no ball of `min_void_mm` fits.
-pub(super) fn split_into_voids(parts: &TriMesh, min_void_mm: f64) -> Result<Voids, VoidError> {
+pub(super) fn split_into_voids(
+    parts: &TriMesh,
+    min_void_mm: f64,
+    watch: &Watch,
+) -> Result<Voids, VoidError> {
     let mut by_volume: Vec<(f64, TriMesh)> = bodies(parts)
         .into_iter()
         .map(|body| (body.signed_volume_mm3(), body))
@@ -42,12 +47,12 @@ pub(super) fn split_into_voids(parts: &TriMesh, min_void_mm: f64) -> Result<Void
         b.0.total_cmp(&a.0)
             .then_with(|| tie_breaker(&a.1).total_cmp(&tie_breaker(&b.1)))
     });
-    let is_large_enough: Vec<bool> = by_volume
-        .par_iter()
-        .map(|(volume, body)| {
-            *volume > NO_VOLUME_MM3 && (min_void_mm <= 0.0 || ball_fits(body, min_void_mm / 2.0))
-        })
-        .collect();
+    let fits_ball = |body: &TriMesh| ball_fits(body, min_void_mm / 2.0, watch);
+    let is_large_enough = |(volume, body): &(f64, TriMesh)| {
+        Ok(*volume > NO_VOLUME_MM3 && (min_void_mm <= 0.0 || fits_ball(body)?))
+    };
+    let is_large_enough = by_volume.par_iter().map(is_large_enough);
+    let is_large_enough = is_large_enough.collect::<Result<Vec<bool>, Cancelled>>()?;
     let mut voids = Voids::default();
     let mut islands: Vec<TriMesh> = Vec::new();
     for ((_, body), is_large_enough) in by_volume.into_iter().zip(is_large_enough) {
@@ -95,6 +100,10 @@ fn without_islands(body: &TriMesh) -> (TriMesh, Vec<TriMesh>) {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    fn split_into_voids(parts: &TriMesh, min_void_mm: f64) -> Voids {
+        super::split_into_voids(parts, min_void_mm, &Watch::silent()).unwrap()
+    }
     use crate::geom::Point;
     use crate::voids::shapes::{ball, block};
 
@@ -102,7 +111,7 @@ mod tests {
     fn an_island_loose_in_a_void_is_emptied_and_counted() {
         let center = Point::new(4.0, 4.0, 4.0);
         let parts = block([0.0; 3], [8.0; 3]).joined(&ball(center, 2.0, 3).reversed());
-        let voids = split_into_voids(&parts, 1.0).unwrap();
+        let voids = split_into_voids(&parts, 1.0);
         assert_eq!(voids.bodies.len(), 1);
         assert!((voids.bodies[0].mesh().signed_volume_mm3() - 512.0).abs() < 1e-9);
         let ball_mm3 = ball(center, 2.0, 3).signed_volume_mm3();
@@ -115,7 +124,7 @@ mod tests {
         let ring = ball(center, 3.0, 3)
             .reversed()
             .joined(&ball(center, 2.0, 3));
-        let voids = split_into_voids(&block([0.0; 3], [8.0; 3]).joined(&ring), 1.0).unwrap();
+        let voids = split_into_voids(&block([0.0; 3], [8.0; 3]).joined(&ring), 1.0);
         assert_eq!(voids.bodies.len(), 1);
         assert!((voids.bodies[0].mesh().signed_volume_mm3() - 512.0).abs() < 1e-9);
     }
@@ -123,7 +132,7 @@ mod tests {
     #[test]
     fn a_void_that_holds_no_ball_of_the_minimum_is_left_solid() {
         let parts = block([0.0; 3], [8.0; 3]).joined(&block([10.0, 0.0, 0.0], [11.0, 8.0, 8.0]));
-        let voids = split_into_voids(&parts, 2.0).unwrap();
+        let voids = split_into_voids(&parts, 2.0);
         assert_eq!((voids.bodies.len(), voids.too_small.len()), (1, 1));
         assert!((voids.too_small_mm3() - 64.0).abs() < 1e-9);
     }

@@ -32,7 +32,7 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("base", &[]),
     ("geom", &["base"]),
     ("mesh", &["base", "geom"]),
-    ("repair", &["geom", "mesh"]),
+    ("repair", &["base", "geom", "mesh"]),
     ("io", &["repair", "geom", "mesh", "base"]),
     ("shell", &["geom", "mesh", "base"]),
     ("mass", &["geom", "mesh", "base"]),

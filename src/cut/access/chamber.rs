@@ -3,6 +3,7 @@
 use rayon::prelude::*;
 
 use crate::{
+    base::watch::{Cancelled, Watch},
     cut::{
         access::sight::{SightTest, Sightlines, Walls},
         error::CutError,
@@ -14,53 +15,68 @@ use crate::{
     mesh::{Csg, TriMesh},
 };
 
-/// A void with the data that cutting it and testing its visibility need, computed once.
+/// A void with the data that cutting it and testing its visibility need, computed once, and the
+/// watch over the run.
 pub(crate) struct Chamber<'a> {
     pub(crate) void: &'a Void,
     pub(crate) walls: Walls,
     body: Csg,
+    watch: &'a Watch,
 }
 
 impl<'a> Chamber<'a> {
-    fn new(void: &'a Void) -> Result<Self, CutError> {
+    fn new(void: &'a Void, watch: &'a Watch) -> Result<Self, CutError> {
+        watch.check()?;
         let (body, walls) = rayon::join(|| Csg::of_solid(&void.body), || Walls::of(&void.body));
         Ok(Self {
             void,
             walls,
             body: body?,
+            watch,
         })
     }
 
     /// Prepares all voids of a body.
-    pub(crate) fn all(hollowed: &'a Hollowed) -> Result<Vec<Self>, CutError> {
-        hollowed.voids.par_iter().map(Self::new).collect()
+    pub(crate) fn all(hollowed: &'a Hollowed, watch: &'a Watch) -> Result<Vec<Self>, CutError> {
+        let voids = hollowed.voids.par_iter();
+        voids.map(|void| Self::new(void, watch)).collect()
     }
 
     /// Returns the pieces of the void between the cuts.
     pub(crate) fn split(&self, tree: &CutTree) -> Result<Vec<Piece>, CutError> {
-        split_body(&self.body, tree)
+        split_body(&self.body, tree, self.watch)
     }
 
     /// Estimates the share of the wall that is in sight after these cuts, from the sections of the
     /// uncut void. This takes about a tenth of the time of cutting it. A mouth that another plane
     /// crosses counts whole, so the estimate may be slightly too large there.
-    pub(crate) fn estimate_sight_ratio(&self, tree: &CutTree, request: &PlanRequest) -> f64 {
+    pub(crate) fn estimate_sight_ratio(
+        &self,
+        tree: &CutTree,
+        request: &PlanRequest,
+    ) -> Result<f64, Cancelled> {
         self.walls
             .estimate_sight_ratio(&self.mouths(tree), &SightTest::new(tree, request))
     }
 
     /// Estimates which mouths see each point of the wall after these cuts, as
     /// [`Self::estimate_sight_ratio`] does.
-    pub(crate) fn sightlines(&self, tree: &CutTree, request: &PlanRequest) -> Vec<Sightlines> {
+    pub(crate) fn sightlines(
+        &self,
+        tree: &CutTree,
+        request: &PlanRequest,
+    ) -> Result<Vec<Sightlines>, Cancelled> {
         self.walls
             .sightlines(&self.mouths(tree), &SightTest::new(tree, request))
     }
 
     /// Returns the void minus some bodies.
     pub(crate) fn without(&self, bodies: &[TriMesh]) -> Result<TriMesh, CutError> {
-        let rest = bodies.iter().try_fold(self.body.clone(), |rest, body| {
-            rest.subtract(&Csg::of_mesh(body)?)
-        })?;
+        let mut rest = self.body.clone();
+        for body in bodies {
+            self.watch.check()?;
+            rest = rest.subtract(&Csg::of_mesh(body)?)?;
+        }
         Ok(rest.to_mesh()?)
     }
 
@@ -106,7 +122,8 @@ mod tests {
     #[test]
     fn the_estimate_is_within_two_hundredths_of_the_measured_sight() {
         let hollowed = shapes();
-        let chambers = Chamber::all(&hollowed).unwrap();
+        let watch = Watch::silent();
+        let chambers = Chamber::all(&hollowed, &watch).unwrap();
         let cleaning = Cleaning {
             rule: CleaningRule::InSight,
             sight_ratio: 0.95,
@@ -136,7 +153,7 @@ mod tests {
             let tree = CutTree::everywhere(planes);
             let told = accesses(&chambers, &tree, &request).unwrap();
             for (chamber, told) in chambers.iter().zip(told) {
-                let glance = chamber.estimate_sight_ratio(&tree, &request);
+                let glance = chamber.estimate_sight_ratio(&tree, &request).unwrap();
                 assert!(
                     (glance - told.sight_ratio).abs() < 0.02,
                     "{planes:?}: {glance} against {told:?}"

@@ -3,6 +3,7 @@
 use rayon::prelude::*;
 
 use crate::{
+    base::watch::{Cancelled, Watch},
     cut::{
         geometry::{
             chart::{Chart, Point2},
@@ -44,10 +45,11 @@ pub(crate) struct SightTest<'a> {
     reach_mm: f64,
     /// Hidden share of a piece above which the finer test is skipped.
     max_hidden_ratio: f64,
+    watch: &'a Watch,
 }
 
 impl<'a> SightTest<'a> {
-    pub(crate) fn new(tree: &'a CutTree, request: &PlanRequest) -> Self {
+    pub(crate) fn new(tree: &'a CutTree, request: &'a PlanRequest) -> Self {
         let reach_mm = request.cleaning.reach_mm.unwrap_or(f64::INFINITY);
         let tool_radius_mm = request.min_opening_mm / 2.0;
         Self {
@@ -55,6 +57,7 @@ impl<'a> SightTest<'a> {
             tool_radius_mm,
             reach_mm,
             max_hidden_ratio: HIDDEN_RATIO,
+            watch: &request.watch,
         }
     }
 
@@ -186,13 +189,13 @@ impl Walls {
         &self,
         mouths: &[(usize, Outline)],
         sight: &SightTest,
-    ) -> f64 {
+    ) -> Result<f64, Cancelled> {
         let mouths: Vec<(usize, &Outline)> = mouths
             .iter()
             .map(|(cut, outline)| (*cut, outline))
             .collect();
-        let (_, visible) = self.classify(self.points.clone(), &mouths, sight);
-        visible.len() as f64 / self.points.len().max(1) as f64
+        let (_, visible) = self.classify(self.points.clone(), &mouths, sight)?;
+        Ok(visible.len() as f64 / self.points.len().max(1) as f64)
     }
 
     /// Returns every sample point with the viewpoints that see it before the void is cut. Each
@@ -202,7 +205,7 @@ impl Walls {
         &self,
         mouths: &[(usize, Outline)],
         sight: &SightTest,
-    ) -> Vec<Sightlines> {
+    ) -> Result<Vec<Sightlines>, Cancelled> {
         let mouths: Vec<(usize, &Outline)> = mouths
             .iter()
             .map(|(cut, outline)| (*cut, outline))
@@ -215,13 +218,14 @@ impl Walls {
                 .collect()
         };
         let lines = |at: &Point| {
+            sight.watch.check()?;
             let eyes = eyes_seeing(at, &few);
             let eyes = if eyes.is_empty() {
                 eyes_seeing(at, &many)
             } else {
                 eyes
             };
-            Sightlines { at: *at, eyes }
+            Ok(Sightlines { at: *at, eyes })
         };
         self.points.par_iter().map(lines).collect()
     }
@@ -233,7 +237,11 @@ impl Walls {
 
     /// Returns the wall in sight of the piece's own mouths and within reach. Without mouths, all of
     /// it is hidden.
-    pub(crate) fn inspect(&self, piece: &Piece, sight: &SightTest) -> Visibility {
+    pub(crate) fn inspect(
+        &self,
+        piece: &Piece,
+        sight: &SightTest,
+    ) -> Result<Visibility, Cancelled> {
         let wall = wall(piece);
         let wall_mm2: f64 = wall.iter().map(area_mm2).sum();
         let count = (wall_mm2 / self.share_mm2).ceil() as usize;
@@ -245,14 +253,14 @@ impl Walls {
             .iter()
             .map(|cap| (cap.cut, &cap.outline))
             .collect();
-        let (hidden, visible) = self.classify(points, &mouths, sight);
-        Visibility {
+        let (hidden, visible) = self.classify(points, &mouths, sight)?;
+        Ok(Visibility {
             wall_mm2,
             seen_mm2: share_mm2 * visible.len() as f64,
             hidden,
             visible,
             share_mm2,
-        }
+        })
     }
 
     /// Splits points into hidden and visible ones. If few are hidden from the coarse viewpoints,
@@ -262,17 +270,17 @@ impl Walls {
         points: Vec<Point>,
         mouths: &[(usize, &Outline)],
         sight: &SightTest,
-    ) -> (Vec<Point>, Vec<Point>) {
+    ) -> Result<(Vec<Point>, Vec<Point>), Cancelled> {
         let total = points.len() as f64;
         let (hidden, mut visible) =
-            self.partition_by_sight(points, &sight.eyes(mouths, EYES_ACROSS), sight);
+            self.partition_by_sight(points, &sight.eyes(mouths, EYES_ACROSS), sight)?;
         if hidden.len() as f64 > sight.max_hidden_ratio * total {
-            return (hidden, visible);
+            return Ok((hidden, visible));
         }
         let (hidden, more) =
-            self.partition_by_sight(hidden, &sight.eyes(mouths, FINE_EYES_ACROSS), sight);
+            self.partition_by_sight(hidden, &sight.eyes(mouths, FINE_EYES_ACROSS), sight)?;
         visible.extend(more);
-        (hidden, visible)
+        Ok((hidden, visible))
     }
 
     /// Splits points into those that no eye sees within reach, and the others.
@@ -281,10 +289,18 @@ impl Walls {
         points: Vec<Point>,
         eyes: &[Eye],
         sight: &SightTest,
-    ) -> (Vec<Point>, Vec<Point>) {
-        points
-            .into_par_iter()
-            .partition(|at| !eyes.iter().any(|eye| self.sees(eye, at, sight)))
+    ) -> Result<(Vec<Point>, Vec<Point>), Cancelled> {
+        let test = |at: Point| {
+            sight.watch.check()?;
+            let is_hidden = !eyes.iter().any(|eye| self.sees(eye, &at, sight));
+            Ok((at, is_hidden))
+        };
+        let tested = points.into_par_iter().map(test);
+        let tested = tested.collect::<Result<Vec<(Point, bool)>, Cancelled>>()?;
+        let (hidden, visible): (Vec<_>, Vec<_>) =
+            tested.into_iter().partition(|(_, is_hidden)| *is_hidden);
+        let points = |tested: Vec<(Point, bool)>| tested.into_iter().map(|(at, _)| at).collect();
+        Ok((points(hidden), points(visible)))
     }
 
     /// Returns true if a point is in sight of an eye and within reach.
@@ -350,14 +366,15 @@ mod tests {
     fn seen_within(void: &Solid, planes: &[Plane], reach_mm: f64) -> f64 {
         let walls = Walls::of(void);
         let tree = CutTree::everywhere(planes);
+        let request = request();
         let sight = SightTest {
             reach_mm,
-            ..SightTest::new(&tree, &request())
+            ..SightTest::new(&tree, &request)
         };
-        let pieces = split(void.mesh(), &tree).unwrap();
+        let pieces = split(void.mesh(), &tree, &request.watch).unwrap();
         pieces
             .iter()
-            .map(|piece| walls.inspect(piece, &sight))
+            .map(|piece| walls.inspect(piece, &sight).unwrap())
             .fold(Visibility::default(), Visibility::and)
             .ratio()
     }

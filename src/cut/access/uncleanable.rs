@@ -3,6 +3,7 @@
 use rayon::prelude::*;
 
 use crate::{
+    base::watch::Watch,
     cut::{
         access::{
             chamber::Chamber,
@@ -71,7 +72,7 @@ pub fn find_unclean(
     let chambers = if unclean.is_empty() {
         Vec::new()
     } else {
-        Chamber::all(hollowed)?
+        Chamber::all(hollowed, &request.watch)?
     };
     let of = |access: &&VoidAccess| {
         let opened = Opened::new(&chambers, access.void, &tree, request);
@@ -135,10 +136,11 @@ pub fn find_ends_beyond_unpinned_joints(
     hollowed: &Hollowed,
     plan: &CutPlan,
     margin_mm: f64,
+    watch: &Watch,
 ) -> Result<Vec<SolidEnd>, CutError> {
     let tree = plan.tree()?;
-    let parts = pieces(hollowed, plan, &tree)?;
-    let chambers = Chamber::all(hollowed)?;
+    let parts = pieces(hollowed, plan, &tree, watch)?;
+    let chambers = Chamber::all(hollowed, watch)?;
     let mut inside: Vec<(usize, Piece)> = Vec::new();
     for chamber in chambers
         .iter()
@@ -220,10 +222,12 @@ fn borders(part: &Piece, piece: &TriMesh, tree: &CutTree) -> bool {
 /// hidden area come first.
 fn bodies_to_keep_solid(opened: &Opened) -> Result<Vec<TriMesh>, CutError> {
     let pieces = opened.chamber.split(opened.tree)?;
-    let seen = opened.inspect_each(&pieces);
+    let seen = opened.inspect_each(&pieces)?;
     let wall_mm2: f64 = seen.iter().map(|seen| seen.wall_mm2).sum();
     let (mut solid, mut hidden) = (Vec::new(), Vec::new());
+    let watch = &opened.request.watch;
     for (piece, seen) in pieces.iter().zip(&seen) {
+        watch.check()?;
         if opened.lets_out(&Mouths::of(piece, &opened.tree.planes)) {
             hidden.extend(
                 hidden_patches(seen)
@@ -238,7 +242,7 @@ fn bodies_to_keep_solid(opened: &Opened) -> Result<Vec<TriMesh>, CutError> {
     let mut hidden_mm2: f64 = hidden.iter().map(|(patch, ..)| patch.area_mm2).sum();
     let allowed_mm2 =
         ALLOWED_HIDDEN_RATIO * (1.0 - required_sight_ratio(opened.request)) * wall_mm2;
-    for end in cheapest_ends(&hidden)? {
+    for end in cheapest_ends(&hidden, watch)? {
         if hidden_mm2 <= allowed_mm2 {
             break;
         }
@@ -257,8 +261,12 @@ struct End {
 
 /// Returns the ends for the largest hidden patches, ordered by volume per hidden area, cheapest
 /// first.
-fn cheapest_ends(hidden: &[(HiddenPatch, &Piece, &Visibility)]) -> Result<Vec<End>, CutError> {
+fn cheapest_ends(
+    hidden: &[(HiddenPatch, &Piece, &Visibility)],
+    watch: &Watch,
+) -> Result<Vec<End>, CutError> {
     let of = |(patch, piece, seen): &(HiddenPatch, &Piece, &Visibility)| {
+        watch.check()?;
         let bodies = end_behind(piece, seen, patch)?;
         let volume_mm3 = bodies.iter().map(TriMesh::signed_volume_mm3).sum();
         Ok(End {
@@ -449,7 +457,11 @@ mod tests {
             pins.contains(&0) && pins.iter().any(|&count| count >= 2),
             "{pins:?}"
         );
-        let found = find_ends_beyond_unpinned_joints(&hollowed, &plan, 0.0).unwrap();
+        let find_ends = |plan: &CutPlan, margin_mm: f64| {
+            let watch = &request.watch;
+            find_ends_beyond_unpinned_joints(&hollowed, plan, margin_mm, watch).unwrap()
+        };
+        let found = find_ends(&plan, 0.0);
         let [end] = found[..] else {
             panic!("{found:?}")
         };
@@ -457,17 +469,12 @@ mod tests {
             [end.low_mm, end.high_mm].map(|corner| corner.map(|mm| (mm * 1e6).round() / 1e6));
         assert_eq!(known, [[-2.5, -2.0, 40.0], [2.5, 2.0, 59.0]]);
         assert!(end.is_sound() && end.at_mm[2] > 58.9, "{end:?}");
-        let wider =
-            find_ends_beyond_unpinned_joints(&hollowed, &plan, 2.0 * request.min_opening_mm)
-                .unwrap()[0];
+        let wider = find_ends(&plan, 2.0 * request.min_opening_mm)[0];
         assert!((end.low_mm[0] - wider.low_mm[0] - 2.0 * request.min_opening_mm).abs() < 1e-9);
         // With all joints pinned, nothing needs to be kept solid.
         let mut pinned = plan.clone();
         pinned.joints.retain(|joint| joint.is_aligned());
-        assert_eq!(
-            find_ends_beyond_unpinned_joints(&hollowed, &pinned, 0.0).unwrap(),
-            vec![]
-        );
+        assert_eq!(find_ends(&pinned, 0.0), vec![]);
     }
 
     #[test]

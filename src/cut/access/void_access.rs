@@ -4,6 +4,7 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::{
+    base::watch::Cancelled,
     cut::{
         access::{
             chamber::Chamber,
@@ -146,7 +147,7 @@ pub(crate) fn report(
     tree: &CutTree,
     request: &PlanRequest,
 ) -> Result<Vec<VoidAccess>, CutError> {
-    let chambers = Chamber::all(hollowed)?;
+    let chambers = Chamber::all(hollowed, &request.watch)?;
     let of = |void| {
         Opened {
             is_thorough: true,
@@ -189,6 +190,7 @@ impl<'a> Opened<'a> {
     /// Cuts the void into pieces, measures the mouths of each, and tests the wall's visibility
     /// through them.
     fn access(&self) -> Result<VoidAccess, CutError> {
+        self.request.watch.check()?;
         let pieces = self.chamber.split(self.tree)?;
         let met = |cut: &usize| {
             pieces
@@ -203,7 +205,7 @@ impl<'a> Opened<'a> {
         let deep = mouths.iter().filter(|mouths| !mouths.is_dimple());
         let lets_out = mouths.iter().all(|mouths| self.lets_out(mouths))
             && mouths.iter().any(|mouths| self.is_wide(mouths));
-        let sight_ratio = self.inspect(&pieces).ratio();
+        let sight_ratio = self.inspect(&pieces)?.ratio();
         Ok(VoidAccess {
             opened_by: (0..self.tree.planes.len())
                 .filter(met)
@@ -233,14 +235,13 @@ impl<'a> Opened<'a> {
     }
 
     /// Returns the visibility of all pieces together.
-    fn inspect(&self, pieces: &[Piece]) -> Visibility {
-        self.inspect_each(pieces)
-            .into_iter()
-            .fold(Visibility::default(), Visibility::and)
+    fn inspect(&self, pieces: &[Piece]) -> Result<Visibility, Cancelled> {
+        let pieces = self.inspect_each(pieces)?.into_iter();
+        Ok(pieces.fold(Visibility::default(), Visibility::and))
     }
 
     /// Returns the visibility of each piece.
-    pub(crate) fn inspect_each(&self, pieces: &[Piece]) -> Vec<Visibility> {
+    pub(crate) fn inspect_each(&self, pieces: &[Piece]) -> Result<Vec<Visibility>, Cancelled> {
         let sight = SightTest::new(self.tree, self.request);
         let sight = if self.is_thorough {
             sight.thorough()
@@ -255,7 +256,7 @@ impl<'a> Opened<'a> {
 
     /// Returns the points of the wall that are out of sight or reach.
     pub(crate) fn hidden(&self) -> Result<Vec<Point>, CutError> {
-        Ok(self.inspect(&self.chamber.split(self.tree)?).hidden)
+        Ok(self.inspect(&self.chamber.split(self.tree)?)?.hidden)
     }
 }
 

@@ -4,6 +4,7 @@
 //! SIGGRAPH 1980.
 
 use crate::{
+    base::watch::Watch,
     cut::{
         error::CutError,
         ids::CutId,
@@ -166,7 +167,7 @@ impl CutTree {
     }
 
     /// Returns the cells that a body is cut into; a cell may hold several pieces.
-    pub(crate) fn cells(&self, body: &Csg) -> Result<Vec<Csg>, CutError> {
+    pub(crate) fn cells(&self, body: &Csg, watch: &Watch) -> Result<Vec<Csg>, CutError> {
         let mut cells = vec![Cell {
             body: body.clone(),
             sides: vec![None; self.planes.len()],
@@ -174,6 +175,7 @@ impl CutTree {
         for cut in self.order_by_limits() {
             let mut after = Vec::new();
             for cell in cells {
+                watch.check()?;
                 if self.limits[cut]
                     .iter()
                     .all(|limit| cell.sides[limit.cut] == Some(limit.is_above))
@@ -229,10 +231,10 @@ mod tests {
     #[test]
     fn a_limited_cut_leaves_the_other_side_whole() {
         let (tree, body) = two_planes_and_a_cube();
-        assert_eq!(tree.cells(&body).unwrap().len(), 4);
+        assert_eq!(tree.cells(&body, &Watch::silent()).unwrap().len(), 4);
         let kept = tree.with_limit(1, above(0)).unwrap();
         let mut volumes: Vec<f64> = kept
-            .cells(&body)
+            .cells(&body, &Watch::silent())
             .unwrap()
             .iter()
             .map(|cell| cell.to_mesh().unwrap().signed_volume_mm3())
@@ -246,7 +248,7 @@ mod tests {
         assert_eq!(
             tree.with_limit(0, above(1))
                 .unwrap()
-                .cells(&body)
+                .cells(&body, &Watch::silent())
                 .unwrap()
                 .len(),
             3

@@ -5,6 +5,7 @@ use std::f64::consts::PI;
 use rayon::prelude::*;
 
 use crate::{
+    base::watch::Cancelled,
     cut::{
         access::{chamber::Chamber, sight::Sightlines, void_access::required_sight_ratio},
         error::CutError,
@@ -47,14 +48,13 @@ impl<'a> BossView<'a> {
     pub(crate) fn new(
         hollowed: &'a Hollowed,
         tree: &'a CutTree,
-        request: &PlanRequest,
+        request: &'a PlanRequest,
     ) -> Result<Self, CutError> {
-        let chambers = Chamber::all(hollowed)?.into_iter();
+        let chambers = Chamber::all(hollowed, &request.watch)?.into_iter();
         let empty = chambers.filter(|chamber| chamber.void.holds.is_none());
         let views = empty.map(|chamber| View::new(chamber, tree, request));
-        let views = views.collect();
         Ok(Self {
-            views,
+            views: views.collect::<Result<_, _>>()?,
             tree,
             tool_radius_mm: request.min_opening_mm / 2.0,
         })
@@ -95,21 +95,21 @@ impl<'a> BossView<'a> {
 }
 
 impl<'a> View<'a> {
-    fn new(chamber: Chamber<'a>, tree: &CutTree, request: &PlanRequest) -> Self {
+    fn new(chamber: Chamber<'a>, tree: &CutTree, request: &PlanRequest) -> Result<Self, Cancelled> {
         let required = required_sight_ratio(request);
         let lines = if required > 0.0 {
-            chamber.sightlines(tree, request)
+            chamber.sightlines(tree, request)?
         } else {
             Vec::new()
         };
         let seen = lines.iter().filter(|lines| lines.is_seen()).count();
         let spare_ratio = seen as f64 / lines.len().max(1) as f64 - required - SPARE_RATIO;
-        Self {
+        Ok(Self {
             min_opening_mm: chamber.void.least_opening_mm(request),
             chamber,
             lines,
             spare_ratio,
-        }
+        })
     }
 
     fn hidden_by(&self, block: &Convex, tool_radius_mm: f64) -> f64 {

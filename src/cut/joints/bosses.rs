@@ -5,7 +5,7 @@
 //! boss.
 
 use crate::{
-    base::verdict::Verdict,
+    base::{verdict::Verdict, watch::Cancelled},
     cut::{
         error::{CutError, Obstacle, verdict},
         geometry::{
@@ -53,11 +53,12 @@ fn find_bosses(order: &BossRequest) -> Result<Vec<Boss>, CutError> {
     if order.ordered.is_none() && order.plan.joints.iter().all(JointNote::is_aligned) {
         return Ok(Vec::new());
     }
+    let watch = &order.request.watch;
     let own = CutOrder::of(order.plan).numbered();
     let tree = order.plan.tree()?;
     let bridges = bridges_on(&tree.planes, &own.cuts, &own.uncut);
     let material = order.hollowed.to_mesh();
-    let pieces = rejoin(split(&material, &tree)?, &tree, &bridges)?;
+    let pieces = rejoin(split(&material, &tree, watch)?, &tree, &bridges, watch)?;
     let filled = order.hollowed.without_empty_voids().to_mesh();
     let scene = |material| PinScene {
         request: order.request,
@@ -67,6 +68,7 @@ fn find_bosses(order: &BossRequest) -> Result<Vec<Boss>, CutError> {
     let (hollow, filled) = (scene(&material), scene(&filled));
     let joints = joints(&pieces, &tree);
     let placements = seat_ordered(&hollow, &joints, own.pins.as_deref().unwrap_or_default())?;
+    watch.check()?;
     let search = Search {
         order,
         hollow: &hollow,
@@ -75,7 +77,7 @@ fn find_bosses(order: &BossRequest) -> Result<Vec<Boss>, CutError> {
         view: BossView::new(order.hollowed, &tree, order.request)?,
     };
     match order.ordered {
-        Some(pins) => Ok(search.boss_all_ordered(&joints, pins)),
+        Some(pins) => Ok(search.boss_all_ordered(&joints, pins)?),
         None => search.boss_joints(&joints, placements),
     }
 }
@@ -94,18 +96,19 @@ struct Search<'a> {
 
 impl Search<'_> {
     /// Returns the bosses of ordered pins, for every joint in which one of them lacks material.
-    fn boss_all_ordered(&self, joints: &[Joint], pins: &[PinSite]) -> Vec<Boss> {
-        let candidates: Vec<Boss> = pins
-            .iter()
-            .filter_map(|pin| self.boss_ordered(joints, pin))
-            .collect();
+    fn boss_all_ordered(&self, joints: &[Joint], pins: &[PinSite]) -> Result<Vec<Boss>, Cancelled> {
+        let mut candidates: Vec<Boss> = Vec::new();
+        for pin in pins {
+            self.order.request.watch.check()?;
+            candidates.extend(self.boss_ordered(joints, pin));
+        }
         // As in patterns of the planner, either all pins of a joint get bosses or none does.
         let lacks_material = |boss: &&Boss| {
             candidates
                 .iter()
                 .any(|other| other.is_new && other.joint() == boss.joint())
         };
-        candidates.iter().filter(lacks_material).cloned().collect()
+        Ok(candidates.iter().filter(lacks_material).cloned().collect())
     }
 
     /// Finds bosses for every joint without two pins that fit one way only.
@@ -128,7 +131,7 @@ impl Search<'_> {
                 let has_no_pins = placements[index].sites.is_empty();
                 let pair = self.find_pattern(joint, &others)?;
                 let found = if pair.is_none() && has_no_pins {
-                    self.find_single(joint, &others)
+                    self.find_single(joint, &others)?
                 } else {
                     pair
                 };
@@ -213,19 +216,24 @@ impl Search<'_> {
 
     /// Finds the cheapest single pin of the thinnest size, for a joint without room for two. Only
     /// the parts' outlines then show the rotation.
-    fn find_single(&self, joint: &Joint, others: &[&Placement]) -> Option<Placement> {
-        let [_, size] = size_pairs(self.order.request).pop()?;
-        let along = |is_upward: bool| {
-            let face = Face::without_points(self.filled, joint, Facing { others, is_upward });
-            let sites = self.sites(joint, &face, &size).into_iter();
-            let costs = sites.map(|site| (Cost::of(&[&site], &self.view), site.at));
-            let (cost, at) = costs.min_by(|a, b| a.0.compare(&b.0))?;
-            Some((cost, face.placement(&[(at, size)], false)))
+    fn find_single(
+        &self,
+        joint: &Joint,
+        others: &[&Placement],
+    ) -> Result<Option<Placement>, Cancelled> {
+        let Some([_, size]) = size_pairs(self.order.request).pop() else {
+            return Ok(None);
         };
-        let found = [true, false].into_iter().filter_map(along);
-        found
-            .min_by(|a, b| a.0.compare(&b.0))
-            .map(|(_, placement)| placement)
+        let mut found: Vec<(Cost, Placement)> = Vec::new();
+        for is_upward in [true, false] {
+            let face = Face::without_points(self.filled, joint, Facing { others, is_upward });
+            let sites = self.sites(joint, &face, &size)?.into_iter();
+            let costs = sites.map(|site| (Cost::of(&[&site], &self.view), site.at));
+            let cheapest = costs.min_by(|a, b| a.0.compare(&b.0));
+            found.extend(cheapest.map(|(cost, at)| (cost, face.placement(&[(at, size)], false))));
+        }
+        let cheapest = found.into_iter().min_by(|a, b| a.0.compare(&b.0));
+        Ok(cheapest.map(|(_, placement)| placement))
     }
 
     /// Finds the best pattern of two pins of these sizes and its cost. With `must_open`, considers
@@ -238,7 +246,7 @@ impl Search<'_> {
         must_open: bool,
     ) -> Result<Option<(Cost, Placement)>, CutError> {
         let face = Face::without_points(self.filled, joint, facing);
-        let sites = self.sites(joint, &face, &sizes[0]);
+        let sites = self.sites(joint, &face, &sizes[0])?;
         let mut open = OpenPairs::new(
             &self.view,
             &sites,
@@ -261,7 +269,7 @@ impl Search<'_> {
 
     /// Returns priced places of a joint where a boss of this size joins the wall and stays inside
     /// the outline.
-    fn sites(&self, joint: &Joint, face: &Face, size: &Size) -> Vec<Site> {
+    fn sites(&self, joint: &Joint, face: &Face, size: &Size) -> Result<Vec<Site>, Cancelled> {
         let request = self.order.request;
         let plane = &self.filled.tree.planes[joint.cut];
         let outline = self.maker.outline(joint.cut);
@@ -275,15 +283,18 @@ impl Search<'_> {
             .collect();
         let is_near = |p: &Point2| (room..2.0 * room).contains(&outline.signed_distance(p));
         let is_refused = |p: &Point2| refused.iter().any(|at| (at - p).norm() < room);
-        let places: Vec<Point2> = grid(&outline)
-            .into_par_iter()
-            .filter(|p| {
-                is_near(p)
-                    && !is_refused(p)
-                    && self.is_of_joint(joint, &outline, p)
-                    && face.has_material(p, size)
-            })
-            .collect();
+        let is_place = |p: &Point2| {
+            is_near(p)
+                && !is_refused(p)
+                && self.is_of_joint(joint, &outline, p)
+                && face.has_material(p, size)
+        };
+        let places = grid(&outline).into_par_iter().map(|p| {
+            request.watch.check()?;
+            Ok(is_place(&p).then_some(p))
+        });
+        let places = places.collect::<Result<Vec<Option<Point2>>, Cancelled>>()?;
+        let places: Vec<Point2> = places.into_iter().flatten().collect();
         let stride = places.len().div_ceil(PRICED_PLACES).max(1);
         let price_site = |&at: &Point2| -> Option<Site> {
             let axis = PinAxis {
@@ -298,11 +309,12 @@ impl Search<'_> {
                 body,
             })
         };
-        places
-            .par_iter()
-            .step_by(stride)
-            .filter_map(price_site)
-            .collect()
+        let sites = places.par_iter().step_by(stride).map(|at| {
+            request.watch.check()?;
+            Ok(price_site(at))
+        });
+        let sites = sites.collect::<Result<Vec<Option<Site>>, Cancelled>>()?;
+        Ok(sites.into_iter().flatten().collect())
     }
 
     fn joint_name(&self, joint: &Joint) -> JointName {

@@ -1,6 +1,7 @@
 //! Part ids engraved into cut faces, in strokes like those of a seven-segment display.
 
 use crate::{
+    base::watch::Cancelled,
     cut::{
         geometry::chart::{Chart, Point2},
         ids::{CutId, PartId},
@@ -180,9 +181,9 @@ pub(crate) fn labels(
     scene: &PinScene,
     joints: &[Joint],
     placements: &[Placement],
-) -> (Vec<Label>, Vec<Remark>) {
+) -> Result<(Vec<Label>, Vec<Remark>), Cancelled> {
     let Some(style) = scene.request.labels else {
-        return (Vec::new(), Vec::new());
+        return Ok((Vec::new(), Vec::new()));
     };
     let surface = Bvh::new(scene.material.iter_corners());
     let occupied = placements
@@ -199,6 +200,7 @@ pub(crate) fn labels(
     let (mut labels, mut notes) = (Vec::new(), Vec::new());
     for joint in joints {
         for part in [joint.below, joint.above] {
+            scene.request.watch.check()?;
             match labeller.label(joint, part) {
                 Some(label) => labels.push(label),
                 None => notes.push(Remark::NoRoomForLabel {
@@ -208,7 +210,7 @@ pub(crate) fn labels(
             }
         }
     }
-    (labels, notes)
+    Ok((labels, notes))
 }
 
 struct Labeller<'a> {

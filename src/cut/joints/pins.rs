@@ -2,6 +2,7 @@
 //! parts fit one way only.
 
 use crate::{
+    base::watch::Cancelled,
     cut::{
         error::{CutError, Obstacle},
         geometry::chart::Chart,
@@ -49,7 +50,7 @@ pub(crate) fn place_pins(
     for index in 0..joints.len() {
         if placements[index].sites.is_empty() {
             let placed: Vec<&Placement> = placements.iter().collect();
-            placements[index] = place(scene, &joints[index], &placed);
+            placements[index] = place(scene, &joints[index], &placed)?;
         }
     }
     Ok(number_pins(placements, joints))
@@ -70,7 +71,7 @@ fn number_pins(mut placements: Vec<Placement>, joints: &[Joint]) -> Vec<Placemen
 /// and must not be confused with their patterns.
 ///
 /// Tries both directions, the normal's first; the one that aligns better wins.
-fn place(scene: &PinScene, joint: &Joint, placed: &[&Placement]) -> Placement {
+fn place(scene: &PinScene, joint: &Joint, placed: &[&Placement]) -> Result<Placement, Cancelled> {
     let along = |is_upward: bool| {
         let facing = Facing {
             others: placed,
@@ -78,17 +79,17 @@ fn place(scene: &PinScene, joint: &Joint, placed: &[&Placement]) -> Placement {
         };
         place_along(scene, joint, facing)
     };
-    let upward = along(true);
+    let upward = along(true)?;
     if upward.is_sound() {
-        return upward;
+        return Ok(upward);
     }
-    let downward = along(false);
+    let downward = along(false)?;
     let rank = |p: &Placement| (p.is_sound(), p.sites.len());
-    if rank(&downward) > rank(&upward) {
+    Ok(if rank(&downward) > rank(&upward) {
         downward
     } else {
         upward
-    }
+    })
 }
 
 /// Assigns ordered pins to their joints and checks that they let the parts together one way only.
@@ -116,6 +117,7 @@ pub(crate) fn seat_ordered(
     }
     let mut placed: Vec<Placement> = Vec::new();
     for (joint, pins) in joints.iter().zip(by_joint) {
+        scene.request.watch.check()?;
         let pegs: Vec<Peg> = pins
             .iter()
             .map(|pin| peg(&scene.tree.planes[joint.cut], pin))
@@ -133,7 +135,7 @@ pub(crate) fn seat_ordered(
 }
 
 /// Places the pins of a joint in one direction.
-fn place_along(scene: &PinScene, joint: &Joint, facing: Facing) -> Placement {
+fn place_along(scene: &PinScene, joint: &Joint, facing: Facing) -> Result<Placement, Cancelled> {
     let placed = facing.others;
     let face = Face::new(scene, joint, facing);
     let mut fallback = Placement {
@@ -144,6 +146,7 @@ fn place_along(scene: &PinScene, joint: &Joint, facing: Facing) -> Placement {
         .into_iter()
         .chain(short_pairs(scene.request))
     {
+        scene.request.watch.check()?;
         let places = face.places(&sizes[0]);
         if places.is_empty() {
             continue;
@@ -157,5 +160,5 @@ fn place_along(scene: &PinScene, joint: &Joint, facing: Facing) -> Placement {
             break;
         }
     }
-    fallback
+    Ok(fallback)
 }

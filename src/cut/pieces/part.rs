@@ -6,7 +6,7 @@ use std::collections::HashMap;
 use rayon::prelude::*;
 
 use crate::{
-    base::verdict::Verdict,
+    base::{verdict::Verdict, watch::Watch},
     cut::{
         error::{CutError, Obstacle, verdict},
         geometry::{chart::Chart, tree::CutTree},
@@ -98,7 +98,7 @@ fn make_parts(
     request: &PlanRequest,
 ) -> Result<(Vec<Part>, CutPlan), CutError> {
     let tree = plan.tree()?;
-    let pieces = pieces(hollowed, plan, &tree)?;
+    let pieces = pieces(hollowed, plan, &tree, &request.watch)?;
     let maker = PartMaker {
         hollowed,
         plan,
@@ -115,9 +115,11 @@ pub(crate) fn pieces(
     hollowed: &Hollowed,
     plan: &CutPlan,
     tree: &CutTree,
+    watch: &Watch,
 ) -> Result<Vec<Piece>, CutError> {
     let bridges = plan.bridges(&tree.planes);
-    let pieces = rejoin(split(&hollowed.to_mesh(), tree)?, tree, &bridges)?;
+    let pieces = split(&hollowed.to_mesh(), tree, watch)?;
+    let pieces = rejoin(pieces, tree, &bridges, watch)?;
     if !tree.planes.is_empty() {
         check_no_cavity(&pieces)?;
     }
@@ -143,6 +145,7 @@ impl PartMaker<'_> {
             .collect::<Result<Vec<_>, _>>()?;
         let void_of = voids_by_vertex(self.hollowed);
         let part = |(index, piece): (usize, &Piece)| {
+            request.watch.check()?;
             let carried = || pin_pieces.iter().filter(move |pin| pin.carrier == index);
             let received = || pin_pieces.iter().filter(move |pin| pin.receiver == index);
             let printed = carried().filter(|pin| pin.site.dowel.is_none());
@@ -165,7 +168,8 @@ impl PartMaker<'_> {
                 .filter(|label| label.part == PartId::of(index))
                 .cloned()
                 .collect();
-            let solid = add_pins_and_sockets(piece, (&pins, &sockets), &labels)?;
+            let body = add_pins_and_sockets(piece, (&pins, &sockets), &labels, &request.watch)?;
+            let solid = drop_short_edges(&body, &request.watch)?;
             Ok(Part {
                 id: PartId::of(index),
                 pose: choose_pose(
@@ -212,18 +216,22 @@ fn add_pins_and_sockets(
     piece: &Piece,
     (pins, sockets): (&[PinSite], &[PinSite]),
     labels: &[Label],
-) -> Result<Solid, CutError> {
+    watch: &Watch,
+) -> Result<Csg, CutError> {
     let mut body = Csg::of_mesh(&piece.mesh)?;
     for pin in pins {
+        watch.check()?;
         body = body.union(&Csg::of_mesh(&pin.pin_body())?)?;
     }
     for socket in sockets {
+        watch.check()?;
         body = body.subtract(&Csg::of_mesh(&socket.socket_body())?)?;
     }
     for label in labels {
+        watch.check()?;
         body = body.subtract(&Csg::of_mesh(&label.cutter())?)?;
     }
-    drop_short_edges(&body)
+    Ok(body)
 }
 
 /// Length below which an edge may vanish when a file stores coordinates in 32 bits, mm. Their step
@@ -236,18 +244,22 @@ const VOLUME_CHANGE_RATIO: f64 = 1e-7;
 
 /// Returns the solid without the edges that would vanish in a file. Keeps the solid as it is if
 /// their removal would change its volume or fold it into itself.
-fn drop_short_edges(body: &Csg) -> Result<Solid, CutError> {
+fn drop_short_edges(body: &Csg, watch: &Watch) -> Result<Solid, CutError> {
+    watch.check()?;
     let solid = body.to_solid()?;
+    watch.check()?;
     if !has_short_edge(solid.mesh()) {
         return Ok(solid);
     }
-    let simple = body.simplify(SHORT_EDGE_MM).to_solid()?;
+    let simple = body.simplify(SHORT_EDGE_MM);
+    watch.check()?;
+    let simple = simple.to_solid()?;
     let (before, after) = (
         solid.mesh().signed_volume_mm3(),
         simple.mesh().signed_volume_mm3(),
     );
     let is_same = (after - before).abs() <= VOLUME_CHANGE_RATIO * before
-        && Crossings::of(simple.mesh()).pairs == 0;
+        && Crossings::of_watched(simple.mesh(), watch)?.pairs == 0;
     Ok(if is_same { simple } else { solid })
 }
 

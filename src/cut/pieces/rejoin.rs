@@ -2,6 +2,7 @@
 //! across it.
 
 use crate::{
+    base::watch::{Cancelled, Watch},
     cut::{
         error::CutError,
         geometry::{
@@ -63,11 +64,13 @@ impl Cutting<'_> {
 ///
 /// The smallest pieces are tried first. A piece that others stay joined to is not joined to a
 /// third.
-pub(crate) fn find_bridges(cutting: &Cutting, pieces: &[Piece]) -> Vec<Bridge> {
+pub(crate) fn find_bridges(cutting: &Cutting, pieces: &[Piece]) -> Result<Vec<Bridge>, Cancelled> {
     let joints = joints(pieces, cutting.tree);
     if joints.len() < 2 {
-        return Vec::new();
+        return Ok(Vec::new());
     }
+    let watch = &cutting.request.watch;
+    watch.check()?;
     let mouths = mouths(cutting);
     let mut order: Vec<usize> = (0..pieces.len()).collect();
     order.sort_by(|&i, &j| pieces[i].volume_mm3.total_cmp(&pieces[j].volume_mm3));
@@ -75,6 +78,7 @@ pub(crate) fn find_bridges(cutting: &Cutting, pieces: &[Piece]) -> Vec<Bridge> {
     let mut is_guest = vec![false; pieces.len()];
     let mut bridges = Vec::new();
     for index in order {
+        watch.check()?;
         let touching: Vec<&Joint> = joints.iter().filter(|joint| joint.touches(index)).collect();
         let [joint] = touching[..] else { continue };
         let host = joint.other(index);
@@ -92,7 +96,7 @@ pub(crate) fn find_bridges(cutting: &Cutting, pieces: &[Piece]) -> Vec<Bridge> {
             bridges.extend(joint.faces.iter().map(at));
         }
     }
-    bridges
+    Ok(bridges)
 }
 
 /// Returns the pieces, with those united that meet at a bridge. A bridge on no cut face changes
@@ -101,6 +105,7 @@ pub(crate) fn rejoin(
     pieces: Vec<Piece>,
     tree: &CutTree,
     bridges: &[Bridge],
+    watch: &Watch,
 ) -> Result<Vec<Piece>, CutError> {
     let mut sets = UnionFind::new(pieces.len());
     for bridge in bridges {
@@ -114,9 +119,10 @@ pub(crate) fn rejoin(
         groups[sets.root(index as u32) as usize].push(piece);
     }
     groups.retain(|group| !group.is_empty());
-    let united = groups
-        .into_par_iter()
-        .map(|group| unite(group, tree, bridges));
+    let united = groups.into_par_iter().map(|group| {
+        watch.check()?;
+        unite(group, tree, bridges)
+    });
     Ok(sort_pieces(united.collect::<Result<_, _>>()?))
 }
 
@@ -358,16 +364,17 @@ mod tests {
             normal: Vector::z(),
             offset_mm: 15.0,
         }]);
-        let pieces = split(&hollowed.to_mesh(), &tree).unwrap();
-        let bridges = find_bridges(
-            &Cutting {
-                hollowed,
-                tree: &tree,
-                request: &request(),
-            },
-            &pieces,
-        );
-        (pieces.len(), rejoin(pieces, &tree, &bridges).unwrap())
+        let request = request();
+        let cutting = Cutting {
+            hollowed,
+            tree: &tree,
+            request: &request,
+        };
+        let watch = &request.watch;
+        let pieces = split(&hollowed.to_mesh(), &tree, watch).unwrap();
+        let bridges = find_bridges(&cutting, &pieces).unwrap();
+        let count = pieces.len();
+        (count, rejoin(pieces, &tree, &bridges, watch).unwrap())
     }
 
     #[test]
@@ -421,16 +428,16 @@ mod tests {
         };
         let slanted = Plane::through(&Point::new(46.0, 0.0, 0.0), &Vector::new(1.0, 0.5, 0.0));
         let tree = CutTree::everywhere(&[level, slanted]);
-        let pieces = split(&hollowed.to_mesh(), &tree).unwrap();
-        let bridges = find_bridges(
-            &Cutting {
-                hollowed: &hollowed,
-                tree: &tree,
-                request: &request(),
-            },
-            &pieces,
-        );
-        let remaining = rejoin(pieces.clone(), &tree, &bridges).unwrap();
+        let request = request();
+        let cutting = Cutting {
+            hollowed: &hollowed,
+            tree: &tree,
+            request: &request,
+        };
+        let watch = &request.watch;
+        let pieces = split(&hollowed.to_mesh(), &tree, watch).unwrap();
+        let bridges = find_bridges(&cutting, &pieces).unwrap();
+        let remaining = rejoin(pieces.clone(), &tree, &bridges, watch).unwrap();
         assert_eq!((pieces.len(), remaining.len()), (5, 4));
     }
 

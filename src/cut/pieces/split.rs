@@ -3,6 +3,7 @@
 use std::cmp::Reverse;
 
 use crate::{
+    base::watch::Watch,
     cut::{
         error::{CutError, Obstacle},
         geometry::{
@@ -94,14 +95,19 @@ impl Piece {
 }
 
 /// Returns the pieces of a closed mesh between the cuts, in the order of [`sort_pieces`].
-pub(crate) fn split(mesh: &TriMesh, tree: &CutTree) -> Result<Vec<Piece>, CutError> {
-    split_body(&Csg::of_mesh(mesh)?, tree)
+pub(crate) fn split(mesh: &TriMesh, tree: &CutTree, watch: &Watch) -> Result<Vec<Piece>, CutError> {
+    split_body(&Csg::of_mesh(mesh)?, tree, watch)
 }
 
 /// Returns the pieces as in [`split`], of a body that is loaded already.
-pub(crate) fn split_body(body: &Csg, tree: &CutTree) -> Result<Vec<Piece>, CutError> {
+pub(crate) fn split_body(
+    body: &Csg,
+    tree: &CutTree,
+    watch: &Watch,
+) -> Result<Vec<Piece>, CutError> {
     let mut pieces = Vec::new();
-    for cell in &tree.cells(body)? {
+    for cell in &tree.cells(body, watch)? {
+        watch.check()?;
         pieces.extend(
             bodies(&cell.to_mesh()?)
                 .into_iter()

@@ -1,5 +1,7 @@
 //! Exact set cover by branch and bound: the fewest planes that open every void.
 
+use crate::base::watch::{Cancelled, Watch};
+
 /// A set of voids, one bit each.
 pub(crate) type VoidSet = u128;
 
@@ -28,8 +30,14 @@ const MAX_NODES: u64 = 50_000;
 ///
 /// Branches on the element in the fewest sets. Prunes a branch if the remaining sets, at the size
 /// of the largest, cannot hold the missing elements.
-pub(crate) fn smallest_cover(sets: &[VoidSet], all: VoidSet) -> Option<Cover> {
-    let greedy = greedy_cover(sets, all)?;
+pub(crate) fn smallest_cover(
+    sets: &[VoidSet],
+    all: VoidSet,
+    watch: &Watch,
+) -> Result<Option<Cover>, Cancelled> {
+    let Some(greedy) = greedy_cover(sets, all) else {
+        return Ok(None);
+    };
     let useful = drop_dominated(sets, all);
     let mut nodes = 0;
     for size in 0..greedy.len() {
@@ -39,29 +47,30 @@ pub(crate) fn smallest_cover(sets: &[VoidSet], all: VoidSet) -> Option<Cover> {
             limit: 1,
             nodes,
             found: Vec::new(),
+            watch,
         };
-        search.extend(all, &mut Vec::new());
+        search.extend(all, &mut Vec::new())?;
         nodes = search.nodes;
         if let Some(chosen) = search.found.pop() {
-            return Some(Cover {
+            return Ok(Some(Cover {
                 chosen,
                 at_least: size,
                 nodes,
-            });
+            }));
         }
         if nodes >= MAX_NODES {
-            return Some(Cover {
+            return Ok(Some(Cover {
                 chosen: greedy,
                 at_least: size,
                 nodes,
-            });
+            }));
         }
     }
-    Some(Cover {
+    Ok(Some(Cover {
         at_least: greedy.len(),
         chosen: greedy,
         nodes,
-    })
+    }))
 }
 
 /// Returns a choice of sets whose union is `all`, or `None` if there is none. Each step takes the
@@ -89,7 +98,8 @@ pub(crate) fn covers_of_size(
     sets: &[VoidSet],
     all: VoidSet,
     [size, limit]: [usize; 2],
-) -> Vec<Vec<usize>> {
+    watch: &Watch,
+) -> Result<Vec<Vec<usize>>, Cancelled> {
     let numbered: Vec<(usize, VoidSet)> = sets.iter().map(|set| set & all).enumerate().collect();
     let mut search = Search {
         sets: &numbered,
@@ -97,14 +107,15 @@ pub(crate) fn covers_of_size(
         limit,
         nodes: 0,
         found: Vec::new(),
+        watch,
     };
-    search.extend(all, &mut Vec::new());
+    search.extend(all, &mut Vec::new())?;
     for cover in &mut search.found {
         cover.sort_unstable();
     }
     search.found.sort();
     search.found.dedup();
-    search.found
+    Ok(search.found)
 }
 
 /// Returns the sets that are not a proper part of another; of equal sets, the first.
@@ -129,27 +140,30 @@ struct Search<'a> {
     limit: usize,
     nodes: u64,
     found: Vec<Vec<usize>>,
+    watch: &'a Watch,
 }
 
 impl Search<'_> {
     /// Adds sets to `chosen` until no element is missing.
-    fn extend(&mut self, missing: VoidSet, chosen: &mut Vec<usize>) {
+    fn extend(&mut self, missing: VoidSet, chosen: &mut Vec<usize>) -> Result<(), Cancelled> {
+        self.watch.check()?;
         self.nodes += 1;
         if missing == 0 {
             self.found.push(chosen.clone());
-            return;
+            return Ok(());
         }
         if self.nodes >= MAX_NODES || !self.can_suffice(missing, self.size - chosen.len()) {
-            return;
+            return Ok(());
         }
         let pivot = self.rarest(missing);
         for (index, set) in self.sets {
             if set & pivot != 0 && self.found.len() < self.limit {
                 chosen.push(*index);
-                self.extend(missing & !set, chosen);
+                self.extend(missing & !set, chosen)?;
                 chosen.pop();
             }
         }
+        Ok(())
     }
 
     /// Returns true if `left` sets, each as large as the largest, could hold the missing elements.
@@ -176,6 +190,10 @@ impl Search<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    fn smallest_cover(sets: &[VoidSet], all: VoidSet) -> Option<Cover> {
+        super::smallest_cover(sets, all, &Watch::silent()).unwrap()
+    }
 
     #[test]
     fn three_pairs_of_a_triangle_need_two() {
@@ -253,7 +271,8 @@ mod tests {
 
     #[test]
     fn every_cover_of_a_size_is_listed_once() {
-        let covers = covers_of_size(&[0b011, 0b110, 0b101], 0b111, [2, 100]);
+        let sets = [0b011, 0b110, 0b101];
+        let covers = covers_of_size(&sets, 0b111, [2, 100], &Watch::silent()).unwrap();
         assert_eq!(covers, vec![vec![0, 1], vec![0, 2], vec![1, 2]]);
     }
 }

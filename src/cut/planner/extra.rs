@@ -3,6 +3,7 @@
 use rayon::prelude::*;
 
 use crate::{
+    base::watch::Cancelled,
     cut::{
         access::void_access::{Opened, VoidAccess, access, accesses, required_sight_ratio},
         error::CutError,
@@ -107,14 +108,14 @@ impl Attempt {
     }
 
     /// Estimates the lack with one more cut, mm². Only the voids that it meets change.
-    fn estimate_lack_mm2(&self, scene: &Scene, plane: Plane) -> f64 {
+    fn estimate_lack_mm2(&self, scene: &Scene, plane: Plane) -> Result<f64, Cancelled> {
         let planes = [&self.planes[..], &[plane]].concat();
         let lack_mm2 = |before: &VoidAccess| {
-            if meets(scene, before.void, &plane) {
-                before.area_mm2() * estimate_lack_ratio(scene, before.void, &planes)
+            Ok(if meets(scene, before.void, &plane) {
+                before.area_mm2() * estimate_lack_ratio(scene, before.void, &planes)?
             } else {
                 before.lack_mm2(scene.request)
-            }
+            })
         };
         self.voids.iter().map(lack_mm2).sum()
     }
@@ -145,15 +146,14 @@ fn meets(scene: &Scene, void: VoidId, plane: &Plane) -> bool {
 
 /// Estimates the share of a void's wall that lacks sight with these cuts; 0 if no sight is
 /// required.
-fn estimate_lack_ratio(scene: &Scene, void: VoidId, planes: &[Plane]) -> f64 {
+fn estimate_lack_ratio(scene: &Scene, void: VoidId, planes: &[Plane]) -> Result<f64, Cancelled> {
     let required = required_sight_ratio(scene.request);
     if required == 0.0 {
-        return 0.0;
+        return Ok(0.0);
     }
-    (required
-        - scene.chambers[void.index()]
-            .estimate_sight_ratio(&CutTree::everywhere(planes), scene.request))
-    .max(0.0)
+    let (chamber, tree) = (&scene.chambers[void.index()], CutTree::everywhere(planes));
+    let seen = chamber.estimate_sight_ratio(&tree, scene.request)?;
+    Ok((required - seen).max(0.0))
 }
 
 /// Returns the first of the plans with which every void can be cleaned, or else the cleanest.
@@ -162,14 +162,16 @@ fn estimate_lack_ratio(scene: &Scene, void: VoidId, planes: &[Plane]) -> f64 {
 /// most promising of the others.
 pub(crate) fn cleanest(scene: &Scene, plans: &[Vec<Plane>]) -> Result<Attempt, CutError> {
     let estimate = |planes: &Vec<Plane>| {
-        (0..scene.chambers.len())
-            .map(|void| estimate_lack_ratio(scene, VoidId::of(void), planes))
-            .fold(0.0, f64::max)
+        let mut voids = (0..scene.chambers.len()).map(VoidId::of);
+        voids.try_fold(0.0, |worst: f64, void| {
+            Ok(worst.max(estimate_lack_ratio(scene, void, planes)?))
+        })
     };
     let mut attempts = Attempts { scene, best: None };
     let mut others: Vec<(f64, &Vec<Plane>)> = Vec::new();
     for some in plans[..plans.len().min(ESTIMATED_PLANS)].chunks(ESTIMATED_AT_ONCE) {
-        let lacks: Vec<f64> = some.par_iter().map(estimate).collect();
+        let lacks = some.par_iter().map(estimate);
+        let lacks = lacks.collect::<Result<Vec<f64>, Cancelled>>()?;
         for (lack, planes) in lacks.into_iter().zip(some) {
             if lack > ESTIMATE_ERROR_RATIO {
                 others.push((lack, planes));
@@ -267,8 +269,8 @@ fn add_best_cut(scene: &Scene, attempt: &Attempt) -> Result<Option<Attempt>, Cut
     let planes = planes_through(scene, worst.void, &hidden);
     let estimated = planes
         .par_iter()
-        .map(|plane| (attempt.estimate_lack_mm2(scene, *plane), *plane));
-    let mut estimated: Vec<(f64, Plane)> = estimated.collect();
+        .map(|plane| Ok((attempt.estimate_lack_mm2(scene, *plane)?, *plane)));
+    let mut estimated = estimated.collect::<Result<Vec<(f64, Plane)>, Cancelled>>()?;
     estimated.sort_by(|a, b| a.0.total_cmp(&b.0));
     estimated.truncate(MEASURED_CUTS);
     let more = estimated

@@ -3,6 +3,7 @@
 use rayon::prelude::*;
 
 use crate::{
+    base::watch::Cancelled,
     cut::{
         hollowed::{Hollowed, Void},
         planner::{cover::VoidSet, mirror::mirror_planes},
@@ -57,24 +58,27 @@ struct Extent<'a> {
 /// Returns all candidates, sorted by direction, then offset; the model's planes of symmetry come
 /// last. Along each direction, the ends of the voids' extents divide the offsets into cells. Planes
 /// in a cell meet the same voids, and each cell is sampled.
-pub(crate) fn candidates(hollowed: &Hollowed, request: &PlanRequest) -> Vec<Candidate> {
+pub(crate) fn candidates(
+    hollowed: &Hollowed,
+    request: &PlanRequest,
+) -> Result<Vec<Candidate>, Cancelled> {
     let breadths: Vec<f64> = hollowed
         .voids
         .iter()
         .map(|void| breadth_mm(void.mesh()))
         .collect();
     let directions = directions(hollowed, request);
-    let rows: Vec<Vec<Candidate>> = directions
-        .par_iter()
-        .map(|normal| {
-            let extents = hollowed
-                .voids
-                .iter()
-                .zip(&breadths)
-                .map(|(void, &breadth_mm)| extent(void, normal, breadth_mm));
-            candidates_along(normal, &extents.collect::<Vec<_>>())
-        })
-        .collect();
+    let row = |normal: &Vector| {
+        request.watch.check()?;
+        let extents = hollowed
+            .voids
+            .iter()
+            .zip(&breadths)
+            .map(|(void, &breadth_mm)| extent(void, normal, breadth_mm));
+        Ok(candidates_along(normal, &extents.collect::<Vec<_>>()))
+    };
+    let rows = directions.par_iter().map(row);
+    let rows = rows.collect::<Result<Vec<Vec<Candidate>>, Cancelled>>()?;
     let middles = symmetry_planes(hollowed.outer.mesh())
         .into_iter()
         .map(|plane| {
@@ -86,7 +90,7 @@ pub(crate) fn candidates(hollowed: &Hollowed, request: &PlanRequest) -> Vec<Cand
             candidate(plane, &extents.collect::<Vec<_>>())
         });
     let middles = middles.filter(|middle| middle.met != 0);
-    rows.concat().into_iter().chain(middles).collect()
+    Ok(rows.concat().into_iter().chain(middles).collect())
 }
 
 /// Returns the planes of symmetry of the model.

@@ -188,8 +188,11 @@ fn move_planes(
     planes: Vec<Plane>,
 ) -> Result<Option<Layout>, CutError> {
     let tree = layout.tree.with_planes(planes);
-    let Ok(pieces) = rejoin(scene.split(&tree)?, &tree, &layout.bridges) else {
-        return Ok(None);
+    let watch = &scene.request.watch;
+    let pieces = match rejoin(scene.split(&tree)?, &tree, &layout.bridges, watch) {
+        Ok(pieces) => pieces,
+        Err(CutError::Cancelled(cancelled)) => return Err(cancelled.into()),
+        Err(_) => return Ok(None),
     };
     if pieces.len() != layout.pieces.len() || check_no_cavity(&pieces).is_err() {
         return Ok(None);

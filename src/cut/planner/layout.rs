@@ -44,8 +44,8 @@ impl Layout {
             tree: &tree,
             request: scene.request,
         };
-        let bridges = find_bridges(&cutting, &parted);
-        let pieces = rejoin(parted.clone(), &tree, &bridges)?;
+        let bridges = find_bridges(&cutting, &parted)?;
+        let pieces = rejoin(parted.clone(), &tree, &bridges, &scene.request.watch)?;
         // Pieces that stay joined must not seal an opening.
         let (pieces, bridges) = if check_no_cavity(&pieces).is_ok() {
             (pieces, bridges)

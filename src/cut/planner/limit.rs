@@ -63,6 +63,7 @@ impl LimitedCuts {
         let Some(tree) = self.tree.with_limit(cut, limit) else {
             return Ok(None);
         };
+        scene.request.watch.check()?;
         // Cuts that are limited to a side of this one are also made in fewer places.
         let is_changed =
             |other: usize| other == cut || tree.limits(other).iter().any(|limit| limit.cut == cut);

@@ -115,7 +115,7 @@ fn plan_ordered(
         .collect::<Result<Vec<_>, CutError>>()?;
     let (tree, numbered) = (tree_of(&cuts)?, order.numbered());
     let bridges = bridges_on(&tree.planes, &numbered.cuts, &numbered.uncut);
-    let pieces = rejoin(scene.split(&tree)?, &tree, &bridges)?;
+    let pieces = rejoin(scene.split(&tree)?, &tree, &bridges, &request.watch)?;
     let voids = accesses(&scene.chambers, &tree, request)?;
     let pins = match (&numbered.pins, unordered) {
         (None, _) => Pins::Placed,

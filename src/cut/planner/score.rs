@@ -60,7 +60,8 @@ pub(crate) struct Scene<'a> {
 impl<'a> Scene<'a> {
     pub(crate) fn new(hollowed: &'a Hollowed, request: &'a PlanRequest) -> Result<Self, CutError> {
         let material = hollowed.to_mesh();
-        let (body, chambers) = rayon::join(|| Csg::of_mesh(&material), || Chamber::all(hollowed));
+        let chambers = || Chamber::all(hollowed, &request.watch);
+        let (body, chambers) = rayon::join(|| Csg::of_mesh(&material), chambers);
         let volume_mm3 = moments_of_mesh(&material).volume();
         let diagonal_mm = hollowed.outer.mesh().aabb().size().norm();
         let (body, chambers) = (body?, chambers?);
@@ -77,7 +78,7 @@ impl<'a> Scene<'a> {
 
     /// Returns the pieces of the body between the cuts.
     pub(crate) fn split(&self, tree: &CutTree) -> Result<Vec<Piece>, CutError> {
-        split_body(&self.body, tree)
+        split_body(&self.body, tree, &self.request.watch)
     }
 
     /// Returns the plane's opening into each void of `met`; `None` for voids that it misses.

@@ -3,6 +3,7 @@
 use rayon::prelude::*;
 
 use crate::{
+    base::watch::Cancelled,
     cut::{
         error::{CutError, Obstacle},
         geometry::opening::Opening,
@@ -80,19 +81,19 @@ pub(crate) fn smallest_plans(scene: &Scene) -> Result<Found, CutError> {
         });
     }
     let all = VoidSet::MAX >> (MAX_VOIDS - voids);
-    let family = promising_first(
-        candidates(scene.hollowed, scene.request),
-        all,
-        ample_guess_mm(scene),
-    );
-    let bound = smallest_cover(&family.iter().map(|c| c.met).collect::<Vec<_>>(), all);
+    let watch = &scene.request.watch;
+    let family = promising_first(scene, candidates(scene.hollowed, scene.request)?, all)?;
+    let met: Vec<VoidSet> = family.iter().map(|c| c.met).collect();
+    let bound = smallest_cover(&met, all, watch)?;
     let (least, bound_nodes) = bound.map_or((usize::MAX, 0), |cover| (cover.at_least, cover.nodes));
     let mut measured: Vec<MeasuredPlane> = Vec::new();
     let mut best = None;
     for round in ROUNDS.map(|round| round.min(family.len())) {
         let fresh = &family[measured.len().min(round)..round];
-        measured.par_extend(fresh.par_iter().map(|candidate| measure(scene, candidate)));
-        best = smallest_cover(&measured.iter().map(|e| e.opened).collect::<Vec<_>>(), all);
+        let fresh = fresh.par_iter().map(|candidate| measure(scene, candidate));
+        measured.extend(fresh.collect::<Result<Vec<MeasuredPlane>, Cancelled>>()?);
+        let opened: Vec<VoidSet> = measured.iter().map(|e| e.opened).collect();
+        best = smallest_cover(&opened, all, watch)?;
         if best
             .as_ref()
             .is_some_and(|cover| cover.chosen.len() == least)
@@ -102,7 +103,7 @@ pub(crate) fn smallest_plans(scene: &Scene) -> Result<Found, CutError> {
     }
     let cover = best.ok_or_else(|| unopenable(scene, &measured))?;
     Ok(Found {
-        plans: rank_covers(scene, &measured, &cover.chosen),
+        plans: rank_covers(scene, &measured, &cover.chosen)?,
         family: family.len(),
         nodes: cover.nodes + bound_nodes,
         is_proved: cover.chosen.len() == least
@@ -113,10 +114,14 @@ pub(crate) fn smallest_plans(scene: &Scene) -> Result<Found, CutError> {
 /// Sorts the family by promise. Planes that can be part of a smallest cover come first, one for
 /// each set of voids in turn. Among planes that meet the same voids, the best offset of each
 /// direction comes first, then the second best, and so on. Offsets are compared by their estimated
-/// openings. Estimates above `ample_mm` count as equal. So the axes, which lead the family, precede
-/// skew directions that are no better.
-fn promising_first(family: Vec<Candidate>, all: VoidSet, ample_mm: f64) -> Vec<Candidate> {
-    let classes = classes(&family, all);
+/// openings. Ample estimates count as equal. So the axes, which lead the family, precede skew
+/// directions that are no better.
+fn promising_first(
+    scene: &Scene,
+    family: Vec<Candidate>,
+    all: VoidSet,
+) -> Result<Vec<Candidate>, Cancelled> {
+    let classes = classes(scene, &family, all)?;
     let class_of = |c: &Candidate| {
         classes
             .binary_search_by_key(&c.met, |&(met, _)| met)
@@ -133,6 +138,7 @@ fn promising_first(family: Vec<Candidate>, all: VoidSet, ample_mm: f64) -> Vec<C
         row.sort_by(|a, b| b.guess_mm.total_cmp(&a.guess_mm));
         places.extend(row.into_iter().enumerate());
     }
+    let ample_mm = ample_guess_mm(scene);
     let capped = |c: &Candidate| c.guess_mm.min(ample_mm);
     places.sort_by(|(i, a), (j, b)| i.cmp(j).then(capped(b).total_cmp(&capped(a))));
     let mut counts = vec![0; classes.len()];
@@ -143,7 +149,7 @@ fn promising_first(family: Vec<Candidate>, all: VoidSet, ample_mm: f64) -> Vec<C
         turns.push(((classes[class].1 > least, counts[class]), candidate));
     }
     turns.sort_by_key(|&(turn, _)| turn);
-    turns.into_iter().map(|(_, candidate)| candidate).collect()
+    Ok(turns.into_iter().map(|(_, candidate)| candidate).collect())
 }
 
 /// Returns the estimated opening above which a wider one is no better, mm. It is twice the limit of
@@ -154,17 +160,26 @@ fn ample_guess_mm(scene: &Scene) -> f64 {
 
 /// Returns the distinct sets of voids met, in ascending order. Each comes with the number of
 /// further planes that open the rest by greedy choice.
-fn classes(family: &[Candidate], all: VoidSet) -> Vec<(VoidSet, usize)> {
+fn classes(
+    scene: &Scene,
+    family: &[Candidate],
+    all: VoidSet,
+) -> Result<Vec<(VoidSet, usize)>, Cancelled> {
     let mut sets: Vec<VoidSet> = family.iter().map(|c| c.met).collect();
     sets.sort_unstable();
     sets.dedup();
     let rest =
         |set: VoidSet| greedy_cover(&sets, all & !set).map_or(usize::MAX, |chosen| chosen.len());
-    sets.par_iter().map(|&set| (set, rest(set))).collect()
+    let class = |&set: &VoidSet| {
+        scene.request.watch.check()?;
+        Ok((set, rest(set)))
+    };
+    sets.par_iter().map(class).collect()
 }
 
 /// Measures the candidate's openings on its sections.
-fn measure(scene: &Scene, candidate: &Candidate) -> MeasuredPlane {
+fn measure(scene: &Scene, candidate: &Candidate) -> Result<MeasuredPlane, Cancelled> {
+    scene.request.watch.check()?;
     let openings = scene.openings(&candidate.plane, candidate.met);
     let enough = |void: usize, o: &Option<Opening>| {
         o.is_some_and(|o| o.diameter_mm >= needed_mm(scene, void))
@@ -174,20 +189,25 @@ fn measure(scene: &Scene, candidate: &Candidate) -> MeasuredPlane {
         .enumerate()
         .filter(|(i, o)| enough(*i, o))
         .fold(0, |set, (i, _)| set | 1 << i);
-    MeasuredPlane {
+    Ok(MeasuredPlane {
         plane: candidate.plane,
         openings,
         opened,
-    }
+    })
 }
 
 /// Returns the covers as small as `known`, best first, or only `known` if the search finds no
 /// others.
-fn rank_covers(scene: &Scene, measured: &[MeasuredPlane], known: &[usize]) -> Vec<Vec<Plane>> {
+fn rank_covers(
+    scene: &Scene,
+    measured: &[MeasuredPlane],
+    known: &[usize],
+) -> Result<Vec<Vec<Plane>>, Cancelled> {
     let voids = scene.hollowed.voids.len();
     let all = VoidSet::MAX >> (MAX_VOIDS - voids);
     let opened: Vec<VoidSet> = measured.iter().map(|e| e.opened).collect();
-    let mut covers = covers_of_size(&opened, all, [known.len(), COMPARED_COVERS]);
+    let size = [known.len(), COMPARED_COVERS];
+    let mut covers = covers_of_size(&opened, all, size, &scene.request.watch)?;
     if covers.is_empty() {
         covers.push(known.to_vec());
     }
@@ -201,7 +221,7 @@ fn rank_covers(scene: &Scene, measured: &[MeasuredPlane], known: &[usize]) -> Ve
     let mut covers: Vec<(f64, Vec<usize>)> =
         covers.into_iter().map(|c| (opening_score(&c), c)).collect();
     covers.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let burdens = burdens_of(scene, measured, &covers);
+    let burdens = burdens_of(scene, measured, &covers)?;
     let penalty = |cover: &[usize]| {
         let cuts = cover.iter().map(|&i| burdens[i].map(|b| b.penalty(scene)));
         cuts.sum::<Option<f64>>()
@@ -211,10 +231,8 @@ fn rank_covers(scene: &Scene, measured: &[MeasuredPlane], known: &[usize]) -> Ve
         .filter_map(|(opening, c)| Some((penalty(&c)? + opening, c)))
         .collect();
     scored.sort_by(|a, b| a.0.total_cmp(&b.0));
-    scored
-        .iter()
-        .map(|(_, cover)| cover.iter().map(|&i| measured[i].plane).collect())
-        .collect()
+    let planes = |cover: &[usize]| cover.iter().map(|&i| measured[i].plane).collect();
+    Ok(scored.iter().map(|(_, cover)| planes(cover)).collect())
 }
 
 /// Counts the voids that more than one of the cover's planes meet.
@@ -233,7 +251,7 @@ fn burdens_of(
     scene: &Scene,
     measured: &[MeasuredPlane],
     covers: &[(f64, Vec<usize>)],
-) -> Vec<Option<Burden>> {
+) -> Result<Vec<Option<Burden>>, Cancelled> {
     let mut named: Vec<usize> = Vec::new();
     for (_, cover) in covers {
         let fresh: Vec<usize> = cover
@@ -246,15 +264,17 @@ fn burdens_of(
         }
         named.extend(fresh);
     }
-    let scored: Vec<(usize, Burden)> = named
-        .par_iter()
-        .map(|&i| (i, burden(scene, &measured[i].plane)))
-        .collect();
+    let score = |&i: &usize| {
+        scene.request.watch.check()?;
+        Ok((i, burden(scene, &measured[i].plane)))
+    };
+    let scored = named.par_iter().map(score);
+    let scored = scored.collect::<Result<Vec<(usize, Burden)>, Cancelled>>()?;
     let mut burdens = vec![None; measured.len()];
     for (i, burden) in scored {
         burdens[i] = Some(burden);
     }
-    burdens
+    Ok(burdens)
 }
 
 /// Returns the widest opening of each void by the cover's planes, mm.

@@ -46,7 +46,7 @@ pub(crate) fn to_plan(
     };
     let joints = joints(pieces, tree);
     let placements = place_pins(&pin_scene, &joints, pins)?;
-    let (labels, unlabelled) = labels(&pin_scene, &joints, &placements);
+    let (labels, unlabelled) = labels(&pin_scene, &joints, &placements)?;
     let pairs = joints.iter().zip(&placements);
     notes.extend(
         pairs

@@ -7,6 +7,7 @@ use rayon::prelude::*;
 
 use super::mend::Mend;
 use super::units::{Extreme, Scale, Vector10, index};
+use crate::base::watch::{Cancelled, Watch};
 use crate::geom::{Frame, Quadric};
 use crate::interior::{Columns, Matrix10, moments_and_derivative, moments_where_positive};
 use crate::mass::Moments;
@@ -172,17 +173,23 @@ impl<'a> Reach<'a> {
 
     /// Returns the extreme points along many directions, in parallel; one cheaper pass each.
     /// Ignores the heavy material.
-    pub fn least_of_each(&self, directions: &[Vector10]) -> Vec<Vector10> {
+    pub fn least_of_each(
+        &self,
+        directions: &[Vector10],
+        watch: &Watch,
+    ) -> Result<Vec<Vector10>, Cancelled> {
         self.passes.set(self.passes.get() + directions.len());
         let (columns, transform, scale, solid) =
             (&self.columns, self.transform, self.scale, self.solid);
         let over_columns = |g: &Vector10| over_columns(transform.as_ref(), &scale.quadric_to_mm(g));
-        let emptied = |g: &Vector10| moments_where_positive(columns, &over_columns(g));
-        let emptied: Vec<Moments> = directions.par_iter().map(emptied).collect();
-        emptied
-            .iter()
-            .map(|moments| solid - self.to_units(*moments))
-            .collect()
+        let emptied = |g: &Vector10| {
+            watch.check()?;
+            Ok(moments_where_positive(columns, &over_columns(g)))
+        };
+        let emptied = directions.par_iter().map(emptied);
+        let emptied = emptied.collect::<Result<Vec<Moments>, Cancelled>>()?;
+        let least = |moments: &Moments| solid - self.to_units(*moments);
+        Ok(emptied.iter().map(least).collect())
     }
 
     /// Returns the quadric that is positive where the heavy material is worth its price.

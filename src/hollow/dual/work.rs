@@ -20,7 +20,7 @@ pub(crate) struct Work<'a> {
     pub goal: &'a Goal,
     pub reach: Reach<'a>,
     pub settings: &'a Settings,
-    watch: &'a Watch,
+    pub watch: &'a Watch,
     first_damping: f64,
     /// Finest tolerance of the ascents.
     pub tolerance: f64,

@@ -74,7 +74,7 @@ pub(super) fn descend(function: &dyn Function, x: Vec<f64>, limits: &Limits) -> 
     place.value = function.evaluate(&place.x, &mut place.slope);
     let mut pairs = VecDeque::with_capacity(MEMORY + 1);
     let mut values = VecDeque::from([place.value]);
-    while place.evaluations < limits.evaluations && !limits.watch.is_cancelled() {
+    while place.evaluations < limits.evaluations && limits.watch.check().is_ok() {
         let projected = projected_slope(&place, function.weights());
         if projected <= limits.slope {
             break;

@@ -184,7 +184,7 @@ pub(super) fn minimise(
         let is_settled =
             slope <= accuracy.slope || (last_value - value).abs() <= SETTLED_RATIO * value.abs();
         has_converged = residual <= accuracy.residual && is_settled;
-        if has_converged || evaluations >= accuracy.evaluations || watch.is_cancelled() {
+        if has_converged || evaluations >= accuracy.evaluations || watch.check().is_err() {
             break;
         }
         lagrangian.multipliers += misses * lagrangian.penalty;

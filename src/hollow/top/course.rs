@@ -29,15 +29,20 @@ pub struct TopCourse {
 /// Computes the course of a top solved for its critical speed on these columns; empty for anything
 /// else.
 ///
-/// Costs about forty ascents, so coarse columns are advisable.
-pub fn top_course(problem: &Problem, settings: &Settings, known: &Solution) -> TopCourse {
+/// Costs about forty ascents, so coarse columns are advisable. If `watch` is stopped, heights are
+/// missing.
+pub fn top_course(
+    problem: &Problem,
+    settings: &Settings,
+    known: &Solution,
+    watch: &Watch,
+) -> TopCourse {
     let is_of_speed = known.certificate.figure == Figure::CriticalSpeedRpm;
     let (GoalKind::Top, true, Some(best)) = (problem.goal.kind, is_of_speed, known.warm.height)
     else {
         return TopCourse::default();
     };
-    let watch = Watch::silent();
-    let work = Work::new(problem, settings, &watch);
+    let work = Work::new(problem, settings, watch);
     let Ok(heights) = Heights::new(&work, Objective::CriticalSpeed) else {
         return TopCourse::default();
     };
@@ -85,7 +90,7 @@ mod tests {
         let world = worlds::egg_on_its_side(Objective::CriticalSpeed);
         let (problem, settings) = (world.problem(), Settings::default());
         let known = solve(&problem, &settings, &Watch::silent());
-        let course = top_course(&problem, &settings, &known);
+        let course = top_course(&problem, &settings, &known, &Watch::silent());
         let (value, bound) = (known.certificate.value, known.certificate.bound);
         assert!(
             course.speeds.len() > HEIGHTS / 2 && course.speeds.is_sorted_by(|a, b| a[0] < b[0])
@@ -118,7 +123,7 @@ mod tests {
         let (problem, settings) = (world.problem(), Settings::default());
         let known = solve(&problem, &settings, &Watch::silent());
         assert_eq!(
-            top_course(&problem, &settings, &known),
+            top_course(&problem, &settings, &known, &Watch::silent()),
             TopCourse::default()
         );
         let last = known.course.last().unwrap();

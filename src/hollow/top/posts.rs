@@ -36,10 +36,12 @@ impl Stake {
 }
 
 /// Checks a scout's posts on all columns and logs them; one cheaper pass each. Returns true if each
-/// of them holds.
+/// of them holds, and false if the run was stopped.
 pub(crate) fn check_posts(work: &Work, posts: &[Post]) -> bool {
     let directions: Vec<_> = posts.iter().map(|post| post.stake.direction).collect();
-    let extremes = work.reach.least_of_each(&directions);
+    let Ok(extremes) = work.reach.least_of_each(&directions, work.watch) else {
+        return false;
+    };
     let spare = |(post, s): (&Post, &Vector10)| post.stake.direction.dot(s) - post.stake.least;
     let spares: Vec<f64> = posts.iter().zip(&extremes).map(spare).collect();
     posts

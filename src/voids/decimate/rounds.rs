@@ -6,6 +6,7 @@ use rayon::prelude::*;
 use super::parts::{Parts, State};
 use super::patch::Patch;
 use super::rules::Rules;
+use crate::base::watch::{Cancelled, Watch};
 use crate::geom::Point;
 use crate::mesh::TriMesh;
 
@@ -78,7 +79,7 @@ impl<'a> Decimation<'a> {
     ///
     /// The result is closed and 2-manifold; it may intersect itself where sheets are nearer than
     /// the tolerance. It does not depend on the number of threads, nor on earlier runs.
-    pub fn run(&mut self, locked: &[bool]) -> Vec<[u32; 3]> {
+    pub fn run(&mut self, locked: &[bool], watch: &Watch) -> Result<Vec<[u32; 3]>, Cancelled> {
         let triangles = self.mesh.triangles();
         let parts = Parts {
             triangles: triangles.to_vec(),
@@ -94,26 +95,23 @@ impl<'a> Decimation<'a> {
             let is_locked = |v: u32| locked[v as usize] || slabs.of_vertex[v as usize] == SEVERAL;
             let mut known = std::mem::take(&mut round.done);
             known.resize_with(slabs.triangles.len(), Done::none);
-            round.done = slabs
-                .triangles
-                .par_iter()
-                .zip(known)
-                .map(|(slab, known)| {
-                    let before = Slab::new(&state, slab, &is_locked);
-                    if before == known.before {
-                        return known;
-                    }
-                    let mut patch = Patch::new(&state, self.mesh.vertices(), slab, &is_locked);
-                    patch.decimate(self.rules);
-                    Done {
-                        before,
-                        after: patch.into_parts(),
-                    }
+            let done = slabs.triangles.par_iter().zip(known).map(|(slab, known)| {
+                watch.check()?;
+                let before = Slab::new(&state, slab, &is_locked);
+                if before == known.before {
+                    return Ok(known);
+                }
+                let mut patch = Patch::new(&state, self.mesh.vertices(), slab, &is_locked);
+                patch.decimate(self.rules);
+                Ok(Done {
+                    before,
+                    after: patch.into_parts(),
                 })
-                .collect();
+            });
+            round.done = done.collect::<Result<_, Cancelled>>()?;
             state = slabs.merge(&round.done);
         }
-        state.parts.triangles
+        Ok(state.parts.triangles)
     }
 }
 
@@ -228,8 +226,12 @@ mod tests {
         allows: &|_| true,
     };
 
+    fn run(decimation: &mut Decimation, locked: &[bool]) -> Vec<[u32; 3]> {
+        decimation.run(locked, &Watch::silent()).unwrap()
+    }
+
     fn decimate(mesh: &TriMesh, locked: &[bool]) -> TriMesh {
-        let triangles = Decimation::new(mesh, RULES).run(locked);
+        let triangles = run(&mut Decimation::new(mesh, RULES), locked);
         welded(
             triangles
                 .iter()
@@ -319,7 +321,8 @@ mod tests {
                 .num_threads(n)
                 .build()
                 .unwrap();
-            pool.install(|| Decimation::new(&fine, RULES).run(&vec![false; fine.vertices().len()]))
+            let none = vec![false; fine.vertices().len()];
+            pool.install(|| run(&mut Decimation::new(&fine, RULES), &none))
         };
         assert_eq!(with_threads(1), with_threads(2));
     }
@@ -334,9 +337,9 @@ mod tests {
             .map(|p| p.x > 4.0 && p.y > 1.0)
             .collect();
         let mut decimation = Decimation::new(&fine, RULES);
-        let before = decimation.run(&none);
-        let again = decimation.run(&some);
+        let before = run(&mut decimation, &none);
+        let again = run(&mut decimation, &some);
         assert_ne!(before, again);
-        assert_eq!(again, Decimation::new(&fine, RULES).run(&some));
+        assert_eq!(again, run(&mut Decimation::new(&fine, RULES), &some));
     }
 }

@@ -5,7 +5,7 @@ mod quadrics;
 
 use super::shapes::{ball, block, prism, revolved};
 use super::{Cavity, CavitySpec, VoidError, Voids, grow_bodies, without_slivers};
-use crate::base::watch::Watch;
+use crate::base::watch::{Cancelled, Watch};
 use crate::geom::triangle::triangle_triangle_distance_squared;
 use crate::geom::{Aabb, Bvh, Frame, Point, Quadric, Vector};
 use crate::mesh::{MeshDistance, Solid, TriMesh};

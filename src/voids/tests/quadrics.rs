@@ -14,11 +14,13 @@ fn setting() -> (Cavity, Frame) {
 /// Asserts that the voids of a quadric are sound, keep the wall and lie on its positive side within
 /// the tolerance. Returns their volumes, mm³.
 fn sound_voids(cavity: &Cavity, frame: &Frame, quadric: Quadric) -> Vec<f64> {
-    let voids = cavity.void_bodies(&quadric, frame).unwrap();
+    let voids = cavity
+        .void_bodies(&quadric, frame, &Watch::silent())
+        .unwrap();
     let wall = MeshDistance::new(&block([0.0; 3], [14.0, 12.0, 10.0]));
     for body in &voids.bodies {
         assert_sound(body.mesh());
-        assert_sound(without_slivers(body).unwrap().mesh());
+        assert_sound(without_slivers(body, &Watch::silent()).unwrap().mesh());
         assert!(wall.min_distance_to(body.mesh()) >= 0.99);
         for p in samples(body.mesh()) {
             let local = frame.to_local(&p);
@@ -44,7 +46,10 @@ fn sound_voids(cavity: &Cavity, frame: &Frame, quadric: Quadric) -> Vec<f64> {
 fn a_quadric_positive_everywhere_gives_the_cavity_and_its_opposite_nothing() {
     let (cavity, frame) = setting();
     assert_eq!(
-        cavity.void_bodies(&EVERYTHING, &frame).unwrap().bodies[0]
+        cavity
+            .void_bodies(&EVERYTHING, &frame, &Watch::silent())
+            .unwrap()
+            .bodies[0]
             .mesh()
             .triangles()
             .len(),
@@ -53,14 +58,14 @@ fn a_quadric_positive_everywhere_gives_the_cavity_and_its_opposite_nothing() {
     let nothing = Quadric(EVERYTHING.0.map(|g| -g));
     assert!(
         cavity
-            .void_bodies(&nothing, &frame)
+            .void_bodies(&nothing, &frame, &Watch::silent())
             .unwrap()
             .bodies
             .is_empty()
     );
     assert!(
         cavity
-            .void_bodies(&Quadric([0.0; 10]), &frame)
+            .void_bodies(&Quadric([0.0; 10]), &frame, &Watch::silent())
             .unwrap()
             .bodies
             .is_empty()
@@ -92,7 +97,7 @@ fn the_inside_of_a_ball_is_a_ball_and_outside_it_the_loose_ball_is_emptied() {
         "{volumes:?}"
     );
     let voids = cavity
-        .void_bodies(&Quadric(inside.0.map(|g| -g)), &frame)
+        .void_bodies(&Quadric(inside.0.map(|g| -g)), &frame, &Watch::silent())
         .unwrap();
     assert_eq!(voids.bodies.len(), 1);
     assert!((voids.loose_mm3 - volumes[0]).abs() < 113.1 * TOLERANCE_MM);
@@ -138,7 +143,9 @@ fn voids_thinner_than_the_minimum_are_left_solid_and_counted() {
     );
     let frame = Frame::with_axis(Point::new(7.0, 6.0, 5.0), &Vector::z());
     let slab = |half: f64| Quadric([half * half, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, -1.0]);
-    let thin = cavity.void_bodies(&slab(0.7), &frame).unwrap();
+    let thin = cavity
+        .void_bodies(&slab(0.7), &frame, &Watch::silent())
+        .unwrap();
     assert_eq!((thin.bodies.len(), thin.too_small.len()), (0, 1));
     assert!(
         (thin.too_small_mm3() - 12.0 * 10.0 * 1.4).abs() < 5.0,
@@ -146,7 +153,11 @@ fn voids_thinner_than_the_minimum_are_left_solid_and_counted() {
         thin.too_small_mm3()
     );
     assert_eq!(
-        cavity.void_bodies(&slab(1.3), &frame).unwrap().bodies.len(),
+        cavity
+            .void_bodies(&slab(1.3), &frame, &Watch::silent())
+            .unwrap()
+            .bodies
+            .len(),
         1
     );
 }
@@ -155,7 +166,9 @@ fn voids_thinner_than_the_minimum_are_left_solid_and_counted() {
 fn a_body_subtracted_from_a_cavity_stays_out_of_its_voids() {
     let (cavity, frame) = setting();
     let thin = block([2.0, 2.0, 2.0], [12.0, 10.0, 2.5]);
-    let rest = cavity.without(&grow_bodies(&thin, 0.3).unwrap()).unwrap();
+    let rest = cavity
+        .without(&grow_bodies(&thin, 0.3, &Watch::silent()).unwrap())
+        .unwrap();
     assert_sound(rest.mesh());
     let lost = signed_volume(cavity.mesh()) - signed_volume(rest.mesh());
     // The slab grown by 0.3 mm takes its own volume, 196 mm² of faces times 0.3 mm, and a little at
@@ -164,7 +177,9 @@ fn a_body_subtracted_from_a_cavity_stays_out_of_its_voids() {
         lost > 40.0 + 196.0 * 0.3 * 0.6 && lost < 40.0 + 196.0 * 0.3 + 10.0,
         "{lost}"
     );
-    let voids = rest.void_bodies(&EVERYTHING, &frame).unwrap();
+    let voids = rest
+        .void_bodies(&EVERYTHING, &frame, &Watch::silent())
+        .unwrap();
     assert!(MeshDistance::new(&thin).min_distance_to(voids.bodies[0].mesh()) > 0.1);
 }
 
@@ -182,7 +197,9 @@ fn one_thread_and_two_give_the_same_bits() {
             let quadric = Quadric([-3.0, 0.2, 0.1, 0.0, 0.0, 0.3, 0.0, 1.0, 0.7, -0.2]);
             (
                 cavity.mesh().clone(),
-                cavity.void_bodies(&quadric, &Frame::identity()).unwrap(),
+                cavity
+                    .void_bodies(&quadric, &Frame::identity(), &Watch::silent())
+                    .unwrap(),
             )
         })
     };
