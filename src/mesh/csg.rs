@@ -9,6 +9,7 @@ use manifold_rust::{
 
 use super::tri_mesh::smallest_first;
 use super::{Defects, MeshError, Solid, TriMesh, bodies::bodies, primitives::cuboid};
+use crate::base::watch::{Cancelled, Watch};
 use crate::geom::{Plane, Point, orthonormal_basis};
 
 /// The reason that a boolean, a cut or an import failed.
@@ -180,7 +181,19 @@ impl Csg {
     /// Returns it unchanged if fewer triangles would make it intersect itself.
     #[must_use]
     pub fn simplify(&self, tolerance_mm: f64) -> Self {
+        self.unless_worse(self.coarsen(tolerance_mm))
+    }
+
+    /// Simplifies the body like [`Self::simplify`], until the watch is stopped.
+    pub fn simplify_watched(&self, tolerance_mm: f64, watch: &Watch) -> Result<Self, Cancelled> {
+        watch.check()?;
         let simple = self.coarsen(tolerance_mm);
+        watch.check()?;
+        Ok(self.unless_worse(simple))
+    }
+
+    /// Returns the simplified body, or this one if the other intersects itself or is lost.
+    fn unless_worse(&self, simple: Self) -> Self {
         let worse = simple.0.status() != Error::NoError
             || simple.is_empty() != self.is_empty()
             || simple.has_self_intersections();
@@ -199,6 +212,11 @@ impl Csg {
     #[must_use]
     pub fn without_slivers(&self) -> Self {
         self.simplify(SLIVER_MM)
+    }
+
+    /// Closes slivers like [`Self::without_slivers`], until the watch is stopped.
+    pub fn without_slivers_watched(&self, watch: &Watch) -> Result<Self, Cancelled> {
+        self.simplify_watched(SLIVER_MM, watch)
     }
 
     /// Returns true if two triangles of the surface cross, overlap or coincide (exact; about 3 µs

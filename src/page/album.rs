@@ -91,13 +91,17 @@ pub fn render_pictures(subject: &Subject, watch: &Watch) -> Result<Vec<Picture>,
 
 /// Draws the pictures that show numbers of the sheet: the cuts with their lengths, the mass
 /// properties and the plots of the proof. The same bytes on any number of threads.
+///
+/// # Errors
+/// A picture cannot be encoded, or the watch was stopped.
 pub fn draw_figures(
     sheet: &Checklist,
     subject: &Subject,
     faces: &[CutFace],
+    watch: &Watch,
 ) -> Result<Vec<Picture>, PictureError> {
     let mut drawings = cut_drawing::drawings(sheet, faces);
-    drawings.extend(inertia::pictures(sheet, subject)?);
+    drawings.extend(inertia::pictures(sheet, subject, watch)?);
     drawings.extend(curves::plots(sheet));
     Ok(drawings)
 }

@@ -7,6 +7,7 @@ use super::figure::{Picture, Role};
 use super::subject::Subject;
 use super::viewpoint::Viewpoint;
 use crate::base::numbers::quantity;
+use crate::base::watch::Watch;
 use crate::draw::{
     Anchor, BODY, Camera, Drawing, Drawn, INK, Item, PAPER, Paint, PictureError, Projection, Scene,
     Spot, Stroke, VOID, hex, render, short,
@@ -42,7 +43,11 @@ struct State<'a> {
 }
 
 /// Draws the pictures before and after, seen from the side.
-pub(super) fn pictures(sheet: &Checklist, subject: &Subject) -> Result<Vec<Picture>, PictureError> {
+pub(super) fn pictures(
+    sheet: &Checklist,
+    subject: &Subject,
+    watch: &Watch,
+) -> Result<Vec<Picture>, PictureError> {
     let (outer, voids) = (subject.shells.outer_mesh(), subject.shells.inner_mesh());
     let frame = subject.aim.frame();
     let view = Viewpoint::of(&outer, &frame);
@@ -71,10 +76,11 @@ pub(super) fn pictures(sheet: &Checklist, subject: &Subject) -> Result<Vec<Pictu
             },
         },
     ];
-    states
-        .par_iter()
-        .map(|state| picture(state, &side, sheet))
-        .collect()
+    let draw = |state: &State| {
+        watch.check()?;
+        picture(state, &side, sheet)
+    };
+    states.par_iter().map(draw).collect()
 }
 
 fn picture(state: &State, side: &Camera, sheet: &Checklist) -> Result<Picture, PictureError> {

@@ -26,13 +26,15 @@ const CUTS: &str = "cuts.toml";
 pub fn finish(placed: &Placed, mut draft: Draft, watch: &Watch) -> Result<Prepared, Error> {
     watch.enter(Phase::Report);
     let mut checklist = fill(placed, &draft);
+    watch.check()?;
     let faces = faces(&draft.made, watch)?;
-    let of_cuts = draw_figures(&checklist, &draft.subject(), &faces)?;
+    let of_cuts = draw_figures(&checklist, &draft.subject(), &faces, watch)?;
     draft.pictures.extend(of_cuts);
     watch.check()?;
     let mut kit = files(placed, &draft)?;
     let hashed = |(file, bytes): (&str, &[u8])| (file.to_owned(), sha256_hex(&[bytes]));
     checklist.files = kit.files().map(hashed).collect();
+    watch.check()?;
     add_papers(&mut kit, &checklist, &draft)?;
     let laps = watch.laps().into_iter();
     let laps = laps.map(|(phase, seconds)| (phase.key().to_owned(), seconds));

@@ -93,7 +93,7 @@ pub fn sample_pictures(sheet: &Checklist, evidence: &Evidence) -> (Vec<Picture>,
         }],
     };
     let mut pictures = render_pictures(&subject, &Watch::silent()).unwrap();
-    pictures.extend(draw_figures(sheet, &subject, &[face]).unwrap());
+    pictures.extend(draw_figures(sheet, &subject, &[face], &Watch::silent()).unwrap());
     (pictures, View::of(&subject, &Watch::silent()).unwrap())
 }
 

@@ -118,7 +118,7 @@ impl Cavity {
 pub fn without_slivers(void: &Solid, watch: &Watch) -> Result<Solid, VoidError> {
     watch.check()?;
     let body = Csg::of_solid(void)?;
+    let simple = body.without_slivers_watched(watch)?.to_mesh()?;
     watch.check()?;
-    let simple = body.without_slivers().to_mesh()?;
     Ok(Solid::new(unfold(&simple, watch)?)?)
 }

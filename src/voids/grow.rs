@@ -43,7 +43,7 @@ pub fn grow_bodies(bodies: &TriMesh, margin_mm: f64, watch: &Watch) -> Result<Tr
     let mut extractor = Extractor::new(&field, &aabb, resolution, watch)?;
     let leaves = extractor.leaves();
     extractor.refine(leaves)?;
-    Ok(extractor.mesh()?)
+    extractor.mesh()
 }
 
 #[cfg(test)]

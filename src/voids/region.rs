@@ -119,5 +119,5 @@ fn draw(
     let mut extractor = Extractor::new(field, aabb, resolution, watch)?;
     let leaves = extractor.leaves();
     extractor.refine(leaves)?;
-    Ok(extractor.mesh()?)
+    extractor.mesh()
 }

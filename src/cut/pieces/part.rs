@@ -251,9 +251,7 @@ fn drop_short_edges(body: &Csg, watch: &Watch) -> Result<Solid, CutError> {
     if !has_short_edge(solid.mesh()) {
         return Ok(solid);
     }
-    let simple = body.simplify(SHORT_EDGE_MM);
-    watch.check()?;
-    let simple = simple.to_solid()?;
+    let simple = body.simplify_watched(SHORT_EDGE_MM, watch)?.to_solid()?;
     let (before, after) = (
         solid.mesh().signed_volume_mm3(),
         simple.mesh().signed_volume_mm3(),
