@@ -7,6 +7,8 @@ use crate::coupon::{Commands, CouponSet};
 pub fn flag(setting: &Setting) -> String {
     let name = name(setting.key);
     match &setting.value {
+        // Only one command has it, and others ask for it.
+        None if setting.key == Key::List => "equipoise printers import FILES --list".to_owned(),
         Some(value) => format!("--{name}={value}"),
         None => format!("--{name}"),
     }
@@ -108,6 +110,13 @@ mod tests {
             let parsed = Cli::try_parse_from(line.split_whitespace());
             assert!(parsed.is_ok(), "{line}: {parsed:?}");
         }
+    }
+
+    #[test]
+    fn the_advice_to_list_printers_names_the_command_that_does() {
+        let command = flag(&Setting::open(Key::List)).replace("FILES", "a.ini b.ini");
+        let parsed = Cli::try_parse_from(command.split_whitespace());
+        assert!(parsed.is_ok(), "{command}: {parsed:?}");
     }
 
     #[test]

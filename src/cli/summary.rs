@@ -155,11 +155,7 @@ fn parts(checklist: &Checklist) -> String {
         format_count(pins, "pin"),
         format_count(checklist.voids.len(), "void"),
     ];
-    let plates = checklist
-        .files
-        .keys()
-        .filter(|file| file.starts_with("plate"))
-        .count();
+    let plates = checklist.plates().count();
     let plates = if plates > 0 {
         format!(" on {}", format_count(plates, "plate"))
     } else {

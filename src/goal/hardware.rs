@@ -145,6 +145,10 @@ pub struct Hardware {
     pub stem: Option<Rod>,
 }
 
+/// The remedy for a rod that cannot be held.
+const DEPTH_REMEDY: &str = "remedy: give DIAMETERxLENGTHxDEPTH with a depth below the length, such \
+                            as 4mmx12mmx6mm";
+
 /// A contradiction within the hardware, or with the goal.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -174,17 +178,12 @@ pub enum HardwareError {
     /// The mass is not positive.
     #[error("a mass of {0} g for the hardware cannot be used; remedy: give one in g, above zero")]
     Mass(f64),
-    /// The tip or stem has no length, or nothing of it is inside or outside.
-    #[error(
-        "a {what} of {rod} cannot be held; remedy: give DIAMETERxLENGTHxDEPTH with a depth below \
-         the length, such as 4mmx12mmx6mm"
-    )]
-    Depth {
-        /// The kind of rod: tip or stem.
-        what: &'static str,
-        /// The rod asked for.
-        rod: Rod,
-    },
+    /// The tip has no length, or nothing of it is inside or outside.
+    #[error("a tip of {0} cannot be held; {DEPTH_REMEDY}")]
+    TipDepth(Rod),
+    /// The stem has no length, or nothing of it is inside or outside.
+    #[error("a stem of {0} cannot be held; {DEPTH_REMEDY}")]
+    StemDepth(Rod),
     /// The tip stands out by less than the radius of its round end.
     #[error(
         "a tip of {0} stands out by less than its radius, so that its end cannot be round; \
@@ -211,8 +210,12 @@ impl Hardware {
         if is_for_yoyo {
             self.check_axle()?;
         }
-        for (what, rod) in [("tip", self.tip), ("stem", self.stem)] {
-            rod.map_or(Ok(()), |rod| check_depth(what, rod))?;
+        let unheld = |rod: &Rod| rod.length.is_none() || rod.depth_mm() >= rod.length_mm();
+        if let Some(tip) = self.tip.filter(unheld) {
+            return Err(HardwareError::TipDepth(tip));
+        }
+        if let Some(stem) = self.stem.filter(unheld) {
+            return Err(HardwareError::StemDepth(stem));
         }
         let blunt = self.tip.filter(|tip| tip.out_mm() < tip.radius_mm());
         blunt.map_or(Ok(()), |tip| Err(HardwareError::Blunt(tip)))
@@ -230,15 +233,6 @@ impl Hardware {
         self.mass_g
             .filter(|mass_g| !is_mass(mass_g))
             .map_or(Ok(()), |mass_g| Err(HardwareError::Mass(mass_g)))
-    }
-}
-
-fn check_depth(what: &'static str, rod: Rod) -> Result<(), HardwareError> {
-    let is_sound = rod.length.is_some() && rod.depth_mm() < rod.length_mm();
-    if is_sound {
-        Ok(())
-    } else {
-        Err(HardwareError::Depth { what, rod })
     }
 }
 
@@ -358,7 +352,7 @@ mod tests {
         };
         assert!(matches!(
             refusal(GoalKind::Top, endless),
-            HardwareError::Depth { what: "tip", .. }
+            HardwareError::TipDepth(_)
         ));
         let sunk = Hardware {
             stem: Some(rod("4x12x12")),
@@ -366,7 +360,7 @@ mod tests {
         };
         assert!(matches!(
             refusal(GoalKind::Top, sunk),
-            HardwareError::Depth { what: "stem", .. }
+            HardwareError::StemDepth(_)
         ));
         let blunt = Hardware {
             tip: Some(rod("4x12x11")),

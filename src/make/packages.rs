@@ -160,11 +160,7 @@ fn plates(placed: &Placed, printed: &[TriMesh]) -> Vec<(String, Arrangement)> {
         let places: Vec<_> = here
             .map(|(index, spot)| (index, laid(&boxes[index], spot)))
             .collect();
-        let file = if count == 1 {
-            "plate.3mf".to_owned()
-        } else {
-            format!("plate_{}.3mf", plate + 1)
-        };
+        let file = Plate::file_name([plate + 1, count]);
         let fits = places.iter().all(|(index, _)| spots[*index].fits);
         (
             file,

@@ -8,9 +8,6 @@ use crate::base::numbers::quantity;
 use crate::base::units::MM3_PER_CM3;
 use crate::sheet::{Checklist, PartRow, Process};
 
-/// Prefix of the names of packages of whole plates.
-const PLATE: &str = "plate";
-
 /// Least volume of a cup that gets a warning, mm³: a smaller one, such as a socket or a letter,
 /// drains and causes no suction.
 const LEAST_CUP_MM3: f64 = 150.0;
@@ -43,11 +40,7 @@ pub(super) fn print_step(sheet: &Checklist) -> Markup {
 
 /// Returns the files to load into the slicer.
 fn load(sheet: &Checklist) -> Markup {
-    let plates: Vec<&String> = sheet
-        .files
-        .keys()
-        .filter(|file| file.starts_with(PLATE))
-        .collect();
+    let plates: Vec<&str> = sheet.plates().collect();
     html! {
         @if plates.is_empty() { "the part files below" }
         @else {

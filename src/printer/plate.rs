@@ -52,7 +52,32 @@ struct Shelf {
     free_from_mm: f64,
 }
 
+/// Stem and ending of the names of plates in a kit.
+const NAME: [&str; 2] = ["plate", ".3mf"];
+
 impl Plate {
+    /// Returns the name in a kit of one of several plates, counted from 1.
+    pub fn file_name([plate, count]: [usize; 2]) -> String {
+        let [stem, ending] = NAME;
+        if count == 1 {
+            format!("{stem}{ending}")
+        } else {
+            format!("{stem}_{plate}{ending}")
+        }
+    }
+
+    /// Returns whether [`Plate::file_name`] gives this name to some plate.
+    pub fn is_file_name(name: &str) -> bool {
+        let [stem, ending] = NAME;
+        let middle = name
+            .strip_prefix(stem)
+            .and_then(|rest| rest.strip_suffix(ending));
+        middle.is_some_and(|middle| {
+            let number = middle.strip_prefix('_').unwrap_or("1");
+            number.parse().is_ok_and(|plate: usize| plate > 0)
+        })
+    }
+
     /// Assumes a plate that holds parts of these sizes, for a machine whose plate is not known.
     /// The arrangement comes out about as wide as deep.
     pub fn for_parts(sizes_mm: &[[f64; 2]]) -> Self {
@@ -220,6 +245,23 @@ mod tests {
                     .any(|k| low[k] >= to[k] + GAP_MM - 1e-9 || from[k] >= high[k] + GAP_MM - 1e-9);
                 assert!(apart, "{i} {spot:?} and {j} {other:?}");
             }
+        }
+    }
+
+    #[test]
+    fn the_names_of_plates_are_told_from_those_of_parts() {
+        for name in [Plate::file_name([1, 1]), Plate::file_name([12, 30])] {
+            assert!(Plate::is_file_name(&name), "{name}");
+        }
+        assert_eq!(Plate::file_name([2, 3]), "plate_2.3mf");
+        for name in [
+            "plateau.3mf",
+            "parts/plate.3mf",
+            "plate.stl",
+            "plate_0.3mf",
+            "assembly.3mf",
+        ] {
+            assert!(!Plate::is_file_name(name), "{name}");
         }
     }
 

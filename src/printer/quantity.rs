@@ -227,17 +227,37 @@ impl Quantity {
 
     /// True for an angle.
     pub fn is_angle(self) -> bool {
-        self.key().ends_with("_deg")
+        matches!(self, Self::OverhangDeg)
     }
 
     /// True for a ratio.
     pub fn is_ratio(self) -> bool {
-        self.key().ends_with("_ratio")
+        matches!(
+            self,
+            Self::PinLengthRatio
+                | Self::ToleranceRatio
+                | Self::ShrinkageXyRatio
+                | Self::ShrinkageZRatio
+        )
     }
 }
 
 impl fmt::Display for Quantity {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(self.key())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn angles_and_ratios_are_those_whose_keys_end_so() {
+        for quantity in Quantity::ALL {
+            let key = quantity.key();
+            assert_eq!(quantity.is_angle(), key.ends_with("_deg"), "{key}");
+            assert_eq!(quantity.is_ratio(), key.ends_with("_ratio"), "{key}");
+        }
     }
 }

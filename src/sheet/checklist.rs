@@ -11,6 +11,7 @@ use super::parts::PartRow;
 use super::printer::{GridRow, MaterialRow, PrinterRow, WallRow};
 use super::timing::Timing;
 use super::voids::{CutRow, VoidRow};
+use crate::printer::Plate;
 use crate::verify::{Check, Figures, FillOrder, Hardware, PromisedFigure, SCHEMA};
 
 /// The job sheet of a kit, for machines; the room `page` renders the same for people.
@@ -197,6 +198,12 @@ impl Checklist {
                 key: first_non_finite_key(&format!("{self:#?}")),
             }),
         }
+    }
+
+    /// Returns the names of the kit's plates: the files that hold all parts of a print.
+    pub fn plates(&self) -> impl Iterator<Item = &str> {
+        let files = self.files.keys().map(String::as_str);
+        files.filter(|file| Plate::is_file_name(file))
     }
 
     /// Returns the checklist as it goes into a kit: without the timings, which differ from run to
