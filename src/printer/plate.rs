@@ -72,9 +72,9 @@ impl Plate {
         let middle = name
             .strip_prefix(stem)
             .and_then(|rest| rest.strip_suffix(ending));
+        let is_number = |number: &str| number.parse().is_ok_and(|plate: usize| plate > 0);
         middle.is_some_and(|middle| {
-            let number = middle.strip_prefix('_').unwrap_or("1");
-            number.parse().is_ok_and(|plate: usize| plate > 0)
+            middle.is_empty() || middle.strip_prefix('_').is_some_and(is_number)
         })
     }
 
