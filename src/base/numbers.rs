@@ -6,6 +6,12 @@ const SIGNIFICANT_DIGITS: i32 = 4;
 /// Magnitude below which a number is written with a power of ten.
 const SMALL: f64 = 1e-3;
 
+/// Grams or cubic centimetres below which a hundredth is told.
+const LIGHT: f64 = 10.0;
+
+/// Most decimals of a small quantity that is measured.
+const MOST_DECIMALS: usize = 4;
+
 /// Returns a number to four digits without trailing zeros: `0.005`, `12.35`, `1234`, `1.5e-7`; `0`
 /// for zero of either sign.
 pub fn number(value: f64) -> String {
@@ -31,6 +37,34 @@ pub fn quantity(value: f64, unit: &str) -> String {
         "°" => format!("{}°", number(value)),
         _ => format!("{}\u{a0}{unit}", number(value)),
     }
+}
+
+/// Returns a quantity rounded to what a shop measures: a tenth of a millimetre, degree or gram, a
+/// hundredth of a light gram, a whole turn per minute. It is never rounded to zero.
+pub fn measured(value: f64, unit: &str) -> String {
+    let wanted = match unit {
+        "rpm" | "mm²" | "mm³" | "s" => 0,
+        "g" | "cm³" if value.abs() < LIGHT => 2,
+        "mm" | "°" | "g" | "cm²" | "cm³" | "%" => 1,
+        _ => return quantity(value, unit),
+    };
+    let is_shown = |decimals: &usize| (value * 10f64.powi(*decimals as i32)).abs() >= 0.5;
+    let decimals = (wanted..=MOST_DECIMALS).find(is_shown);
+    let text = format!("{value:.*}", decimals.unwrap_or(wanted));
+    let text = match text.split_once('.') {
+        Some((whole, rest)) if rest.bytes().all(|digit| digit == b'0') => whole.to_owned(),
+        _ => text,
+    };
+    match unit {
+        "°" => format!("{text}°"),
+        _ => format!("{text}\u{a0}{unit}"),
+    }
+}
+
+/// Returns three lengths as a shop measures them: `100 × 62.3 × 41.1 mm`.
+pub fn measured_extent(size_mm: &[f64; 3]) -> String {
+    let sides = size_mm.map(|mm| measured(mm, "mm").replace("\u{a0}mm", ""));
+    format!("{}\u{a0}mm", sides.join(" × "))
 }
 
 /// Returns a quantity, or a dash for `None`.
@@ -79,6 +113,45 @@ mod tests {
         assert_eq!(quantity(2.5, "mm"), "2.5\u{a0}mm");
         assert_eq!(quantity(2.5, "°"), "2.5°");
         assert_eq!(quantity_or_dash(None, "rpm"), "—");
+    }
+
+    #[test]
+    fn measured_quantities_have_the_digits_of_the_tool_and_are_never_nothing() {
+        let shown = [
+            measured(9.856, "°"),
+            measured(256.6, "rpm"),
+            measured(34.37, "g"),
+            measured(6.661, "g"),
+            measured(0.02302, "g"),
+            measured(0.0004, "g"),
+            measured(68.0, "mm"),
+            measured(0.004, "mm"),
+            measured(-33.56, "°"),
+            measured(0.0, "mm"),
+            measured(0.7268, ""),
+        ]
+        .map(|text| text.replace('\u{a0}', " "));
+        assert_eq!(
+            shown,
+            [
+                "9.9°",
+                "257 rpm",
+                "34.4 g",
+                "6.66 g",
+                "0.02 g",
+                "0.0004 g",
+                "68 mm",
+                "0.004 mm",
+                "-33.6°",
+                "0 mm",
+                "0.7268\u{a0}"
+            ]
+            .map(|text| text.replace('\u{a0}', ""))
+        );
+        assert_eq!(
+            measured_extent(&[56.32, 100.0, 32.5]),
+            "56.3 × 100 × 32.5\u{a0}mm"
+        );
     }
 
     #[test]

@@ -9,7 +9,7 @@ use crate::base::numbers::quantity as figure;
 use crate::base::units::format_count;
 use crate::page::promise;
 use crate::sheet::{Checklist, Course, LogRow, PassRow};
-use crate::verify::Check;
+use crate::verify::{Check, SHEET_FILE};
 
 /// Least distance from the bound that is shown as a number, %. Nobody prints so exactly.
 const MIN_SHOWN_PERCENT: f64 = 0.01;
@@ -38,10 +38,7 @@ pub fn ten_lines(checklist: &Checklist, out: &Path, manner: Manner) -> String {
             .timing_s
             .as_ref()
             .map(|timing| ("time", times(timing.total_s(), &timing.0))),
-        Some((
-            "job sheet",
-            out.join("checklist.html").display().to_string(),
-        )),
+        Some(("job sheet", out.join(SHEET_FILE).display().to_string())),
     ];
     let rows: Vec<[String; 2]> = lines
         .into_iter()

@@ -22,6 +22,8 @@ pub(super) fn show_number(quantity: Quantity, value: f64) -> String {
         _ if quantity.is_ratio() => value.to_string(),
         _ if quantity.is_angle() => format!("{value}°"),
         Quantity::GlueDensityGCm3 => format!("{value} g/cm³"),
+        Quantity::GlueHoldS => format!("{value} s"),
+        Quantity::GlueCureH => format!("{value} h"),
         _ => show_mm(value),
     }
 }

@@ -23,7 +23,7 @@ pub(crate) use callouts::Mark;
 pub use error::PictureError;
 pub use hatch::{Hatch, Stripes};
 pub(crate) use legend::{Key, draw_legend, draw_peg};
-pub(crate) use palette::{BALLAST, BODY, CURVES, HARDWARE, INK, PAPER, PLATE, VOID};
+pub(crate) use palette::{BALLAST, BODY, CURVES, HARDWARE, INK, PAPER, PIN, PLATE, VOID};
 pub use palette::{Color, hex, part_color};
 pub(crate) use plot::{Curve, Plot};
 pub use projection::Projection;

@@ -34,6 +34,9 @@ pub const BALLAST: Color = [176, 180, 190];
 /// The ground of cut ballast, between crossed stripes: darker than hardware.
 pub const CROSSED: Color = [52, 56, 64];
 
+/// Pins and their holes: a red that stays dark on a grey printer.
+pub const PIN: Color = [200, 16, 46];
+
 /// The light and the dark squares of a build plate.
 pub const PLATE: [Color; 2] = [[238, 240, 243], [219, 223, 228]];
 

@@ -8,6 +8,7 @@ use super::cut_drawing::{self, CutFace};
 use super::figure::{Draft, Picture, Role};
 use super::inertia;
 use super::inserts::{lump_mesh, rod_mesh};
+use super::joint_drawing;
 use super::plate;
 use super::subject::{Subject, parts_in_model};
 use super::viewpoint::Viewpoint;
@@ -100,7 +101,8 @@ pub fn draw_figures(
     faces: &[CutFace],
     watch: &Watch,
 ) -> Result<Vec<Picture>, PictureError> {
-    let mut drawings = cut_drawing::drawings(sheet, faces);
+    let mut drawings = joint_drawing::drawings(sheet, faces);
+    drawings.extend(cut_drawing::drawings(sheet, faces));
     drawings.extend(inertia::pictures(sheet, subject, watch)?);
     drawings.extend(curves::plots(sheet));
     Ok(drawings)

@@ -3,7 +3,7 @@
 use maud::{Markup, html};
 
 use super::fields::residue;
-use crate::base::numbers::quantity;
+use crate::base::numbers::{measured, quantity};
 use crate::base::units::MM3_PER_CM3;
 use crate::sheet::{Checklist, VoidRow, checks_of_void};
 use crate::verify::{Check, CheckKind};
@@ -22,50 +22,33 @@ pub(super) fn clean_one(sheet: &Checklist, void: &VoidRow) -> Markup {
     html! {
         li {
             strong { (void.id) }
-            @if !void.parts.is_empty() { " in " (void.parts.join(", ")) }
-            ", " (quantity(void.volume_mm3 / MM3_PER_CM3, "cm³")) ", "
-            @if void.opened_by.is_empty() { strong class="fail" { "opened by no cut" } }
+            @if !void.parts.is_empty() { " in " (void.parts.join(", ")) } ": "
+            @if void.opened_by.is_empty() { strong class="fail" { "opened by no cut. " } }
             @else {
-                "opened by " (void.opened_by.join(", ")) " to " (quantity(void.opening_mm, "mm")) " across ("
-                (quantity(void.least_opening_mm, "mm")) " needed), " (quantity(void.depth_mm, "mm")) " deep"
+                (measured(void.opening_mm, "mm")) " wide and " (measured(void.depth_mm, "mm")) " deep, open at the cut face. "
             }
-            ". Method: " (void.method) (in_sight(sheet, void)) ": "
-            @for check in checks_of_void(&sheet.checks, &void.id) {
-                (verdict(check)) " "
-            }
-            br; (void.clean) " Left full of " (residue(&sheet.printer.process)) ", it adds about " (quantity(full_g, "g")) "."
+            @for check in checks_of_void(&sheet.checks, &void.id).filter(|check| !check.pass) { (broken(check)) " " }
+            (void.clean) (hidden_rest(sheet, void))
+            " Left full of " (residue(&sheet.printer.process)) ", it weighs about " (measured(full_g, "g")) " too much."
         }
     }
 }
 
-fn verdict(check: &Check) -> Markup {
+fn broken(check: &Check) -> Markup {
     let word = if matches!(check.kind, CheckKind::VoidOpen { .. }) {
-        "open"
+        "Not open!"
     } else {
-        "clean"
+        "Cannot be cleaned!"
     };
-    html! {
-        @if check.pass { "✓ " (word) }
-        @else { strong class="fail" { "✗ not " (word) } }
-    }
+    html! { strong class="fail" { (word) } }
 }
 
-/// Words the share of a void's wall in sight, if the cleaning rule needs sight; else empty.
-fn in_sight(sheet: &Checklist, void: &VoidRow) -> String {
-    let percent = |ratio: f64| format!("{:.0}", 100.0 * ratio);
+/// Words how to reach what is out of sight, if the cleaning rule needs sight; else empty.
+fn hidden_rest(sheet: &Checklist, void: &VoidRow) -> String {
     match void.sight_ratio {
-        Some(sight) if sheet.printer.cleaning.rule.needs_sight() => {
-            let reach = sheet.printer.cleaning.reach_mm;
-            let reach = reach.map_or(String::new(), |mm| {
-                format!(" within {}", quantity(mm, "mm"))
-            });
-            let rest = percent(1.0 - sight);
-            let bent = if sight < ALL_IN_SIGHT_RATIO {
-                format!(" (reach the other {rest} % with a bent tool)")
-            } else {
-                String::new()
-            };
-            format!(", {} % of the wall{reach}{bent}", percent(sight))
+        Some(sight) if sheet.printer.cleaning.rule.needs_sight() && sight < ALL_IN_SIGHT_RATIO => {
+            let rest = 100.0 * (1.0 - sight);
+            format!(" The last {rest:.0}\u{a0}% is round a corner: use a bent tool.")
         }
         _ => String::new(),
     }
@@ -85,21 +68,23 @@ pub(super) fn cost(sheet: &Checklist) -> Markup {
             }
         }
         @if !proof.cleaning_rounds.is_empty() {
-            table {
-                tr { th { "Round" } th { "Void and why" } th class="n" { "Kept solid" } th class="n" { "Before" } th class="n" { "After" } }
+            table class="stack" {
+                thead { tr { th scope="col" { "Round" } th scope="col" { "Void and why" } th scope="col" class="n" { "Kept solid" } th scope="col" class="n" { "Before" } th scope="col" class="n" { "After" } } }
+                tbody {
                 @for (index, round) in proof.cleaning_rounds.iter().enumerate() {
                     tr {
-                        td { (index + 1) }
-                        td { @for kept in &round.voids { (kept.void) ": " (kept.why) br; } }
-                        td class="n" { (quantity(round.volume_mm3 / MM3_PER_CM3, "cm³")) }
-                        td class="n" { (quantity(round.value_before, unit)) }
-                        td class="n" {
+                        th scope="row" { (index + 1) }
+                        td data-head="Void and why" { @for kept in &round.voids { (kept.void) ": " (kept.why) br; } }
+                        td class="n" data-head="Kept solid" { (quantity(round.volume_mm3 / MM3_PER_CM3, "cm³")) }
+                        td class="n" data-head="Before" { (quantity(round.value_before, unit)) }
+                        td class="n" data-head="After" {
                             @match round.value_after {
                                 Some(after) => (quantity(after, unit)),
                                 None => "undone: the goal could not be met",
                             }
                         }
                     }
+                }
                 }
             }
         }

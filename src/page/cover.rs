@@ -1,4 +1,4 @@
-//! The first page: the object and its promise, the verdict, the facts, and links to the steps.
+//! The head of the job sheet: the object and its promise, the verdict, and the facts.
 
 use maud::{Markup, html};
 
@@ -9,11 +9,14 @@ use super::job_id::JobId;
 use super::running::{code, on_screen};
 use super::steps::step_names;
 use super::words;
-use crate::base::numbers::{extent, number, quantity};
-use crate::base::units::{MM3_PER_CM3, format_count};
-use crate::sheet::{Checklist, MaterialRow, Verdict};
+use crate::base::numbers::{measured, measured_extent, number};
+use crate::base::units::format_count;
+use crate::sheet::{Checklist, Verdict};
 
-/// Returns the first page.
+/// Micrometres in a millimetre.
+const UM_PER_MM: f64 = 1000.0;
+
+/// Returns the head of the sheet.
 pub(super) fn cover(inputs: &PageInputs, job: &JobId) -> Markup {
     let sheet = inputs.sheet;
     html! {
@@ -26,16 +29,15 @@ pub(super) fn cover(inputs: &PageInputs, job: &JobId) -> Markup {
                 p class="promise" { (words::promise(sheet)) }
                 (verdict(sheet))
             }
-            div class="code" { (code(job)) p class="small" { "Name of the job and SHA-256 of checklist.json" } }
+            div class="code" { (code(job)) }
         }
         section aria-label="Overview" {
             (order_fields())
             (warnings(sheet))
-            div class="cover-pictures" {
+            div class="glance" {
                 (figures(inputs.pictures, Role::Cover))
-                (figures(inputs.pictures, Role::CutAway))
+                (facts(sheet))
             }
-            (facts(sheet))
             (overview(sheet))
         }
     }
@@ -44,9 +46,13 @@ pub(super) fn cover(inputs: &PageInputs, job: &JobId) -> Markup {
 fn verdict(sheet: &Checklist) -> Markup {
     let (class, word) = match sheet.verdict {
         Verdict::Pass => ("verdict pass", "✓ all promises kept"),
-        Verdict::Fail => ("verdict fail", "✗ do not print: see checks"),
+        Verdict::Fail => ("verdict fail", "✗ do not print: see certificate"),
     };
-    html! { p class=(class) { (word) } }
+    let broken = sheet.checks.iter().filter(|check| !check.pass);
+    html! {
+        p class=(class) { (word) }
+        @for check in broken { p class="fail" { "Broken: " (check.kind) ", " (check.promise) "." } }
+    }
 }
 
 fn warnings(sheet: &Checklist) -> Markup {
@@ -56,73 +62,64 @@ fn warnings(sheet: &Checklist) -> Markup {
 }
 
 fn facts(sheet: &Checklist) -> Markup {
+    let size_mm = sheet.finished_size_mm.unwrap_or(sheet.model.size_mm);
+    let rows: [(&str, Markup); 6] = [
+        ("Size", html! { (measured_extent(&size_mm)) }),
+        ("Printer", html! { (sheet.printer.name) }),
+        (
+            "Settings",
+            html! { "layers of " (layer(sheet)) ", solid (100 % infill), never scaled" },
+        ),
+        ("Material", html! { (sheet.material.name) }),
+        ("Mass", mass(sheet)),
+        ("Kit", html! { (pieces(sheet)) }),
+    ];
     html! {
         table class="facts" {
-            tr { th scope="row" { "Goal" } td { (words::goal(&sheet.goal)) ". Coordinates are along the model's own axes." } }
-            tr {
-                th scope="row" { "Model" }
-                td {
-                    (sheet.model.file) ", " (extent(&sheet.model.size_mm)) ", "
-                    (quantity(sheet.model.volume_mm3 / MM3_PER_CM3, "cm³")) " solid"
-                }
-            }
-            tr {
-                th scope="row" { "Printer" }
-                td {
-                    (sheet.printer.name) " (" (sheet.printer.process) "), " (pixels(sheet))
-                    ", layers of " (quantity(sheet.printer.layer_mm, "mm"))
-                }
-            }
-            tr { th scope="row" { "Material" } td { (material(&sheet.material)) } }
-            tr {
-                th scope="row" { "Mass" }
-                td {
-                    (quantity(sheet.assembly.mass_g, "g")) " in all" (of_hardware(sheet))
-                    @if !sheet.ballast.is_empty() {
-                        " with " (format_count(sheet.ballast.len(), "piece")) " of ballast"
-                    }
-                    "; " (quantity(sheet.solid.mass_g, "g")) " if it were solid"
-                }
-            }
-            tr { th scope="row" { "Wall" } td { (words::wall(&sheet.wall)) } }
+            @for (name, words) in rows { tr { th scope="row" { (name) } td { (words) } } }
         }
     }
 }
 
-/// Names the material and its density, with the source.
-fn material(material: &MaterialRow) -> Markup {
-    html! {
-        (material.name) ", " (quantity(material.density_g_cm3, "g/cm³")) " ("
-        (material.density_sure)
-        @if material.density_spread_ratio.is_none() { ", not measured by this shop" }
-        ": " (material.density_source) ")"
-    }
-}
-
-/// Names the share of the mass that is hardware; empty if there is none.
-fn of_hardware(sheet: &Checklist) -> String {
-    let mass_g: f64 = sheet.hardware.iter().map(|piece| piece.mass_g).sum();
-    if mass_g > 0.0 {
-        format!(", {} of it hardware", quantity(mass_g, "g"))
+/// Words the height of a layer, in micrometres if it is thin.
+fn layer(sheet: &Checklist) -> String {
+    let mm = sheet.printer.layer_mm;
+    if mm < 0.1 {
+        format!("{:.0}\u{a0}µm ({}\u{a0}mm)", mm * UM_PER_MM, number(mm))
     } else {
-        String::new()
+        format!("{}\u{a0}mm", number(mm))
     }
 }
 
-fn pixels(sheet: &Checklist) -> String {
-    let [x, y] = sheet.printer.pixel_mm.map(|pitch| number(pitch * 1000.0));
-    format!("{x} × {y}\u{a0}µm")
+/// Returns the mass, with the share of hardware and ballast.
+fn mass(sheet: &Checklist) -> Markup {
+    let hardware_g: f64 = sheet.hardware.iter().map(|piece| piece.mass_g).sum();
+    html! {
+        (measured(sheet.assembly.mass_g, "g")) " in all"
+        @if hardware_g > 0.0 { ", " (measured(hardware_g, "g")) " of it hardware" }
+        @if !sheet.ballast.is_empty() { ", with " (format_count(sheet.ballast.len(), "piece")) " of ballast" }
+        " (solid it would be " (measured(sheet.solid.mass_g, "g")) ")"
+    }
 }
 
-/// Returns what the kit consists of, and links to the steps.
+/// Words what the kit consists of.
+fn pieces(sheet: &Checklist) -> String {
+    let pins = sheet.parts.iter().map(|part| part.pins.len()).sum();
+    let counts = [
+        (sheet.parts.len(), "part"),
+        (sheet.joints.len(), "glue joint"),
+        (pins, "pin"),
+        (sheet.voids.len(), "void"),
+    ];
+    let counts = counts.into_iter().filter(|(count, _)| *count > 0);
+    let words = counts.map(|(count, word)| format_count(count, word));
+    words.collect::<Vec<_>>().join(", ")
+}
+
+/// Returns links to the steps, for a screen.
 fn overview(sheet: &Checklist) -> Markup {
     html! {
-        nav class="steps" aria-label="Steps" {
-            p {
-                "It comes as " strong { (format_count(sheet.parts.len(), "part")) }
-                " with " (format_count(sheet.voids.len(), "void")) " inside, opened by "
-                (format_count(sheet.cuts.len(), "cut")) " and joined at " (format_count(sheet.joints.len(), "glue joint")) ". Do these steps in order, and tick each one off:"
-            }
+        nav class="steps screen-only" aria-label="Steps" {
             ol class="way" {
                 @for (index, name) in step_names(sheet).into_iter().enumerate() {
                     li { a href=(format!("#step-{}", index + 1)) { (name) } }
@@ -137,7 +134,7 @@ fn overview(sheet: &Checklist) -> Markup {
 fn order_fields() -> Markup {
     html! {
         p class="fields" {
-            @for field in ["Order", "Revision", "Quantity", "Due", "Prepared by"] {
+            @for field in ["Order", "Quantity", "Due", "Machine", "Material lot"] {
                 span class="field" { (field) " " (blank()) } " "
             }
         }

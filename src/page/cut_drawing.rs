@@ -2,11 +2,12 @@
 
 use super::figure::{Picture, Role};
 use super::inserts::{Insert, inserts};
+use super::plane_map::{PlaneMap, Window, bounds, doubled_area_mm2, flat};
 use crate::base::numbers::{number, quantity};
 use crate::draw::{
     Drawing, Drawn, Hatch, Key, Mark, Paint, Spot, Stroke, VOID, draw_legend, draw_peg,
 };
-use crate::geom::{Plane, Point, Vector};
+use crate::geom::{Plane, Vector};
 use crate::sheet::{Checklist, JointRow};
 use crate::verify::Peg;
 
@@ -29,9 +30,6 @@ const FRAME_PX: [f64; 4] = [230.0, 40.0, 770.0, 540.0];
 
 /// Distance of the overall dimensions from the section, pixels.
 const ASIDE_PX: f64 = 34.0;
-
-/// If the projection of up on the plane is shorter than this, the plane counts as level.
-const LEVEL_RATIO: f64 = 0.2;
 
 /// The section of the uncut body at a cut.
 #[derive(Debug, Clone, PartialEq)]
@@ -71,65 +69,6 @@ pub struct Mouth {
     pub at: [f64; 2],
     /// Diameter of that disc, mm.
     pub diameter_mm: f64,
-}
-
-/// The map from the plane of a cut to the drawing.
-struct PlaneMap {
-    turn: [f64; 2],
-    scale: f64,
-    offset: Spot,
-}
-
-impl PlaneMap {
-    /// Returns the map that turns `up`, a direction in the plane, upward and fills the frame.
-    fn of(face: &CutFace, up: [f64; 2]) -> Self {
-        let length = up[0].hypot(up[1]);
-        let turn = if length > LEVEL_RATIO {
-            up.map(|x| x / length)
-        } else {
-            [0.0, 1.0]
-        };
-        let unscaled = Self {
-            turn,
-            scale: 1.0,
-            offset: [0.0; 2],
-        };
-        let [low, high] = bounds(face.rings.iter().flatten().map(|point| unscaled.at(*point)));
-        let [left, top, right, bottom] = FRAME_PX;
-        let fit = |from: f64, to: f64, pixels: f64| pixels / (to - from).max(f64::MIN_POSITIVE);
-        let scale = fit(low[0], high[0], right - left).min(fit(low[1], high[1], bottom - top));
-        let offset = [
-            0.5 * (left + right - scale * (low[0] + high[0])),
-            top - scale * low[1],
-        ];
-        Self {
-            turn,
-            scale,
-            offset,
-        }
-    }
-
-    /// Returns the spot of a point of the plane.
-    fn at(&self, [u, v]: [f64; 2]) -> Spot {
-        let [x, y] = self.turn;
-        [
-            self.offset[0] + self.scale * (u * y - v * x),
-            self.offset[1] - self.scale * (u * x + v * y),
-        ]
-    }
-}
-
-/// Returns the least and the greatest coordinates of spots.
-fn bounds(spots: impl Iterator<Item = Spot>) -> [Spot; 2] {
-    spots.fold(
-        [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]],
-        |[low, high], spot| {
-            [
-                [low[0].min(spot[0]), low[1].min(spot[1])],
-                [high[0].max(spot[0]), high[1].max(spot[1])],
-            ]
-        },
-    )
 }
 
 /// Draws every cut that goes through material.
@@ -227,7 +166,8 @@ fn pins_of_cut<'a>(sheet: &'a Checklist, cut: &str) -> Vec<PinInSocket<'a>> {
 fn draw_section(sheet: &Checklist, face: &CutFace, pins: &[PinInSocket]) -> Drawing {
     let (u, v) = face.plane.basis();
     let axis = Vector::from(sheet.goal.aim.axis).normalize();
-    let map = PlaneMap::of(face, [u.dot(&axis), v.dot(&axis)]);
+    let up = [u.dot(&axis), v.dot(&axis)];
+    let map = PlaneMap::of(&face.rings, up, &Window::open(FRAME_PX));
     let spots = |ring: &Vec<[f64; 2]>| ring.iter().map(|p| map.at(*p)).collect();
     let rings: Vec<Vec<Spot>> = face.rings.iter().map(spots).collect();
     let [_, [_, bottom]] = bounds(rings.iter().flatten().copied());
@@ -235,7 +175,7 @@ fn draw_section(sheet: &Checklist, face: &CutFace, pins: &[PinInSocket]) -> Draw
     draw_material(&mut drawing, face, &rings);
     let inserts = inserts(sheet, &face.plane);
     draw_section_legend(&mut drawing, face, !pins.is_empty(), &inserts);
-    draw_size(&mut drawing, &rings, map.scale);
+    draw_size(&mut drawing, &rings, map.scale());
 
     let mut marks = Vec::new();
     for mouth in &face.mouths {
@@ -243,7 +183,7 @@ fn draw_section(sheet: &Checklist, face: &CutFace, pins: &[PinInSocket]) -> Draw
     }
     for pin in pins {
         let at = map.at(flat(&face.plane, &pin.pin.center_mm));
-        marks.push(pin.draw(&mut drawing, at, map.scale));
+        marks.push(pin.draw(&mut drawing, at, map.scale()));
     }
     marks.extend(face.wall.map(|ends| draw_wall(&mut drawing, ends, &map)));
     let whole = |at: &[f64; 2]| Mark::new(map.at(*at), "stays whole".to_owned());
@@ -270,26 +210,10 @@ fn draw_material(drawing: &mut Drawing, face: &CutFace, rings: &[Vec<Spot>]) {
     Hatch::PRINTED.fill(drawing, rings, outline);
 }
 
-/// Returns twice the area inside a ring, negative for a clockwise ring.
-fn doubled_area_mm2(ring: &[[f64; 2]]) -> f64 {
-    let next = ring.iter().cycle().skip(1);
-    ring.iter()
-        .zip(next)
-        .map(|(a, b)| a[0] * b[1] - a[1] * b[0])
-        .sum()
-}
-
-/// Returns a point of the plane in its coordinates.
-fn flat(plane: &Plane, point_mm: &[f64; 3]) -> [f64; 2] {
-    let (u, v) = plane.basis();
-    let from_origin = Point::from(*point_mm).coords;
-    [u.dot(&from_origin), v.dot(&from_origin)]
-}
-
 /// Draws the widest disc that passes through a mouth, and returns its name.
 fn draw_mouth(drawing: &mut Drawing, mouth: &Mouth, map: &PlaneMap) -> Mark {
     let at = map.at(mouth.at);
-    let radius_px = 0.5 * map.scale * mouth.diameter_mm;
+    let radius_px = 0.5 * map.scale() * mouth.diameter_mm;
     drawing.circle(at, radius_px, Paint::line(Stroke::DASHED));
     let diameter = number(mouth.diameter_mm);
     Mark::new(at, format!("{} open ⌀{diameter}", mouth.void))
@@ -356,57 +280,4 @@ fn draw_size(drawing: &mut Drawing, rings: &[Vec<Spot>], scale: f64) {
         [ASIDE_PX, 0.0],
         &words(bottom - top),
     );
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn square(low: f64, high: f64) -> Vec<[f64; 2]> {
-        vec![[low, low], [high, low], [high, high], [low, high]]
-    }
-
-    #[test]
-    fn a_clockwise_ring_has_a_negative_area() {
-        let ring = square(1.0, 3.0);
-        let back: Vec<[f64; 2]> = ring.iter().rev().copied().collect();
-        assert_eq!(
-            [doubled_area_mm2(&ring), doubled_area_mm2(&back)],
-            [8.0, -8.0]
-        );
-    }
-
-    #[test]
-    fn a_section_fills_the_frame_upright_and_unmirrored() {
-        let plane = Plane::through(&Point::origin(), &Vector::z());
-        let face = CutFace {
-            cut: "C1".into(),
-            plane,
-            rings: vec![square(0.0, 10.0)],
-            wall: None,
-            whole: vec![],
-            regions: vec![],
-            mouths: vec![],
-        };
-        for up in [[0.0, 1.0], [1.0, 0.0], [-0.6, 0.8]] {
-            let map = PlaneMap::of(&face, up);
-            let [origin, above] = [[0.0, 0.0], up].map(|point| map.at(point));
-            assert!(
-                (above[0] - origin[0]).abs() < 1e-9 && above[1] < origin[1],
-                "{up:?}"
-            );
-            // Up turned clockwise points right: the drawing is not mirrored.
-            let right = map.at([up[1], -up[0]]);
-            assert!(
-                right[0] > origin[0] && (right[1] - origin[1]).abs() < 1e-9,
-                "{up:?}"
-            );
-        }
-        let [low, high] = bounds(
-            face.rings[0]
-                .iter()
-                .map(|point| PlaneMap::of(&face, [0.0, 1.0]).at(*point)),
-        );
-        assert!((low[1] - FRAME_PX[1]).abs() < 1e-9 && (high[1] - FRAME_PX[3]).abs() < 1e-9);
-    }
 }

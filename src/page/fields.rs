@@ -2,7 +2,7 @@
 
 use maud::{Markup, html};
 
-use crate::base::numbers::{number, quantity};
+use crate::base::numbers::{measured, number, quantity};
 use crate::sheet::{Checklist, Half, Process};
 
 /// Returns a line to write on.
@@ -25,20 +25,7 @@ pub(super) fn file_name(path: &str) -> Markup {
     html! { code { @for piece in path.split_inclusive(['/', '_', '-']) { (piece) wbr; } } }
 }
 
-/// Returns the mass of something printed. If the density was measured, the weighing window follows;
-/// else its share of all parts, which does not depend on the density.
-pub(super) fn mass_with_window(sheet: &Checklist, mass_g: f64) -> Markup {
-    html! {
-        (quantity(mass_g, "g"))
-        @if let Some(spread) = sheet.material.density_spread_ratio { (window(mass_g, spread)) }
-        @else {
-            br;
-            span class="small" { (number(100.0 * mass_g / mass_of_parts_g(sheet))) " % of all parts" }
-        }
-    }
-}
-
-/// Returns a mass and its weighing window.
+/// Returns a mass and the limits of a good piece.
 pub(super) fn mass_window(mass_g: f64, spread_ratio: f64) -> Markup {
     html! { (quantity(mass_g, "g")) (window(mass_g, spread_ratio)) }
 }
@@ -47,7 +34,7 @@ fn window(mass_g: f64, spread_ratio: f64) -> Markup {
     html! {
         br;
         span class="small" {
-            (number(mass_g * (1.0 - spread_ratio))) "–"
+            "reject outside " (number(mass_g * (1.0 - spread_ratio))) "–"
             (quantity(mass_g * (1.0 + spread_ratio), "g"))
         }
     }

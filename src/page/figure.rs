@@ -15,12 +15,16 @@ pub enum Role {
     Exploded,
     /// Table of parts: a part in its print pose.
     Part,
-    /// Dry fit: a cut with its pins.
+    /// Join: both faces of a joint, opened like a book.
+    Joint,
+    /// Certificate: a cut with its dimensions.
     Cut,
     /// Hardware: the halves of a yo-yo on their axle.
     Halves,
-    /// Proof: mass properties before and after.
+    /// Proof: mass properties before.
     Inertia,
+    /// Proof and test: mass properties as made.
+    Made,
     /// Proof: plots of the search.
     Proof,
 }
@@ -31,6 +35,7 @@ impl Role {
         match self {
             Self::Cut => "pictures wide",
             Self::Exploded | Self::Halves => "pictures wide whole",
+            Self::Joint => "pictures joints",
             _ => "pictures",
         }
     }
@@ -106,10 +111,17 @@ pub(super) fn figure(picture: &Picture) -> Markup {
 
 /// Returns the pictures of a role in a row; nothing if there are none.
 pub(super) fn figures(pictures: &[Picture], role: Role) -> Markup {
-    let mut of_role = pictures.iter().filter(|p| p.role == role).peekable();
+    figures_of(pictures, &[role])
+}
+
+/// Returns the pictures of several roles in a row that looks like the first role's.
+pub(super) fn figures_of(pictures: &[Picture], roles: &[Role]) -> Markup {
+    let is_wanted = |picture: &&Picture| roles.contains(&picture.role);
+    let mut of_role = pictures.iter().filter(is_wanted).peekable();
+    let class = roles.first().map_or("pictures", |role| role.class());
     html! {
         @if of_role.peek().is_some() {
-            div class=(role.class()) { @for picture in of_role { (figure(picture)) } }
+            div class=(class) { @for picture in of_role { (figure(picture)) } }
         }
     }
 }

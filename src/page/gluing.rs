@@ -3,11 +3,10 @@
 use maud::{Markup, html};
 
 use super::fields::blank;
-use crate::base::numbers::quantity;
+use crate::base::numbers::{measured, quantity};
 use crate::base::units::format_count;
 use crate::goal::GoalKind;
-use crate::sheet::{Checklist, JointRow};
-use crate::verify::GlueFilm;
+use crate::sheet::{Checklist, GlueRow, JointRow};
 
 /// Number of pins that align a joint fully, if it has no note.
 const ONE_WAY_PINS: usize = 2;
@@ -79,11 +78,10 @@ impl Closing<'_> {
         self.sides.each_ref().map(|side| side.join(" + "))
     }
 
-    /// Names the cuts in which the joints lie.
-    fn cuts(&self) -> String {
-        let mut cuts: Vec<&str> = self.joints.iter().map(|joint| joint.cut.as_str()).collect();
-        cuts.dedup();
-        cuts.join(", ")
+    /// Words how the bodies come together: `push P03 onto P01 + P02`.
+    fn movement(&self) -> String {
+        let [one, other] = self.bodies();
+        format!("push {one} onto {other}")
     }
 
     /// Returns the joint whose pins align another that has too few, since both close in one
@@ -110,9 +108,9 @@ impl Closing<'_> {
                     @if !is_one { (joint.id) ": " }
                     @if joint.pins > 0 {
                         (format_count(joint.pins, "pin"))
-                        ", clearance " (quantity(joint.clearance_mm, "mm")) " a side"
+                        ", " (quantity(joint.clearance_mm, "mm")) " of room on each side"
                     }
-                    @else if joint.note.is_none() { "no pins" }
+                    @else if joint.note.is_none() { "no pins: match the outlines by eye" }
                     @if let Some(note) = &joint.note { @if joint.pins > 0 { "; " } strong { (note) } }
                     @if let Some(other) = self.guide_of(joint) { "; the pins of " (other.id) " align it, as both close together" }
                 }
@@ -121,22 +119,17 @@ impl Closing<'_> {
     }
 }
 
-/// Returns the step in which everything is put together without glue.
+/// Returns how everything is put together without glue.
 pub(super) fn dry_fit(sheet: &Checklist) -> Markup {
     html! {
-        @if sheet.joints.is_empty() { p { "Nothing is glued to another printed part: nothing to fit." } }
         (cut_list(sheet))
+        p { "Put everything together without glue first. There must be no gap and no step at a seam." }
         ul class="ticks" {
             @for closing in closings(sheet) {
-                @let [one, other] = closing.bodies();
                 li {
-                    strong { (closing.name()) } ": "
-                    (one) " on " (other) " along " (closing.cuts())
-                    ". No gap and no step at the seam"
-                    @if closing.joints.iter().any(|joint| joint.pins > 0) {
-                        ", every pin all the way in"
-                    }
-                    "."
+                    strong { (closing.name()) } ": " (closing.movement())
+                    @if closing.joints.iter().any(|joint| joint.pins > 0) { ", every pin all the way in" }
+                    ". "
                     (closing.alignment())
                 }
             }
@@ -144,46 +137,58 @@ pub(super) fn dry_fit(sheet: &Checklist) -> Markup {
     }
 }
 
-/// Returns the step in which the parts are glued, two bodies at a time.
+/// Returns how the parts are glued, two bodies at a time.
 pub(super) fn glue(sheet: &Checklist) -> Markup {
     html! {
-        @if sheet.joints.is_empty() { p { "No printed part is glued to another." } }
-        @else {
-            div class="lead" {
-                p { "Glue in this order, and let each row set before the next. Joints in the same row close together: put glue on all of them first." }
-                p { (glue_advice(sheet.goal.aim.kind)) }
-                (films(sheet))
+        div class="lead" {
+            @if let Some(glue) = &sheet.printer.glue { (glue_words(sheet, glue)) }
+            p { (glue_advice(sheet.goal.aim.kind)) }
+            @if closings(sheet).len() > 1 {
+                p { "Let each row harden before the next. Joints in the same row: put glue on all of them, then close them together." }
             }
-            table {
-                thead {
-                    tr {
-                        th scope="col" { "Done" }
-                        th scope="col" { "Joint" }
-                        th scope="col" { "Bodies" }
-                        th scope="col" { "Cut" }
-                        th scope="col" class="n" { "Area" }
-                        th scope="col" { "Alignment" }
-                        th scope="col" { "Adhesive, clamped until" }
-                    }
+        }
+        table class="stack" {
+            thead {
+                tr {
+                    th scope="col" { "Joint" }
+                    th scope="col" { "Movement" }
+                    th scope="col" class="n" { "Area" }
+                    th scope="col" class="n" { "Glue" }
+                    th scope="col" { "Glued, clamped until" }
                 }
-                tbody { @for closing in closings(sheet) { (line(&closing)) } }
             }
+            tbody { @for closing in closings(sheet) { (line(&closing)) } }
         }
     }
 }
 
+/// Words the glue: its name, its amount, its times and its dangers.
+fn glue_words(sheet: &Checklist, glue: &GlueRow) -> Markup {
+    let films = sheet.joints.iter().filter_map(|joint| joint.glue);
+    let mass_g: f64 = films.map(|film| film.mass_g).sum();
+    html! {
+        p {
+            strong { "Glue: " } (glue.name)
+            @if mass_g > 0.0 { ", " (measured(mass_g, "g")) " in all (calculated)" }
+            "."
+            @if let Some(seconds) = glue.hold_s { " Hold each joint for " (measured(seconds, "s")) "." }
+            @if let Some(hours) = glue.cure_h { " Leave it for " (quantity(hours, "h")) " before the test." }
+        }
+        @if let Some(safety) = &glue.safety { p { strong { "Safety: " } (safety) } }
+    }
+}
+
 fn line(closing: &Closing) -> Markup {
-    let [one, other] = closing.bodies();
     let area_mm2 = closing.joints.iter().map(|joint| joint.area_mm2).sum();
+    let films = closing.joints.iter().filter_map(|joint| joint.glue);
+    let mass_g: f64 = films.map(|film| film.mass_g).sum();
     html! {
         tr {
-            td { "☐" }
-            td { strong { (closing.name()) } }
-            td { "(" (one) ") on (" (other) ")" }
-            td { (closing.cuts()) }
-            td class="n" { (quantity(area_mm2, "mm²")) }
-            td { (closing.alignment()) }
-            td { (blank()) }
+            th scope="row" { "☐ " (closing.name()) }
+            td data-head="Movement" { (closing.movement()) }
+            td class="n" data-head="Area" { (measured(area_mm2, "mm²")) }
+            td class="n" data-head="Glue" { @if mass_g > 0.0 { (measured(mass_g, "g")) } @else { "a thin film" } }
+            td data-head="Glued, clamped until" { (blank()) }
         }
     }
 }
@@ -195,9 +200,11 @@ fn glue_advice(kind: GoalKind) -> &'static str {
             "Seal every joint all around: a void that fills with water sinks it or turns it over."
         }
         GoalKind::Top | GoalKind::Yoyo | GoalKind::Balance => {
-            "Use little glue, and keep it out of the voids: glue off the axis unbalances the object."
+            "Use little glue, and keep it out of the voids: extra glue unbalances it. Wipe off what is pressed out."
         }
-        GoalKind::Stand => "Use little glue, and keep it out of the voids.",
+        GoalKind::Stand => {
+            "Use little glue, and keep it out of the voids. Wipe off what is pressed out."
+        }
     }
 }
 
@@ -211,23 +218,9 @@ fn cut_list(sheet: &Checklist) -> Markup {
                     li {
                         strong { (row.count) " × " (row.name) } " (" code { (row.rod) } "), "
                         (quantity(row.length_mm, "mm")) " long, "
-                        (quantity(row.mass_g, "g")) " each" br; span class="small" { (row.sources.join("; ")) }
+                        (measured(row.mass_g, "g")) " each"
                     }
                 }
-            }
-        }
-    }
-}
-
-/// Returns the mass and thickness of the films of glue; empty if they are not known.
-fn films(sheet: &Checklist) -> Markup {
-    let films: Vec<GlueFilm> = sheet.joints.iter().filter_map(|joint| joint.glue).collect();
-    let mass_g: f64 = films.iter().map(|film| film.mass_g).sum();
-    html! {
-        @if let Some(film) = films.first() {
-            p {
-                "The figures include films of glue of " (quantity(film.thickness_mm, "mm")) " and " (quantity(film.density_g_cm3, "g/cm³"))
-                ", " (quantity(mass_g, "g")) " in all. Wipe off what is pressed out."
             }
         }
     }
@@ -333,5 +326,22 @@ mod tests {
             glue_advice(GoalKind::Top).contains("axis")
                 && !glue_advice(GoalKind::Stand).contains("axis")
         );
+    }
+
+    #[test]
+    fn the_glue_is_named_with_its_amount_its_times_and_its_dangers() {
+        let mut sheet = sample().0;
+        let page = glue(&sheet).into_string().replace('\u{a0}', " ");
+        for said in [
+            "super glue",
+            "for 60 s",
+            "for 24 h",
+            "Safety: </strong>The glue bonds skin",
+        ] {
+            assert!(page.contains(said), "{said}: {page}");
+        }
+        assert!(page.contains("push P02 onto P01") || page.contains("push P01 onto P02"));
+        sheet.printer.glue = None;
+        assert!(!glue(&sheet).into_string().contains("Safety"));
     }
 }

@@ -10,7 +10,7 @@ pub(super) fn table(rows: &[GridRow]) -> Markup {
     html! {
         @if !rows.is_empty() {
             h2 { "Sizes on this printer" }
-            table {
+            table class="stack" {
                 thead {
                     tr {
                         th scope="col" { "What" }
@@ -23,10 +23,10 @@ pub(super) fn table(rows: &[GridRow]) -> Markup {
                 tbody {
                     @for (row, along) in merge_directions(rows) {
                         tr {
-                            td { (row.what) } td { (along) }
-                            td class="n" { (quantity(row.asked_mm, "mm")) }
-                            td class="n" { (quantity(row.drawn_mm, "mm")) }
-                            td { (steps_words(row)) }
+                            th scope="row" { (row.what) } td data-head="Along" { (along) }
+                            td class="n" data-head="Asked" { (quantity(row.asked_mm, "mm")) }
+                            td class="n" data-head="Drawn" { (quantity(row.drawn_mm, "mm")) }
+                            td data-head="Printed as" { (steps_words(row)) }
                         }
                     }
                 }

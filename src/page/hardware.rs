@@ -4,9 +4,9 @@ use maud::{Markup, html};
 
 use super::fields::{blank, half_name};
 use super::figure::{Picture, Role, figures};
-use crate::base::numbers::quantity;
+use crate::base::numbers::{measured, quantity};
 use crate::geom::Point;
-use crate::sheet::{Checklist, Half};
+use crate::sheet::{Checklist, Half, TurnRow};
 use crate::verify::{Hardware, HardwareKind};
 
 /// Returns the step in which the hardware is put in.
@@ -50,12 +50,12 @@ fn description(sheet: &Checklist, piece: &Hardware) -> String {
         length_mm - piece.depth_mm,
         piece.socket_mm,
     ]
-    .map(|mm| quantity(mm, "mm"));
+    .map(|mm| measured(mm, "mm"));
     let rod = format!(
         "{} of {} in diameter, cut {length} long, {} ({})",
         word(&piece.kind),
         quantity(piece.diameter_mm, "mm"),
-        quantity(piece.mass_g, "g"),
+        measured(piece.mass_g, "g"),
         quantity(piece.density_g_cm3, "g/cm³")
     );
     match piece.kind {
@@ -96,13 +96,22 @@ fn align_halves(sheet: &Checklist) -> Markup {
         @if let Some(turn) = &sheet.turn {
             p {
                 strong { "Turn half A on the axle until its outline meets that of half B all around: " }
-                "hold the yo-yo against a light and sight along the axle, then along the seam from two sides, at ears, corners or any mark that runs "
-                "over the seam, before the glue sets. One degree off (" (quantity(rim_mm(sheet), "mm")) " at the rim) moves the centre of mass "
-                (quantity(turn.offset_mm_per_deg, "mm")) " off the axis and tilts the axis by " (quantity(turn.tilt_deg_per_deg, "°"))
-                ", because half A alone has its centre " (quantity(turn.half_offset_mm, "mm")) " off the axis and half B balances it."
+                "sight along the axle and along the seam, at ears, corners or any mark that runs over the seam, before the glue sets. "
+                "Turn it within " (measured(most_turn_deg(turn), "°")) " (" (measured(most_turn_deg(turn) * rim_mm(sheet), "mm")) " at the rim)."
             }
         }
     }
+}
+
+/// Greatest turn of the halves, degrees, which a person sees by eye.
+const EYE_DEG: f64 = 1.0;
+
+/// Greatest distance of the centre of mass from the axis due to the turn of the halves, mm.
+const MOST_OFFSET_MM: f64 = 0.05;
+
+/// Returns the turn of the halves that moves the centre of mass no farther than allowed, degrees.
+fn most_turn_deg(turn: &TurnRow) -> f64 {
+    EYE_DEG.min(MOST_OFFSET_MM / turn.offset_mm_per_deg.max(f64::MIN_POSITIVE))
 }
 
 /// Returns the length of a degree at half the greatest size, mm.

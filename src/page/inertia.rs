@@ -38,6 +38,7 @@ const ELLIPSOID: &str = "#0072b2";
 struct State<'a> {
     file: &'static str,
     name: &'static str,
+    role: Role,
     body: &'a Figures,
     scene: Scene<'a>,
 }
@@ -60,6 +61,7 @@ pub(super) fn pictures(
         State {
             file: "pictures/inertia-before.svg",
             name: "Solid",
+            role: Role::Inertia,
             body: &sheet.solid,
             scene: Scene {
                 items: vec![Item::new(&outer, BODY)],
@@ -69,6 +71,7 @@ pub(super) fn pictures(
         State {
             file: "pictures/inertia-after.svg",
             name: "As made",
+            role: Role::Made,
             body: &sheet.assembly,
             scene: Scene {
                 items: vec![Item::new(&outer, BODY), Item::new(&voids, VOID)],
@@ -99,7 +102,7 @@ fn picture(state: &State, side: &Camera, sheet: &Checklist) -> Result<Picture, P
     drawing.text([12.0, TEXT_PX], Anchor::Start, state.name);
     Ok(Picture {
         file: state.file.to_owned(),
-        role: Role::Inertia,
+        role: state.role,
         caption: caption(state, sheet),
         alt: format!(
             "{}: side view with its inertia ellipsoid, principal axes and centre of mass against the axis of the goal.",

@@ -1,7 +1,8 @@
-//! The job sheet as a page for people, with its pictures.
+//! The papers of a kit for people: the job sheet and the certificate, with their pictures.
 
 mod album;
 mod apart;
+mod certificate;
 mod cleaning;
 mod cover;
 mod curves;
@@ -11,13 +12,15 @@ mod fields;
 mod figure;
 mod gluing;
 mod grid;
+mod hand_over;
 mod hardware;
 mod inertia;
 mod inputs;
 mod inserts;
 mod job_id;
 mod job_sheet;
-mod parts_table;
+mod joint_drawing;
+mod plane_map;
 mod plate;
 mod printing;
 mod proof;
@@ -34,13 +37,13 @@ mod weighing;
 mod words;
 
 pub use album::{draw_figures, render_pictures};
+pub use certificate::certificate;
 pub use cut_drawing::{CutFace, Mouth, Region};
 pub use document::document;
 pub use figure::{Picture, Role};
 pub use inputs::PageInputs;
 pub use job_id::JobId;
-pub use job_sheet::page;
-
+pub use job_sheet::job;
 pub use printing::cup_warning;
 pub use subject::Subject;
 pub use view::View;

@@ -2,7 +2,8 @@
 
 use maud::{Markup, html};
 
-use super::fields::file_name;
+use super::fields::{file_name, half_name};
+use super::figure::Picture;
 use super::support;
 use crate::base::numbers::quantity;
 use crate::base::units::MM3_PER_CM3;
@@ -12,8 +13,8 @@ use crate::sheet::{Checklist, PartRow, Process};
 /// drains and causes no suction.
 const LEAST_CUP_MM3: f64 = 150.0;
 
-/// Returns the step in which the parts are printed.
-pub(super) fn print_step(sheet: &Checklist) -> Markup {
+/// Returns the step in which the parts are printed, with a card for every part.
+pub(super) fn print_step(sheet: &Checklist, pictures: &[Picture]) -> Markup {
     html! {
         ul class="plain" {
             li { strong { "Load: " } (load(sheet)) }
@@ -24,16 +25,26 @@ pub(super) fn print_step(sheet: &Checklist) -> Markup {
             }
             @if let Some(cups) = cup_warning(sheet) { li { strong { "Warning: " } (cups) "." } }
             @if let Some(parts) = parts_without_id(sheet) {
-                li { strong { "Names: " } "write the id on these parts when they come off the plate, as their cut faces have no room for it: " strong { (parts) } "." }
+                li { strong { "Names: " } "write the id on these parts when they come off the plate: " strong { (parts) } "." }
             }
         }
-        ul class="ticks" {
-            @for part in &sheet.parts {
-                li {
-                    strong { (part.id) } ": " (file_name(&part.file)) ", " (part.lies) ". Printed, and looks as in the table of parts."
-                    @if let Some(words) = support::of_part(part) { br; (words) }
-                }
+        div class="cards" { @for part in &sheet.parts { (card(part, pictures)) } }
+    }
+}
+
+/// Returns what a part looks like on its plate, and what is set for it.
+fn card(part: &PartRow, pictures: &[Picture]) -> Markup {
+    let is_part = |picture: &&Picture| part.picture.as_ref() == Some(&picture.file);
+    html! {
+        div class="part" {
+            @if let Some(picture) = pictures.iter().find(is_part) { (picture.image()) }
+            p class="tick" {
+                strong class="part-id" { (part.id) }
+                @if let Some(half) = part.half { ", half " (half_name(half)) }
+                ": " (part.lies) ". Part OK ☐"
             }
+            p { (file_name(&part.file)) }
+            @if let Some(words) = support::of_part(part) { p { (words) } }
         }
     }
 }
@@ -47,7 +58,15 @@ fn load(sheet: &Checklist) -> Markup {
             @for (index, plate) in plates.iter().enumerate() { @if index > 0 { ", " } code { (plate) } }
             " (all parts laid out on the plate), or the part files below one by one"
         }
-        ". They are in mm, each part in its print pose, resting on z = 0. Do not turn, scale or repair them."
+        ". Lengths are in mm; every part lies as in its picture. " (handling(&sheet.printer.process))
+    }
+}
+
+/// Returns what the slicer may do with the parts.
+fn handling(process: &Process) -> &'static str {
+    match process {
+        Process::Fdm => "Do not turn, scale or repair them.",
+        _ => "You may turn a part. Never scale or repair it.",
     }
 }
 
@@ -56,7 +75,7 @@ fn solid(sheet: &Checklist) -> Markup {
     let printer = &sheet.printer;
     let how = match &printer.process {
         Process::Fdm => format!(
-            "100 % infill between the perimeters, line width {}, layers of {}. Do not change them: the masses depend on them.",
+            "100 % infill, line width {}, layers of {}. Do not change them: the masses depend on them.",
             quantity(printer.pixel_mm[0], "mm"),
             quantity(printer.layer_mm, "mm")
         ),
@@ -74,8 +93,7 @@ fn solid(sheet: &Checklist) -> Markup {
         ),
     };
     html! {
-        (how) " The voids are in the files and stay empty: the slicer must neither fill nor add any. "
-        "If walls are not solid, every mass on this sheet is wrong, and so is the balance."
+        (how) " The voids are in the files: they stay empty."
     }
 }
 
@@ -122,7 +140,7 @@ mod tests {
     fn page_of(change: impl Fn(&mut Checklist)) -> String {
         let mut sheet = sample().0;
         change(&mut sheet);
-        print_step(&sheet).into_string()
+        print_step(&sheet, &[]).into_string()
     }
 
     #[test]

@@ -3,12 +3,13 @@
 use maud::{Markup, html};
 
 use super::cleaning::cost;
-use super::fields::sentence;
-use super::figure::{Picture, Role, figures};
+use super::fields::{file_name, sentence};
+use super::figure::{Picture, Role, figures, figures_of};
 use super::inputs::PageInputs;
 use super::words;
-use crate::base::numbers::{coordinates, number, quantity, quantity_or_dash};
-use crate::sheet::{BossRow, Checklist};
+use crate::base::numbers::{coordinates, extent, number, quantity, quantity_or_dash};
+use crate::base::units::{MM3_PER_CM3, format_count};
+use crate::sheet::{BossRow, Checklist, PartRow};
 use crate::verify::{Check, Figures};
 
 /// A guide to the figures.
@@ -22,7 +23,7 @@ pub(super) fn checks(checks: &[Check]) -> Markup {
     html! {
         section {
             h2 { "Checks on the written files" }
-            table {
+            table class="stack" {
                 thead {
                     tr {
                         th scope="col" { "Check" }
@@ -42,17 +43,17 @@ pub(super) fn checks(checks: &[Check]) -> Markup {
 fn check_line(check: &Check) -> Markup {
     html! {
         tr {
-            td { (check.kind) }
-            td {
+            th scope="row" { (check.kind) }
+            td data-head="Promise" {
                 (check.promise)
                 @if let Some(detail) = check.detail.as_ref().filter(|_| !check.pass) {
                     br;
                     span class="small" { (sentence(detail)) }
                 }
             }
-            td class="n" { (quantity_or_dash(check.value, &check.unit)) }
-            td class="n" { (check.comparison.sign()) " " (quantity(check.limit, &check.unit)) }
-            td { @if check.pass { strong class="pass" { "✓ kept" } } @else { strong class="fail" { "✗ broken" } } }
+            td class="n" data-head="Measured" { (quantity_or_dash(check.value, &check.unit)) }
+            td class="n" data-head="Limit" { (check.comparison.sign()) " " (quantity(check.limit, &check.unit)) }
+            td data-head="Verdict" { @if check.pass { strong class="pass" { "✓ kept" } } @else { strong class="fail" { "✗ broken" } } }
         }
     }
 }
@@ -72,7 +73,7 @@ pub(super) fn proof(sheet: &Checklist, pictures: &[Picture]) -> Markup {
                 "Blue: the solid ellipsoid of the same mass and inertia. The quartered disc is the centre of mass, the dash-dotted line the axis of the goal, "
                 "the thick line the axis of the greatest moment I_c."
             }
-            (figures(pictures, Role::Inertia))
+            (figures_of(pictures, &[Role::Inertia, Role::Made]))
             (bodies(sheet))
         }
     }
@@ -123,7 +124,7 @@ fn bodies(sheet: &Checklist) -> Markup {
         .filter(|(_, _, of)| bodies.iter().any(|(_, body)| of(body).is_some()));
     let columns: Vec<&Column> = columns.collect();
     html! {
-        table {
+        table class="stack" {
             thead {
                 tr {
                     th scope="col" { "Body" } th scope="col" class="n" { "Mass" } th scope="col" { "Centre of mass, mm" }
@@ -134,13 +135,50 @@ fn bodies(sheet: &Checklist) -> Markup {
                 @for (name, body) in bodies {
                     tr {
                         th scope="row" { (name) }
-                        td class="n" { (quantity(body.mass_g, "g")) }
-                        td { (coordinates(&body.center_mm)) }
-                        @for (_, unit, of) in &columns {
-                            td class="n" { (quantity_or_dash(of(body), unit)) }
+                        td class="n" data-head="Mass" { (quantity(body.mass_g, "g")) }
+                        td data-head="Centre of mass, mm" { (coordinates(&body.center_mm)) }
+                        @for (head, unit, of) in &columns {
+                            td class="n" data-head=(head) { (quantity_or_dash(of(body), unit)) }
                         }
                     }
                 }
+            }
+        }
+    }
+}
+
+/// Returns the table of parts with their masses as computed.
+pub(super) fn parts(sheet: &Checklist) -> Markup {
+    html! {
+        section {
+            h2 { "Parts" }
+            p { "Sizes are along the printer's x, y and z; z = 0 is the plate." }
+            table class="stack" {
+                thead {
+                    tr {
+                        th scope="col" { "Part" } th scope="col" { "File" } th scope="col" class="n" { "Size" }
+                        th scope="col" class="n" { "Volume" } th scope="col" class="n" { "Mass" } th scope="col" class="n" { "Triangles" }
+                        th scope="col" { "Pins, sockets, marks" }
+                    }
+                }
+                tbody { @for part in &sheet.parts { (part_line(part)) } }
+            }
+        }
+    }
+}
+
+fn part_line(part: &PartRow) -> Markup {
+    html! {
+        tr {
+            th scope="row" { (part.id) }
+            td data-head="File" { (file_name(&part.file)) }
+            td class="n" data-head="Size" { (extent(&part.size_mm)) }
+            td class="n" data-head="Volume" { (quantity(part.volume_mm3 / MM3_PER_CM3, "cm³")) }
+            td class="n" data-head="Mass" { (quantity(part.mass_g, "g")) }
+            td class="n" data-head="Triangles" { (part.triangles) }
+            td data-head="Pins, sockets, marks" {
+                (format_count(part.pins.len(), "pin")) ", " (format_count(part.sockets.len(), "socket"))
+                @for mark in &part.marks { ", “" (mark.text) "” sunk into its face in " (mark.cut) }
             }
         }
     }
@@ -153,7 +191,7 @@ pub(super) fn files(inputs: &PageInputs) -> Markup {
         section class="loose" {
             h2 { "Files, software and sources" }
             p { "To test whether a file belongs to this sheet, " code { "equipoise verify" } " compares all of them, " code { "sha256sum" } " a single one." }
-            table class="hashes" {
+            table class="hashes stack" {
                 thead { tr { th scope="col" { "What" } th scope="col" { "SHA-256" } } }
                 tbody {
                     (hash_line("checklist.json", inputs.sha256))
@@ -176,7 +214,7 @@ pub(super) fn files(inputs: &PageInputs) -> Markup {
 }
 
 fn hash_line(what: &str, sha256: &str) -> Markup {
-    html! { tr { td { (what) } td { code { (sha256) } } } }
+    html! { tr { th scope="row" { (what) } td data-head="SHA-256" { code { (sha256) } } } }
 }
 
 /// Returns what the rounds kept solid around pins, and what it cost.

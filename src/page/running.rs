@@ -23,9 +23,9 @@ pub(super) fn style(job: &JobId) -> String {
     });
     format!(
         "@page {{ @top-left {{ content: {name}; font: 700 10pt system-ui, sans-serif; white-space: nowrap; }} \
-         @top-center {{ content: {units}; font: 8.5pt system-ui, sans-serif; }} {code} \
-         @bottom-left {{ content: {name}; font: 8.5pt system-ui, sans-serif; white-space: nowrap; }} \
-         @bottom-right {{ content: \"Page \" counter(page) \" of \" counter(pages); font: 8.5pt system-ui, sans-serif; }} }}"
+         @top-center {{ content: {units}; font: 10pt system-ui, sans-serif; }} {code} \
+         @bottom-left {{ content: {name}; font: 10pt system-ui, sans-serif; white-space: nowrap; }} \
+         @bottom-right {{ content: \"Page \" counter(page) \" of \" counter(pages); font: 10pt system-ui, sans-serif; }} }}"
     )
 }
 

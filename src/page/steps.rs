@@ -10,60 +10,71 @@ use super::hardware::fit_hardware;
 use super::printing::print_step;
 use super::trials::test_step;
 use super::weighing::{weigh_parts, weigh_whole};
-use crate::base::numbers::{coordinates, quantity};
+use crate::base::numbers::{coordinates, measured, quantity};
 use crate::base::units::MM3_PER_CM3;
 use crate::sheet::{BallastRow, Checklist};
 use crate::verify::FillOrder;
 
+/// A step: its name and what it shows.
+struct Step {
+    name: &'static str,
+    body: Markup,
+}
+
 /// Returns the names of the steps in their order. Parts are weighed while they can still be
 /// cleaned; filling, ballast and hardware are steps only if the job has them.
 pub(super) fn step_names(sheet: &Checklist) -> Vec<&'static str> {
-    let names = [
-        Some("Print"),
-        Some("Clean every void"),
-        Some("Weigh the parts"),
-        Some("Dry fit"),
-        sheet.fill.map(|_| "Fill every void"),
-        (!sheet.ballast.is_empty()).then_some("Lay in the ballast"),
-        Some("Glue"),
-        (!sheet.hardware.is_empty()).then_some("Put in the hardware"),
-        Some("Weigh the whole"),
-        Some("Test"),
-    ];
-    names.into_iter().flatten().collect()
+    let steps = all_steps(sheet, &[]);
+    steps.into_iter().map(|step| step.name).collect()
 }
 
 /// Returns every step with its pictures.
 pub(super) fn steps(sheet: &Checklist, pictures: &[Picture]) -> Markup {
-    let steps = [
-        Some(print_step(sheet)),
-        Some(html! { (clean(sheet)) (mouths_note(sheet)) }),
-        Some(weigh_parts(sheet)),
-        Some(html! { (dry_fit(sheet)) (figures(pictures, Role::Cut)) }),
-        sheet.fill.map(|fill| filling(sheet, fill)),
-        (!sheet.ballast.is_empty()).then(|| ballast(sheet)),
-        Some(html! { (glue(sheet)) (figures(pictures, Role::Exploded)) }),
-        (!sheet.hardware.is_empty()).then(|| fit_hardware(sheet, pictures)),
-        Some(weigh_whole(sheet)),
-        Some(test_step(sheet)),
-    ];
-    let steps = step_names(sheet)
-        .into_iter()
-        .zip(steps.into_iter().flatten());
+    let steps = all_steps(sheet, pictures).into_iter();
     html! {
-        @for (index, (name, step)) in steps.enumerate() {
-            section class="step" { h2 id=(format!("step-{}", index + 1)) { (index + 1) ". " (name) } (step) }
+        @for (index, step) in steps.enumerate() {
+            section class="step" {
+                h2 id=(format!("step-{}", index + 1)) { (index + 1) ". " (step.name) }
+                (step.body)
+            }
         }
     }
 }
 
-/// Returns where to look for drawings of the mouths.
-fn mouths_note(sheet: &Checklist) -> Markup {
-    html! {
-        @if !sheet.voids.is_empty() && !sheet.cuts.is_empty() {
-            p class="small" { "“Dry fit” below shows where each void opens; the first page shows the inside." }
-        }
-    }
+fn all_steps(sheet: &Checklist, pictures: &[Picture]) -> Vec<Step> {
+    let step = |name, body| Some(Step { name, body });
+    let clean = html! { (clean(sheet, pictures)) (weigh_parts(sheet)) };
+    let fit = html! { (dry_fit(sheet)) (figures(pictures, Role::Joint)) };
+    let glued = html! { (glue(sheet)) (figures(pictures, Role::Exploded)) };
+    // What goes into the voids goes in between the dry fit and the glue.
+    let between = [
+        sheet
+            .fill
+            .and_then(|fill| step("Fill every void", filling(sheet, fill))),
+        step("Lay in the ballast", ballast(sheet)).filter(|_| !sheet.ballast.is_empty()),
+    ];
+    let [fit, glued] = if between.iter().any(Option::is_some) {
+        [step("Dry fit", fit), step("Glue", glued)]
+    } else {
+        [step("Join", html! { (fit) (glued) }), None]
+    };
+    let is_glued = !sheet.joints.is_empty();
+    let hardware = step("Put in the hardware", fit_hardware(sheet, pictures));
+    let last = html! { (weigh_whole(sheet)) (test_step(sheet, pictures)) };
+    let first = [
+        step("Print", print_step(sheet, pictures)),
+        step("Clean and weigh", clean),
+    ];
+    let steps = first
+        .into_iter()
+        .chain([fit.filter(|_| is_glued)])
+        .chain(between)
+        .chain([glued.filter(|_| is_glued)])
+        .chain([
+            hardware.filter(|_| !sheet.hardware.is_empty()),
+            step("Test", last),
+        ]);
+    steps.flatten().collect()
 }
 
 fn filling(sheet: &Checklist, fill: FillOrder) -> Markup {
@@ -72,16 +83,18 @@ fn filling(sheet: &Checklist, fill: FillOrder) -> Markup {
             "With the cut faces up and level, fill every piece of a void flush with its cut face with a material of "
             (quantity(fill.density_g_cm3, "g/cm³")) ", without bubbles, and let it set. Keep sockets and cut faces clean."
         }
-        table {
-            tr { th { "Done" } th { "Void" } th class="n" { "Filling, in all its pieces" } th { "Weighed, g" } }
-            @for void in &sheet.voids {
-                tr {
-                    td { "☐" } td { strong { (void.id) } }
-                    td class="n" {
-                        (quantity(void.volume_mm3 / MM3_PER_CM3, "cm³")) ", "
-                        (quantity(void.volume_mm3 / MM3_PER_CM3 * fill.density_g_cm3, "g"))
+        table class="stack" {
+            thead { tr { th scope="col" { "Void" } th scope="col" class="n" { "Filling, in all its pieces" } th scope="col" { "Weighed, g" } } }
+            tbody {
+                @for void in &sheet.voids {
+                    tr {
+                        th scope="row" { "☐ " (void.id) }
+                        td class="n" data-head="Filling" {
+                            (measured(void.volume_mm3 / MM3_PER_CM3, "cm³")) ", "
+                            (measured(void.volume_mm3 / MM3_PER_CM3 * fill.density_g_cm3, "g"))
+                        }
+                        td data-head="Weighed, g" { (blank()) }
                     }
-                    td { (blank()) }
                 }
             }
         }
@@ -91,11 +104,14 @@ fn filling(sheet: &Checklist, fill: FillOrder) -> Markup {
 fn ballast(sheet: &Checklist) -> Markup {
     html! {
         p { "Weigh each piece first: one outside its window spoils the balance. Glue it into its pocket so that it cannot rattle." }
-        table {
-            tr {
-                th { "Done" } th { "Piece" } th class="n" { "Mass" } th { "Weighed, g" } th { "Into" } th { "Centre, model frame" }
+        table class="stack" {
+            thead {
+                tr {
+                    th scope="col" { "Piece" } th scope="col" class="n" { "Mass" } th scope="col" { "Weighed, g" }
+                    th scope="col" { "Into" } th scope="col" { "Centre, model frame" }
+                }
             }
-            @for row in &sheet.ballast { (ballast_line(row)) }
+            tbody { @for row in &sheet.ballast { (ballast_line(row)) } }
         }
         p class="small" { "Sources of the sizes and masses:" }
         @for source in ballast_sources(sheet) { p class="small" { (source) } }
@@ -106,12 +122,11 @@ fn ballast_line(row: &BallastRow) -> Markup {
     let lump = &row.order.lump;
     html! {
         tr {
-            td { "☐" }
-            td { strong { (row.order.id) } ": " (row.name) " (" code { (row.part) } ")" }
-            td class="n" { (mass_window(lump.mass_g, row.mass_spread_ratio)) }
-            td { (blank()) }
-            td { "pocket " (row.void) ", open along " (row.opened_by.join(", ")) ", " (quantity(row.clearance_mm, "mm")) " of room all around" }
-            td {
+            th scope="row" { "☐ " (row.order.id) ": " (row.name) " (" code { (row.part) } ")" }
+            td class="n" data-head="Mass" { (mass_window(lump.mass_g, row.mass_spread_ratio)) }
+            td data-head="Weighed, g" { (blank()) }
+            td data-head="Into" { "pocket " (row.void) ", open along " (row.opened_by.join(", ")) ", " (quantity(row.clearance_mm, "mm")) " of room all around" }
+            td data-head="Centre, model frame" {
                 (coordinates(&lump.center_mm))
                 @if !lump.shape.is_ball() { ", axis " (coordinates(&lump.axis)) }
             }
@@ -127,11 +142,14 @@ fn ballast_sources(sheet: &Checklist) -> Vec<&String> {
     sources
 }
 
-fn clean(sheet: &Checklist) -> Markup {
+fn clean(sheet: &Checklist, pictures: &[Picture]) -> Markup {
     html! {
         @if sheet.voids.is_empty() { p { "There are no voids: nothing to clean." } }
-        ul class="ticks" {
-            @for void in &sheet.voids { (clean_one(sheet, void)) }
+        @else {
+            div class="beside" {
+                (figures(pictures, Role::CutAway))
+                ul class="ticks" { @for void in &sheet.voids { (clean_one(sheet, void)) } }
+            }
         }
     }
 }

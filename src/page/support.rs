@@ -1,11 +1,11 @@
 //! The support of each part and of the whole job.
 
-use crate::base::numbers::quantity;
-use crate::base::units::{MM2_PER_CM2, format_count};
+use crate::base::numbers::measured;
+use crate::base::units::MM2_PER_CM2;
 use crate::sheet::{Checklist, PartRow, Process, SupportMethod, SupportRow};
 
-/// Height over the plate up to which overhangs are said to begin on the plate, mm.
-const ON_PLATE_MM: f64 = 0.05;
+/// Area up to which support is not told, mm²: a point or two.
+const LEAST_AREA_MM2: f64 = 0.5;
 
 /// Words the support setting of the slicer for a part, and where support touches it.
 fn support_words(support: &SupportRow) -> String {
@@ -16,29 +16,20 @@ fn support_words(support: &SupportRow) -> String {
         ("outside", support.outside_mm2),
         ("in the open hollow", support.hollow_mm2),
         (
-            "on cut faces and pins, where every remainder must be cut off flush",
+            "on cut faces and pins: cut every rest off flush",
             support.cut_face_mm2,
         ),
     ];
-    let areas = areas.into_iter().filter(|(_, mm2)| *mm2 > 0.0);
+    let areas = areas.into_iter().filter(|(_, mm2)| *mm2 > LEAST_AREA_MM2);
     let areas: Vec<String> = areas
-        .map(|(place, mm2)| format!("{} {place}", quantity(mm2 / MM2_PER_CM2, "cm²")))
+        .map(|(place, mm2)| format!("{} {place}", measured(mm2 / MM2_PER_CM2, "cm²")))
         .collect();
     let areas = if areas.is_empty() {
-        "no more than points".to_owned()
+        "a few points".to_owned()
     } else {
         areas.join(", ")
     };
-    let lowest = if support.from_mm < ON_PLATE_MM {
-        0.0
-    } else {
-        support.from_mm
-    };
-    let [from, to] = [lowest, support.to_mm].map(|mm| quantity(mm, "mm"));
-    format!(
-        "on, under {} from {from} to {to} over the plate: {areas}",
-        format_count(support.places, "place")
-    )
+    format!("on: {areas}")
 }
 
 /// Words the support of a part; `None` if the printer does not say which surfaces need it.
@@ -59,10 +50,10 @@ pub(super) fn of_all(sheet: &Checklist) -> String {
             "off for every part: nothing hangs in the air as they lie.".to_owned()
         }
         Some(places) if places.contains(&0) => {
-            "on for some parts and off for others, as listed below; none in sockets. Support in an open hollow is removed in the next step."
+            "on for the parts marked below, off for the others. None in the pin holes. Support inside a hollow is removed in the next step."
                 .to_owned()
         }
-        Some(_) => "on for every part, as listed below; none in sockets. Support in an open hollow is removed in the next step."
+        Some(_) => "on for every part, none in the pin holes. Support inside a hollow is removed in the next step."
             .to_owned(),
         None => by_process(sheet).to_owned(),
     }
@@ -73,10 +64,10 @@ fn by_process(sheet: &Checklist) -> &'static str {
     match (sheet.printer.support, &sheet.printer.process) {
         (SupportMethod::None, _) => "none; the powder holds every part.",
         (SupportMethod::Breakaway, Process::Sla) => {
-            "on, outside and under overhangs in an open hollow; none on cut faces, pins and sockets. It is removed in the next step."
+            "on, also inside an open hollow; none on cut faces, on pins and in their holes. It is removed in the next step."
         }
         (SupportMethod::Breakaway, _) => {
-            "on where a part overhangs; none in sockets. Support in an open hollow is removed in the next step."
+            "on where a part overhangs, none in the pin holes. Support inside a hollow is removed in the next step."
         }
         _ => "as the machine places it. Support in the voids is removed in the next step.",
     }
@@ -109,12 +100,9 @@ mod tests {
             ..SupportRow::default()
         };
         sheet.parts[0].support = Some(hangs);
-        assert!(of_all(&sheet).contains("on for some parts"));
+        assert!(of_all(&sheet).contains("on for the parts marked below"));
         let words = of_part(&sheet.parts[0]).unwrap().replace('\u{a0}', " ");
-        assert_eq!(
-            words,
-            "Support on, under 2 places from 3 mm to 8 mm over the plate: 1.5 cm² in the open hollow."
-        );
+        assert_eq!(words, "Support on: 1.5 cm² in the open hollow.");
         sheet
             .parts
             .iter_mut()

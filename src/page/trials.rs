@@ -3,7 +3,8 @@
 use maud::{Markup, html};
 
 use super::fields::blank;
-use crate::base::numbers::{extent, number, quantity};
+use super::figure::{Picture, Role};
+use crate::base::numbers::{measured, measured_extent, number, quantity};
 use crate::goal::GoalKind;
 use crate::sheet::{Checklist, FootRow};
 
@@ -21,12 +22,20 @@ const MOST_TILT_DEG: f64 = 45.0;
 /// to be at hand.
 const BOARD_MM: f64 = 300.0;
 
-/// Returns the tests with boxes to tick, and a line for the result.
-pub(super) fn test_step(sheet: &Checklist) -> Markup {
+/// Returns the tests with boxes to tick and a picture of the centre of mass, and a line for the
+/// result.
+pub(super) fn test_step(sheet: &Checklist, pictures: &[Picture]) -> Markup {
     html! {
-        ul class="ticks together" {
-            @for line in test_lines(sheet) { li { (line) } }
-            li { "Result: " (blank()) }
+        div class="beside" {
+            @if let Some(picture) = pictures.iter().find(|picture| picture.role == Role::Made) {
+                div class="pictures" {
+                    figure { (picture.image()) figcaption { "The quartered disc is the centre of mass, the dash-dotted line the axis." } }
+                }
+            }
+            ul class="ticks" {
+                @for line in test_lines(sheet) { li { (line) } }
+                li { "Result: " (blank()) }
+            }
         }
     }
 }
@@ -34,10 +43,7 @@ pub(super) fn test_step(sheet: &Checklist) -> Markup {
 /// Words the tests, with the figures to expect.
 fn test_lines(sheet: &Checklist) -> Vec<String> {
     let size_mm = sheet.finished_size_mm.unwrap_or(sheet.model.size_mm);
-    let size = format!(
-        "Measure its overall size, along the model's own axes: {}.",
-        extent(&size_mm)
-    );
+    let size = format!("Measure its overall size: {}.", measured_extent(&size_mm));
     let own = match sheet.goal.aim.kind {
         GoalKind::Top => top_lines(sheet),
         GoalKind::Yoyo => yoyo_lines(sheet),
@@ -51,14 +57,14 @@ fn test_lines(sheet: &Checklist) -> Vec<String> {
 /// Words the test of the centre of mass with a thread, and where it must be.
 fn hang_line(place: &str) -> String {
     format!(
-        "Find its balance point: hang it by a thread from two places, one after the other. The line of the thread, extended through it, \
-         passes through the centre of mass both times: {place}."
+        "Hang it by a thread from two places, one after the other. The line of the thread passes through the centre of mass both times: \
+         {place}."
     )
 }
 
 /// Words the tests of a top: one that falls when it is slow, or one that stands on its foot.
 fn top_lines(sheet: &Checklist) -> Vec<String> {
-    let height = quantity(sheet.assembly.center_height_mm, "mm");
+    let height = measured(sheet.assembly.center_height_mm, "mm");
     let hang = hang_line(&format!(
         "on the spin axis, {height} above the contact point"
     ));
@@ -77,11 +83,11 @@ fn top_lines(sheet: &Checklist) -> Vec<String> {
 /// Words the spin test of a top that falls when it is slow.
 fn falling_line(rpm: f64) -> String {
     format!(
-        "Spin it upright on its contact point, on a hard smooth table, faster than {}, which is {} turns a second. It stays upright; \
-         as friction slows it below that speed it leans over and falls. To see its speed, put a mark on its side and film it at \
-         {FILM_PER_S} frames a second: at that speed a turn takes {} frames.",
-        quantity(rpm, "rpm"),
-        number(rpm / S_PER_MIN),
+        "Spin it upright on a hard, smooth table, faster than {} ({:.1} turns a second). It stays upright until friction slows it \
+         below that speed. To see its speed, put a mark on its side and film it at {FILM_PER_S} frames a second: \
+         at that speed a turn takes {} frames. Slower, it leans over and falls.",
+        measured(rpm, "rpm"),
+        rpm / S_PER_MIN,
         number((FILM_PER_S * S_PER_MIN / rpm).round())
     )
 }
@@ -89,7 +95,7 @@ fn falling_line(rpm: f64) -> String {
 /// Words the tests of a top that stands on its foot. It never falls, so they cannot show the
 /// promised speed.
 fn foot_lines(foot: &FootRow, rpm: Option<f64>) -> impl Iterator<Item = String> {
-    let tilt = quantity(foot.rights_to_deg, "°");
+    let tilt = measured(foot.rights_to_deg, "°");
     let beyond = if foot.rights_to_deg < MOST_TILT_DEG {
         "; leaned further it falls over"
     } else {
@@ -103,7 +109,7 @@ fn foot_lines(foot: &FootRow, rpm: Option<f64>) -> impl Iterator<Item = String> 
         format!(
             "Spin it upright on a hard smooth table: it turns about its axis, rubs on its foot, slows down and comes to rest standing. It does not fall \
              when it is slow, so no fall shows the promised {}, which hold for contact in one point. Put a tip under it to see them.",
-            quantity(rpm, "rpm")
+            measured(rpm, "rpm")
         )
     });
     [rest].into_iter().chain(spin)
@@ -115,12 +121,12 @@ fn yoyo_lines(sheet: &Checklist) -> Vec<String> {
         format!(
             "Tie a string thinner than {} around the axle in the gap, wind it up, hold its end and let the yo-yo fall: it runs down the string \
              and up again without leaning to either side.",
-            quantity(gap_mm, "mm")
+            measured(gap_mm, "mm")
         )
     });
     let held = [
         hang_line("in the spin point, on the axis"),
-        "Hold it between two points on its axis: it stays in any position, as its centre of mass lies on the axis.".to_owned(),
+        "Hold it between two points on its axis: it stays in any position.".to_owned(),
         "Spin it up about its axis and let go in the air: it goes on turning about that axis and does not wobble.".to_owned(),
     ];
     held.into_iter().chain(string).collect()
@@ -128,14 +134,14 @@ fn yoyo_lines(sheet: &Checklist) -> Vec<String> {
 
 /// Words the tests of an object that stands.
 fn standing_lines(sheet: &Checklist) -> Vec<String> {
-    let height = quantity(sheet.assembly.center_height_mm, "mm");
+    let height = measured(sheet.assembly.center_height_mm, "mm");
     let tilt = sheet.assembly.topples_deg.map(|deg| {
         format!(
-            "Set it on a rough board, {} long, and raise one end slowly: it stands until the board leans by {}, when that end is {} up, \
-             whichever way it is turned.",
-            quantity(BOARD_MM, "mm"),
-            quantity(deg, "°"),
-            quantity(BOARD_MM * deg.to_radians().sin(), "mm")
+            "Set it on a rough board, {} long, and raise one end slowly. It stands until the board leans by {}: that end is then {} up. \
+             It does so whichever way it is turned.",
+            measured(BOARD_MM, "mm"),
+            measured(deg, "°"),
+            measured(BOARD_MM * deg.to_radians().sin(), "mm")
         )
     });
     [hang_line(&format!("{height} above the ground"))]
@@ -150,7 +156,7 @@ fn floating_lines(sheet: &Checklist) -> Vec<String> {
     let only_if = if is_measured {
         String::new()
     } else {
-        let mass = quantity(sheet.assembly.mass_g, "g");
+        let mass = measured(sheet.assembly.mass_g, "g");
         format!("Its density was not measured: if it weighs {mass}, ")
     };
     let liquid = sheet
@@ -163,8 +169,8 @@ fn floating_lines(sheet: &Checklist) -> Vec<String> {
         format!(
             "{only_if}{} lies {} deep{liquid}; leaned by {} to any side and let go, it comes back.",
             if is_measured { "It" } else { "it" },
-            quantity(afloat.waterline_mm, "mm"),
-            quantity(afloat.rights_from_deg, "°")
+            measured(afloat.waterline_mm, "mm"),
+            measured(afloat.rights_from_deg, "°")
         )
     });
     let tight = "Hold it under water for a minute: no bubbles rise from the seams, and it weighs as much as before.";
@@ -179,8 +185,7 @@ fn rotor_lines(sheet: &Checklist) -> Vec<String> {
             quantity(unbalance.end_plane_g_mm, "g·mm")
         )
     });
-    let level =
-        "Laid with its shaft on two level knife edges, it stays in any position.".to_owned();
+    let level = "Put its shaft on two level knife edges: it stays in any position.".to_owned();
     [level].into_iter().chain(residual).collect()
 }
 
@@ -188,7 +193,7 @@ fn rotor_lines(sheet: &Checklist) -> Vec<String> {
 fn tip_line(sheet: &Checklist) -> Option<String> {
     let gap_mm = sheet.goal.contact_gap_mm;
     (gap_mm > 0.0).then(|| {
-        let gap = quantity(gap_mm, "mm");
+        let gap = measured(gap_mm, "mm");
         format!("Its contact point is {gap} below it: glue on a tip of that length, as light as possible; the figures do not include its mass.")
     })
 }
@@ -201,7 +206,7 @@ mod tests {
     fn page_of(foot: Option<FootRow>) -> String {
         let mut sheet = sample().0;
         sheet.foot = foot;
-        test_step(&sheet).into_string()
+        test_step(&sheet, &[]).into_string()
     }
 
     #[test]

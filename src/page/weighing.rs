@@ -2,61 +2,110 @@
 
 use maud::{Markup, html};
 
-use super::fields::{blank, mass_of_parts_g, mass_window, mass_with_window, residue};
+use super::fields::{blank, mass_of_parts_g, residue};
 use super::hardware::word;
-use crate::base::numbers::{number, quantity};
+use crate::base::numbers::measured;
 use crate::base::units::MM3_PER_CM3;
 use crate::sheet::Checklist;
 
+/// Least difference that a scale in a shop shows, g.
+const SCALE_G: f64 = 0.1;
+
+/// Deviation of a sound print's mass where the profile gives none, as a share of the mass.
+const COMMON_SPREAD_RATIO: f64 = 0.03;
+
+/// Least distance of a share from its limits, in per cent: what rounding leaves.
+const LEAST_SHARE_PERCENT: f64 = 0.1;
+
 /// Returns the weighing of every part, while it can still be cleaned.
 pub(super) fn weigh_parts(sheet: &Checklist) -> Markup {
-    let is_known = sheet.material.density_spread_ratio.is_some();
+    let by_share = is_by_share(sheet);
     html! {
-        @if !is_known {
+        @if by_share {
             p {
-                "The density was not measured, so the masses are approximate. Check each part's share of all parts, which does not depend on the density. "
-                "For weighing windows, print and weigh the coupons (" code { "equipoise coupon" } ") of " code { (sheet.printer.id) } "."
+                "The density was not measured here: target weights are approximate. Check the percentages. For exact weights, print and weigh the coupons ("
+                code { "equipoise coupon" } ")."
             }
         }
-        table {
+        table class="stack" {
             thead {
                 tr {
                     th scope="col" { "Part" }
-                    th scope="col" class="n" { "Expected" }
+                    th scope="col" class="n" { "Target" }
                     th scope="col" { "Weighed, g" }
-                    th scope="col" {
-                        @if is_known { "In the window" } @else { "Share of all parts, %" }
-                    }
+                    @if by_share { th scope="col" { "Share of all parts, %" } }
+                    th scope="col" class="n" { "Reject outside" }
                 }
             }
             tbody {
-                @for part in &sheet.parts {
-                    tr {
-                        td { (part.id) }
-                        td class="n" { (mass_with_window(sheet, part.mass_g)) }
-                        td { (blank()) }
-                        td { (tick_or_blank(sheet)) }
-                    }
-                }
-                tr {
-                    td { strong { "all parts" } }
-                    td class="n" { (mass_with_window(sheet, mass_of_parts_g(sheet))) }
-                    td { (blank()) }
-                    td { (tick_or_blank(sheet)) }
-                }
+                @for part in &sheet.parts { (weigh_line(sheet, &part.id, part.mass_g)) }
+                @if sheet.parts.len() > 1 { (weigh_line(sheet, "all parts", mass_of_parts_g(sheet))) }
             }
         }
-        p class="small" { "A part too heavy still holds " (residue(&sheet.printer.process)) ": clean it again before gluing. A part too light was not printed solid." }
+        p { "Too heavy: it still holds " (residue(&sheet.printer.process)) ", clean it again. Too light: it was not printed solid." }
     }
 }
 
-/// Returns a box to tick if there is a window, else a line for the share.
-fn tick_or_blank(sheet: &Checklist) -> Markup {
-    if sheet.material.density_spread_ratio.is_some() {
-        html! { "☐" }
-    } else {
-        blank()
+/// Returns the line of a part, or of all parts, with the limits beyond which it is not used.
+fn weigh_line(sheet: &Checklist, id: &str, mass_g: f64) -> Markup {
+    let all_g = mass_of_parts_g(sheet);
+    let is_all = mass_g >= all_g;
+    let by_share = is_by_share(sheet);
+    html! {
+        tr {
+            th scope="row" { (id) }
+            td class="n" data-head="Target" {
+                (measured(mass_g, "g"))
+                @if by_share && !is_all { ", " (percent(mass_g / all_g)) }
+            }
+            td data-head="Weighed, g" { (blank()) }
+            @if by_share { td data-head="Share, %" { @if is_all { "100 %" } @else { (blank()) } } }
+            td class="n" data-head="Reject outside" {
+                @if by_share && is_all { "—" }
+                @else if by_share { (share_window(sheet, mass_g / all_g)) }
+                @else { (window(mass_g, spread_ratio(sheet))) }
+            }
+        }
     }
+}
+
+/// Returns whether parts are judged by their shares: the density is not known, but several parts
+/// have the same.
+fn is_by_share(sheet: &Checklist) -> bool {
+    sheet.material.density_spread_ratio.is_none() && sheet.parts.len() > 1
+}
+
+/// Returns the deviation of a sound print's mass, as a share of the mass.
+fn spread_ratio(sheet: &Checklist) -> f64 {
+    let material = &sheet.material;
+    let known = material
+        .density_spread_ratio
+        .or(material.typical_spread_ratio);
+    known.unwrap_or(COMMON_SPREAD_RATIO)
+}
+
+/// Words the least and the greatest share of a sound part.
+///
+/// If part and rest deviate by the spread, one up and one down, the share p moves by 2 s p (1 − p).
+fn share_window(sheet: &Checklist, share: f64) -> String {
+    let away = 100.0 * 2.0 * spread_ratio(sheet) * share * (1.0 - share);
+    let away = away.max(LEAST_SHARE_PERCENT);
+    let [least, most] = [100.0 * share - away, 100.0 * share + away];
+    format!("{least:.1}–{most:.1}\u{a0}%")
+}
+
+fn percent(share: f64) -> String {
+    format!("{:.1}\u{a0}%", 100.0 * share)
+}
+
+/// Words the least and the greatest mass of a sound print.
+fn window(mass_g: f64, spread_ratio: f64) -> String {
+    let [least, most] = [1.0 - spread_ratio, 1.0 + spread_ratio].map(|ratio| mass_g * ratio);
+    format!(
+        "{}–{}",
+        measured(least, "g").replace("\u{a0}g", ""),
+        measured(most, "g")
+    )
 }
 
 /// A component of the whole.
@@ -80,12 +129,7 @@ fn shares(sheet: &Checklist) -> Vec<Share> {
         .iter()
         .map(|row| (row.order.id.clone(), row.order.lump.mass_g));
     let dowels = sheet.dowels.iter().map(|dowel| dowel.mass_g).sum();
-    let glue = sheet
-        .joints
-        .iter()
-        .filter_map(|joint| joint.glue)
-        .map(|film| film.mass_g)
-        .sum();
+    let glue = glue_mass_g(sheet);
     let voids_cm3 = sheet
         .voids
         .iter()
@@ -107,38 +151,34 @@ fn shares(sheet: &Checklist) -> Vec<Share> {
         .collect()
 }
 
-/// Returns the weighing of the whole, with its components.
+/// Returns the weighing of the whole: what it must be, beside what its parts weighed.
 pub(super) fn weigh_whole(sheet: &Checklist) -> Markup {
     let shares = shares(sheet);
-    let whole_g = sheet.assembly.mass_g;
+    let added_g: f64 = shares.iter().skip(1).map(|share| share.mass_g).sum();
+    let glue_g: f64 = glue_mass_g(sheet);
+    let added: Vec<String> = shares
+        .iter()
+        .skip(1)
+        .map(|share| format!("{} {}", share.what, measured(share.mass_g, "g")))
+        .collect();
     html! {
-        table {
-            thead {
-                tr {
-                    th scope="col" { "What" }
-                    th scope="col" class="n" { "Expected" }
-                    th scope="col" class="n" { "Share of the whole" }
-                    th scope="col" { "Weighed, g" }
-                }
-            }
-            tbody {
-                @for share in shares.iter().filter(|_| shares.len() > 1) {
-                    tr {
-                        td { (share.what) }
-                        td class="n" { (quantity(share.mass_g, "g")) }
-                        td class="n" { (number(100.0 * share.mass_g / whole_g)) " %" }
-                        td { "as weighed before" }
-                    }
-                }
-                tr {
-                    td { strong { (all_together(sheet)) } }
-                    td class="n" { (whole_mass(sheet)) }
-                    td class="n" { "100 %" }
-                    td { (blank()) }
+        ul class="ticks" {
+            li {
+                "Weigh " (all_together(sheet)) ": target " strong { (whole_mass(sheet)) } ". Weighed, g " (blank())
+                @if !added.is_empty() {
+                    br;
+                    "That is what the parts weighed, and with it (calculated): " (added.join(", ")) ". Reject it if it weighs over "
+                    (measured(added_g + glue_g + SCALE_G, "g")) " more than the parts weighed: too much glue, or something is left inside."
                 }
             }
         }
     }
+}
+
+/// Returns the mass of the glue, g.
+fn glue_mass_g(sheet: &Checklist) -> f64 {
+    let films = sheet.joints.iter().filter_map(|joint| joint.glue);
+    films.map(|film| film.mass_g).sum()
 }
 
 fn all_together(sheet: &Checklist) -> &'static str {
@@ -149,18 +189,21 @@ fn all_together(sheet: &Checklist) -> &'static str {
     }
 }
 
-/// Returns the mass of the whole, with the window due to the print's density and the ballast.
-fn whole_mass(sheet: &Checklist) -> Markup {
-    let spread_g: f64 = sheet
-        .ballast
-        .iter()
+/// Words the mass of the whole, with the window due to the print's density and the ballast if the
+/// density was measured. The spread of a filling is not known.
+fn whole_mass(sheet: &Checklist) -> String {
+    let ballast = sheet.ballast.iter();
+    let spread_g: f64 = ballast
         .map(|row| row.order.lump.mass_g * row.mass_spread_ratio)
         .sum();
     let mass_g = sheet.assembly.mass_g;
+    let target = measured(mass_g, "g");
     match sheet.material.density_spread_ratio {
-        // The spread of a filling is not known.
-        Some(ratio) => mass_window(mass_g, (ratio * mass_of_parts_g(sheet) + spread_g) / mass_g),
-        None => html! { (quantity(mass_g, "g")) },
+        Some(ratio) => {
+            let spread_ratio = (ratio * mass_of_parts_g(sheet) + spread_g) / mass_g;
+            format!("{target}, reject outside {}", window(mass_g, spread_ratio))
+        }
+        None => target,
     }
 }
 
@@ -178,5 +221,40 @@ mod tests {
         let sum: f64 = shares(&sheet).iter().map(|share| share.mass_g).sum();
         assert!((sum - sheet.assembly.mass_g - filled_g).abs() < 1e-9 * sum);
         assert_eq!(shares(&sheet).len(), 2);
+    }
+
+    #[test]
+    fn every_weighing_has_a_limit_by_share_if_the_density_is_not_measured() {
+        let mut sheet = sample().0;
+        let page = weigh_parts(&sheet).into_string();
+        assert!(!page.contains("Share of all parts"), "measured: by mass");
+        assert_eq!(page.matches("–").count(), 3, "both parts and all of them");
+        sheet.material.density_spread_ratio = None;
+        let page = weigh_parts(&sheet).into_string();
+        assert!(page.contains("Check the percentages") && page.contains("\u{a0}%</td>"));
+        sheet.parts.truncate(1);
+        let page = weigh_parts(&sheet).into_string();
+        assert!(page.contains("–") && !page.contains("percentages"));
+    }
+
+    #[test]
+    fn the_limit_of_a_share_is_that_of_two_masses_that_deviate_against_each_other() {
+        let mut sheet = sample().0;
+        sheet.material.density_spread_ratio = None;
+        sheet.material.typical_spread_ratio = Some(0.02);
+        let (part, rest): (f64, f64) = (30.0, 70.0);
+        let exact = [
+            part * 0.98 / (part * 0.98 + rest * 1.02),
+            part * 1.02 / (part * 1.02 + rest * 0.98),
+        ];
+        let words = share_window(&sheet, 0.3);
+        let said: Vec<f64> = words
+            .trim_end_matches("\u{a0}%")
+            .split('–')
+            .map(|limit| limit.parse().unwrap())
+            .collect();
+        for (said, exact) in said.iter().zip(exact) {
+            assert!((said - 100.0 * exact).abs() < 0.06, "{words} {exact}");
+        }
     }
 }

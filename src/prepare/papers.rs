@@ -9,11 +9,11 @@ use crate::cut::CutOrder;
 use crate::error::Error;
 use crate::job::JobError;
 use crate::kit::Kit;
-use crate::page::{PageInputs, cup_warning, draw_figures, page};
+use crate::page::{self, PageInputs, cup_warning, draw_figures};
 use crate::run::Placed;
 use crate::sheet::from_run::{Facts, checklist};
 use crate::sheet::{Checklist, Timing};
-use crate::verify::{CHECKLIST_FILE, SHEET_FILE, SUMS_FILE, sums};
+use crate::verify::{CERTIFICATE_FILE, CHECKLIST_FILE, SHEET_FILE, SUMS_FILE, sums};
 
 /// File of the uncut result in a kit.
 const HOLLOWED: &str = "hollowed.stl";
@@ -89,7 +89,8 @@ fn add_papers(kit: &mut Kit, sheet: &Checklist, draft: &Draft) -> Result<(), Err
         pictures: &draft.pictures,
         view: Some(&draft.view),
     };
-    kit.add(SHEET_FILE, page(&inputs).into_bytes());
+    kit.add(SHEET_FILE, page::job(&inputs).into_bytes());
+    kit.add(CERTIFICATE_FILE, page::certificate(&inputs).into_bytes());
     kit.add(SUMS_FILE, sums(kit.files()).into_bytes());
     Ok(())
 }

@@ -125,6 +125,8 @@ pub(super) fn complete(
         support: support?,
         print_pose: print_pose?,
         cleaning: cleaning?,
+        glue: layer.glue,
+        glue_safety: layer.glue_safety,
         materials,
         optional_numbers,
     })

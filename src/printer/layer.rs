@@ -28,6 +28,8 @@ pub(super) struct Layer {
     pub support: Option<Support>,
     pub print_pose: Option<PrintPose>,
     pub cleaning: Option<String>,
+    pub glue: Option<String>,
+    pub glue_safety: Option<String>,
     pub build_volume_mm: Option<Sourced<[f64; 3]>>,
     pub largest_part_mm: Option<Sourced<[f64; 3]>>,
     pub excluded_corners: Vec<ExcludedCorner>,
@@ -43,6 +45,10 @@ impl Layer {
     /// Checks the values of `text`; `reader` collects the faults.
     pub fn read(reader: &mut Reader, text: &ProfileText) -> Self {
         let numbers = text.numbers.iter();
+        let mut words =
+            |key, text: &Option<Spanned<String>>| text.as_ref().map(|text| reader.words(key, text));
+        let (cleaning, glue) = (words("cleaning", &text.cleaning), words("glue", &text.glue));
+        let glue_safety = words("glue_safety", &text.glue_safety);
         Self {
             id: reader.id(&text.id),
             name: reader.words("name", &text.name),
@@ -51,10 +57,9 @@ impl Layer {
             grid: text.grid,
             support: text.support,
             print_pose: text.print_pose,
-            cleaning: text
-                .cleaning
-                .as_ref()
-                .map(|cleaning| reader.words("cleaning", cleaning)),
+            cleaning,
+            glue,
+            glue_safety,
             build_volume_mm: text
                 .build_volume_mm
                 .as_ref()
@@ -131,6 +136,8 @@ impl Layer {
             support: self.support.or(parent.support),
             print_pose: self.print_pose.or(parent.print_pose),
             cleaning: self.cleaning.or(parent.cleaning),
+            glue: self.glue.or(parent.glue),
+            glue_safety: self.glue_safety.or(parent.glue_safety),
             build_volume_mm: self.build_volume_mm.or(parent.build_volume_mm),
             largest_part_mm: self.largest_part_mm.or(parent.largest_part_mm),
             excluded_corners: first_of(self.excluded_corners, parent.excluded_corners),

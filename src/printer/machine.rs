@@ -173,6 +173,10 @@ pub struct Printer {
     pub print_pose: PrintPose,
     /// Instruction for cleaning a void: a sentence for the job sheet.
     pub cleaning: String,
+    /// The glue for its materials: a name for the job sheet.
+    pub glue: Option<String>,
+    /// The dangers of that glue: sentences for the job sheet.
+    pub glue_safety: Option<String>,
     /// The materials it prints, never empty; the default is first.
     pub materials: Vec<Material>,
     /// The known numbers among those that a printer may lack ([`Quantity::is_needed`]).

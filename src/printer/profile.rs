@@ -18,6 +18,8 @@ pub(super) struct ProfileText {
     pub support: Option<Support>,
     pub print_pose: Option<PrintPose>,
     pub cleaning: Option<Spanned<String>>,
+    pub glue: Option<Spanned<String>>,
+    pub glue_safety: Option<Spanned<String>>,
     pub materials: Option<Spanned<Vec<Spanned<String>>>>,
     pub default_material: Option<Spanned<String>>,
     pub build_volume_mm: Option<Spanned<ValueText<[f64; 3]>>>,

@@ -24,6 +24,10 @@ const OVERHANG_DEG: RangeInclusive<f64> = 5.0..=89.0;
 const THICKEST_FILM_MM: f64 = 1.0;
 /// Densities of glues, g/cm³. Other values must be in kg/m³.
 const GLUES_G_CM3: RangeInclusive<f64> = 0.5..=3.0;
+/// Times for which glued parts are held, seconds: up to an hour.
+const HOLD_S: RangeInclusive<f64> = 1.0..=3600.0;
+/// Times after which glue has its whole strength, hours: up to two weeks.
+const CURE_H: RangeInclusive<f64> = 0.01..=336.0;
 /// Tolerances and shrinkages over a length. Larger values must be in per cent.
 const LENGTH_RATIOS: RangeInclusive<f64> = 1e-6..=0.1;
 
@@ -91,11 +95,15 @@ pub enum Quantity {
     /// Density of that glue once it has set.
     #[serde(rename = "glue_density_g_cm3")]
     GlueDensityGCm3,
+    /// Seconds for which glued parts are held together.
+    GlueHoldS,
+    /// Hours after which the glue has its whole strength.
+    GlueCureH,
 }
 
 impl Quantity {
     /// Every quantity, in order.
-    pub const ALL: [Self; 29] = [
+    pub const ALL: [Self; 31] = [
         Self::PixelXMm,
         Self::PixelYMm,
         Self::LayerMm,
@@ -125,6 +133,8 @@ impl Quantity {
         Self::ShrinkageZRatio,
         Self::GlueFilmMm,
         Self::GlueDensityGCm3,
+        Self::GlueHoldS,
+        Self::GlueCureH,
     ];
 
     /// Returns its key in a profile.
@@ -159,6 +169,8 @@ impl Quantity {
             Self::ShrinkageZRatio => "shrinkage_z_ratio",
             Self::GlueFilmMm => "glue_film_mm",
             Self::GlueDensityGCm3 => "glue_density_g_cm3",
+            Self::GlueHoldS => "glue_hold_s",
+            Self::GlueCureH => "glue_cure_h",
         }
     }
 
@@ -184,6 +196,8 @@ impl Quantity {
                 | Self::ShrinkageZRatio
                 | Self::GlueFilmMm
                 | Self::GlueDensityGCm3
+                | Self::GlueHoldS
+                | Self::GlueCureH
         )
     }
 
@@ -217,6 +231,8 @@ impl Quantity {
             Self::ToleranceRatio | Self::ShrinkageXyRatio | Self::ShrinkageZRatio => LENGTH_RATIOS,
             Self::GlueFilmMm => FINEST_MM..=THICKEST_FILM_MM,
             Self::GlueDensityGCm3 => GLUES_G_CM3,
+            Self::GlueHoldS => HOLD_S,
+            Self::GlueCureH => CURE_H,
         }
     }
 

@@ -17,7 +17,9 @@ pub use checklist::{Checklist, ChecklistError, LogRow, ModelRow, Tool, Verdict};
 pub use goal::{FootRow, GoalRow, ObjectiveName, TurnRow};
 pub use joints::{BallastRow, BossRow, CutListRow, JointRow, RoundRow};
 pub use parts::{Half, PartRow, SupportRow, finished_size_mm, part_picture_file};
-pub use printer::{Direction, GridRow, MaterialRow, PrinterRow, Process, SupportMethod, WallRow};
+pub use printer::{
+    Direction, GlueRow, GridRow, MaterialRow, PrinterRow, Process, SupportMethod, WallRow,
+};
 pub use timing::Timing;
 pub(crate) use voids::checks_of_void;
 pub use voids::{CutRow, SideRow, VoidRow, is_clean};

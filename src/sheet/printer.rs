@@ -36,8 +36,27 @@ pub struct PrinterRow {
     pub minimum_opening_mm: f64,
     /// Rule by which a void counts as clean.
     pub cleaning: Cleaning,
+    /// Glue for its materials; `None` if its profile names none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub glue: Option<GlueRow>,
     /// Sources of these numbers, in words, and which of them are assumed.
     pub sources: Vec<String>,
+}
+
+/// A glue, as far as the profile knows it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct GlueRow {
+    /// Name.
+    pub name: String,
+    /// Seconds for which the parts are held together.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub hold_s: Option<f64>,
+    /// Hours after which it has its whole strength.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub cure_h: Option<f64>,
+    /// Dangers, in sentences.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub safety: Option<String>,
 }
 
 /// A printing process.
@@ -126,6 +145,9 @@ pub struct MaterialRow {
     /// Allowed relative deviation of the mass of a sound print from volume × density. Without it
     /// the sheet shows no weighing window.
     pub density_spread_ratio: Option<f64>,
+    /// The same deviation as the profile states it, whether this shop measured it or not.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub typical_spread_ratio: Option<f64>,
 }
 
 /// The wall as ordered and as measured.

@@ -220,6 +220,12 @@ fn printer() -> PrinterRow {
         minimum_wall_mm: 1.0,
         minimum_opening_mm: 4.0,
         cleaning: CLEANING,
+        glue: Some(GlueRow {
+            name: "thin cyanoacrylate (super glue)".into(),
+            hold_s: Some(60.0),
+            cure_h: Some(24.0),
+            safety: Some("The glue bonds skin and eyes in seconds.".into()),
+        }),
         sources: vec!["layer: read: user guide".into()],
     }
 }
@@ -232,6 +238,7 @@ fn material() -> MaterialRow {
         density_source: "datasheet".into(),
         density_sure: "recalled".into(),
         density_spread_ratio: Some(0.02),
+        typical_spread_ratio: Some(0.02),
     }
 }
 

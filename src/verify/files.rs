@@ -5,7 +5,9 @@ use std::path::{Component, Path};
 /// The checklist of a kit.
 pub const CHECKLIST_FILE: &str = "checklist.json";
 /// The job sheet for people.
-pub const SHEET_FILE: &str = "checklist.html";
+pub const SHEET_FILE: &str = "job.html";
+/// The certificate, for people.
+pub const CERTIFICATE_FILE: &str = "certificate.html";
 /// The hashes of all files of a kit except itself.
 pub const SUMS_FILE: &str = "SHA256SUMS";
 /// The uncut result of a kit.

@@ -105,6 +105,6 @@ pub use limits::{
 // The files of a kit and their changes.
 pub use change::{Change, FileChange};
 pub use changes::files_check;
-pub use files::{CHECKLIST_FILE, HOLLOWED_FILE, SHEET_FILE, SUMS_FILE};
+pub use files::{CERTIFICATE_FILE, CHECKLIST_FILE, HOLLOWED_FILE, SHEET_FILE, SUMS_FILE};
 pub use seal::sums;
 pub use sheet::find_misstatements;

@@ -4,7 +4,7 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use super::files::{CHECKLIST_FILE, SHEET_FILE, SUMS_FILE, is_inside_kit};
+use super::files::{CERTIFICATE_FILE, CHECKLIST_FILE, SHEET_FILE, SUMS_FILE, is_inside_kit};
 use super::reading::read_file;
 use super::{Change, FileChange, Promise, VerifyError};
 use crate::base::digest::sha256_hex;
@@ -18,9 +18,9 @@ pub fn sums<'a>(files: impl IntoIterator<Item = (&'a str, &'a [u8])>) -> String 
         .collect()
 }
 
-/// Returns the changes of the papers: the checklist, the job sheet and the list itself.
+/// Returns the changes of the papers: the checklist, the pages for people and the list itself.
 ///
-/// The checklist has the hashes of all other files, the job sheet that of the checklist, and the
+/// The checklist has the hashes of all other files, the pages that of the checklist, and the
 /// list all of them. Any two that disagree are reported.
 ///
 /// # Errors
@@ -34,7 +34,7 @@ pub fn find_paper_changes(
         file: file.to_owned(),
         change,
     };
-    let missing = [SUMS_FILE, SHEET_FILE]
+    let missing = [SUMS_FILE, SHEET_FILE, CERTIFICATE_FILE]
         .into_iter()
         .filter(|file| !folder.join(file).is_file());
     let mut changes: Vec<FileChange> = missing.map(|file| changed(file, Change::Missing)).collect();
@@ -49,12 +49,15 @@ pub fn find_paper_changes(
     if !is_listed {
         changes.push(changed(CHECKLIST_FILE, Change::Altered));
     }
-    if folder.join(SHEET_FILE).is_file() {
-        let page = read_file(&folder.join(SHEET_FILE))?;
-        if listed.get(SHEET_FILE) != Some(&sha256_hex(&[&page])) {
-            changes.push(changed(SHEET_FILE, Change::Altered));
+    for paper in [SHEET_FILE, CERTIFICATE_FILE] {
+        if !folder.join(paper).is_file() {
+            continue;
+        }
+        let page = read_file(&folder.join(paper))?;
+        if listed.get(paper) != Some(&sha256_hex(&[&page])) {
+            changes.push(changed(paper, Change::Altered));
         } else if is_listed && !String::from_utf8_lossy(&page).contains(&json) {
-            changes.push(changed(SHEET_FILE, Change::OfAnother));
+            changes.push(changed(paper, Change::OfAnother));
         }
     }
     if promise

@@ -1,8 +1,8 @@
 //! The rows of the printer and its material, with the sources of their numbers.
 
-use crate::printer::{Support, Unknown};
+use crate::printer::{Printer, Quantity, Support, Unknown};
 use crate::run::Placed;
-use crate::sheet::{MaterialRow, PrinterRow, SupportMethod};
+use crate::sheet::{GlueRow, MaterialRow, PrinterRow, SupportMethod};
 
 /// Returns the printer as far as the shop and the judge need it.
 pub fn printer_row(placed: &Placed) -> PrinterRow {
@@ -20,8 +20,20 @@ pub fn printer_row(placed: &Placed) -> PrinterRow {
         minimum_wall_mm: placed.minimum_wall_mm(),
         minimum_opening_mm: printer.min_opening_mm.value,
         cleaning: printer.cleaning_rule(),
+        glue: glue_row(printer),
         sources: sources(placed),
     }
+}
+
+/// Returns the glue that the printer's profile names.
+fn glue_row(printer: &Printer) -> Option<GlueRow> {
+    let number = |quantity| printer.number(quantity).map(|number| number.value);
+    Some(GlueRow {
+        name: printer.glue.clone()?,
+        hold_s: number(Quantity::GlueHoldS),
+        cure_h: number(Quantity::GlueCureH),
+        safety: printer.glue_safety.clone(),
+    })
 }
 
 /// Returns the sources of the printer's numbers, a sentence each, and what is not known.
@@ -76,6 +88,10 @@ pub fn material_row(placed: &Placed) -> MaterialRow {
         density_source: material.density_g_cm3.source.clone(),
         density_sure: material.density_g_cm3.sure.to_string(),
         density_spread_ratio: material.measured_spread_ratio(),
+        typical_spread_ratio: material
+            .density_spread_ratio
+            .as_ref()
+            .map(|spread| spread.value),
     }
 }
 

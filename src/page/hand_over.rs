@@ -1,0 +1,68 @@
+//! The end of the job sheet: the sign-off, and a card for the customer to cut out.
+
+use maud::{Markup, html};
+
+use super::fields::blank;
+use super::steps::step_names;
+use super::words;
+use crate::base::numbers::measured;
+use crate::goal::GoalKind;
+use crate::sheet::Checklist;
+
+/// Seconds in a minute.
+const S_PER_MIN: f64 = 60.0;
+
+/// Returns a table to sign every step off, in the order of the sheet.
+pub(super) fn sign_off(sheet: &Checklist) -> Markup {
+    let steps = step_names(sheet).into_iter().enumerate();
+    let steps = steps.map(|(index, name)| format!("{}. {name}", index + 1));
+    html! {
+        section class="together" {
+            h2 id="sign-off" { "Sign-off" }
+            table class="stack" {
+                thead { tr { th scope="col" { "Step" } th scope="col" { "Name" } th scope="col" { "Date" } th scope="col" { "Remarks" } } }
+                tbody {
+                    @for step in steps.chain(["Release".to_owned()]) {
+                        tr { th scope="row" { (step) } td data-head="Name" { (blank()) } td data-head="Date" { (blank()) } td data-head="Remarks" { (blank()) } }
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Returns the card that goes with the object.
+pub(super) fn card(sheet: &Checklist) -> Markup {
+    html! {
+        section class="card together" aria-label="Card for the customer" {
+            h2 { (sheet.job) }
+            p class="promise" { (words::promise(sheet)) }
+            @for line in use_lines(sheet) { p { (line) } }
+            p {
+                "Made of " (sheet.material.name) ", " (measured(sheet.assembly.mass_g, "g"))
+                ", hollow and glued. Keep it out of the sun and away from heat. Wipe it with a damp cloth. "
+                "Do not drop it. It is no toy for children under three: small parts can come off."
+            }
+        }
+    }
+}
+
+/// Words how the object is used, a sentence or two.
+fn use_lines(sheet: &Checklist) -> Vec<String> {
+    let body = &sheet.assembly;
+    let line = match sheet.goal.aim.kind {
+        GoalKind::Top if sheet.foot.is_some() => {
+            "Spin it upright on a hard, smooth table. It slows down and comes to rest standing.".to_owned()
+        }
+        GoalKind::Top => {
+            let turns = body.critical_speed_rpm.map(|rpm| measured(rpm / S_PER_MIN, "°").replace('°', ""));
+            let turns = turns.map_or(String::new(), |turns| format!(", {turns} turns a second"));
+            format!("Hold it upright on a hard, smooth table and spin it fast{turns} or more. It stays up until it slows down.")
+        }
+        GoalKind::Yoyo => "Tie the string around the axle, wind it up and let it fall. It runs down and up without leaning.".to_owned(),
+        GoalKind::Stand => "Set it on a level table. It stands on its own, with nothing to hold it.".to_owned(),
+        GoalKind::Float => "Set it on water, the right way up. It floats upright and comes back when it is pushed over.".to_owned(),
+        GoalKind::Balance => "Mount it on its shaft. It runs true at the speed it was balanced for.".to_owned(),
+    };
+    vec![line]
+}
