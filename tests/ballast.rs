@@ -60,7 +60,7 @@ fn balls_balance_the_rotor_and_a_false_mass_on_the_sheet_is_found() {
         assert!(row["part"].as_str().unwrap().starts_with("ball-"));
         assert!(!list(row, "opened_by").is_empty() && row["sources"][1].is_string());
     }
-    let page = fs::read_to_string(kit.join("checklist.html")).unwrap();
+    let page = fs::read_to_string(kit.join("job.html")).unwrap();
     let place = |step: &str| page.find(step).unwrap();
     assert!(place(". Lay in the ballast</h2>") < place(". Glue</h2>"));
 

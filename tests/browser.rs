@@ -66,7 +66,7 @@ fn the_sheets_of_a_top_a_yoyo_and_a_stand_work_in_a_browser_without_a_network() 
     for goal in ["top", "yoyo", "stand"] {
         let kit = folder.path().join(goal);
         make_kit(&kit, &format!("--wall 1.5mm --up y --goal {goal}"));
-        let page = kit.join("checklist.html");
+        let page = kit.join("job.html");
         assert!(
             fs::metadata(&page).unwrap().len() < MAX_PAGE_BYTES,
             "{goal}"

@@ -48,8 +48,8 @@ fn every_process_opens_its_voids_and_cleans_them_by_its_own_rule() {
         voids
             .iter()
             .for_each(|void| assert_open_and_clean(void, &sheet, rule));
-        let page = fs::read_to_string(kit.join("checklist.html")).unwrap();
-        assert!(page.contains(voids[0]["method"].as_str().unwrap()) && page.contains("✓ open"));
+        let page = fs::read_to_string(kit.join("certificate.html")).unwrap();
+        assert!(page.contains(voids[0]["method"].as_str().unwrap()) && page.contains("✓ kept"));
     }
 }
 
@@ -105,6 +105,6 @@ fn voids_beyond_a_short_tool_stay_solid_and_the_sheet_states_the_cost() {
             "{void}"
         );
     }
-    let page = fs::read_to_string(folder.path().join("short/checklist.html")).unwrap();
+    let page = fs::read_to_string(folder.path().join("short/certificate.html")).unwrap();
     assert!(page.contains("that could have been emptied stays solid"));
 }

@@ -49,7 +49,7 @@ fn walls_too_thin_for_pins_get_bosses_and_the_sheet_states_their_cost() {
     let joints = list(&sheet, "joints");
     let is_pinned = |joint: &Value| number(joint, "/pins") >= 2.0;
     assert!(joints.iter().all(is_pinned), "{joints:?}");
-    let page = fs::read_to_string(kit.join("checklist.html")).unwrap();
+    let page = fs::read_to_string(kit.join("certificate.html")).unwrap();
     assert!(page.contains("Boss round 1") && page.contains("solid in bosses around pins"));
 }
 

@@ -282,9 +282,9 @@ fn a_false_number_on_the_checklist_is_reported_with_the_true_one() {
 #[test]
 fn a_changed_word_on_the_sheet_is_reported() {
     let kit = Kit::new();
-    let (code, said) = kit.verify_replaced("checklist.html", ["rpm", "rpn"]);
+    let (code, said) = kit.verify_replaced("job.html", ["rpm", "rpn"]);
     assert_eq!(code, Some(1), "{said}");
-    assert!(said.contains("checklist.html was changed"), "{said}");
+    assert!(said.contains("job.html was changed"), "{said}");
 }
 
 #[test]

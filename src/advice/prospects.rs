@@ -131,7 +131,7 @@ fn brief(trial: &Trial) -> String {
         }
         Status::CannotStand { greatest_angle_rad } => {
             format!(
-                "it leans over by {:.1}° at least",
+                "falls over ({:.1}° short)",
                 -greatest_angle_rad.to_degrees()
             )
         }

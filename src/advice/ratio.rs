@@ -25,7 +25,7 @@ pub(super) fn remedies(model: &SampledModel) -> Vec<Remedy> {
     let case = &model.case;
     let Some(thickest_mm) = greatest_wall(model) else {
         let words = format!(
-            "no size and no wall help: even {MOST_TIMES} times as large it stays impossible"
+            "also tried, without success: other walls, and up to {MOST_TIMES} times the size"
         );
         return vec![Remedy::dead_end(Kind::LeastSize, words)];
     };

@@ -236,7 +236,7 @@ fn text(findings: &Findings) -> String {
     for (count, what) in [
         (
             findings.crossing_pairs.unwrap_or(0),
-            "pairs of triangles pass through each other (moments count the overlap twice)",
+            "places where the surface crosses itself (the overlap counts twice)",
         ),
         (
             findings.pinch_vertices,

@@ -5,16 +5,15 @@ use std::path::Path;
 
 use super::show::{GREEN, RED, paint, table, verdict};
 use super::voice::Manner;
-use crate::base::numbers::quantity as figure;
+use crate::base::numbers::{measured, measured_extent, quantity as figure};
 use crate::base::units::format_count;
+use crate::goal::GoalKind;
 use crate::page::promise;
 use crate::sheet::{Checklist, Course, LogRow, PassRow};
 use crate::verify::{Check, SHEET_FILE};
 
-/// Least distance from the bound that is shown as a number, %. Nobody prints so exactly.
-const MIN_SHOWN_PERCENT: f64 = 0.01;
-/// Greatest distance from the bound that is shown, %. Beyond it the bound is next to zero.
-const MAX_SHOWN_PERCENT: f64 = 100.0;
+/// Distance from the best from which the reason is told, as a share of the best.
+const FAR_RATIO: f64 = 0.1;
 /// Least length in mm or angle in degrees that is shown. Nobody prints or balances so exactly.
 const MIN_SHOWN_OFFSET: f64 = 0.001;
 /// The order in which a person reads the solver's numbers.
@@ -24,8 +23,8 @@ const STEP_NUMBERS: [&str; 4] = ["passes", "value", "bound", "residual"];
 pub fn ten_lines(checklist: &Checklist, out: &Path, manner: Manner) -> String {
     let lines = [
         Some(("what it does", promise(checklist))),
-        Some(("filled solid", solid_words(checklist))),
-        Some(("at best", bound_words(checklist))),
+        Some(("if solid", solid_words(checklist))),
+        Some(("how good", bound_words(checklist))),
         balance(checklist).map(|words| ("balance", words)),
         Some((
             "mass, size",
@@ -49,45 +48,56 @@ pub fn ten_lines(checklist: &Checklist, out: &Path, manner: Manner) -> String {
     table(&rows).replace('\u{a0}', " ") + &broken(&checklist.checks, manner)
 }
 
-/// Returns the optimised figure of the model filled solid, and its mass.
+/// Returns what the model would do if it were printed solid, and its mass.
 fn solid_words(checklist: &Checklist) -> String {
     let named = checklist.certificate.figure;
-    let mass = figure(checklist.solid.mass_g, "g");
-    match checklist.solid.value_of(named) {
-        Some(value) => format!("{} {}, {mass}", named.name(), figure(value, named.unit())),
-        None => format!("no {}, {mass}", named.name()),
-    }
-}
-
-/// Returns the bound that no hollowing can beat, and the distance of this kit from it.
-fn bound_words(checklist: &Checklist) -> String {
-    let proof = &checklist.certificate;
-    let (name, bound) = (
-        proof.figure.name(),
-        figure(proof.bound, proof.figure.unit()),
-    );
-    let away = |written: f64| ((written - proof.bound) / proof.bound).abs() * 100.0;
-    let written = match proof.written_value.map(away) {
-        Some(percent) if percent < MIN_SHOWN_PERCENT => {
-            format!("; this kit is less than {MIN_SHOWN_PERCENT} % away")
-        }
-        Some(percent) if percent > MAX_SHOWN_PERCENT => {
-            let written = proof.written_value.unwrap_or_default();
-            format!(
-                "; this kit reaches {}",
-                figure(written, proof.figure.unit())
+    let mass = measured(checklist.solid.mass_g, "g");
+    let kind = checklist.goal.aim.kind;
+    let does = match (checklist.solid.value_of(named), kind) {
+        (None, GoalKind::Top) => "falls over at any speed".to_owned(),
+        (None, GoalKind::Float) => "sinks".to_owned(),
+        (None, _) => format!("has no {}", named.name()),
+        (Some(value), GoalKind::Stand) if value <= 0.0 => "falls over by itself".to_owned(),
+        (Some(value), GoalKind::Balance) => {
+            let grade = checklist
+                .solid
+                .unbalance
+                .map(|unbalance| unbalance.grade_mm_s);
+            grade.map_or(
+                format!("{} {}", named.name(), measured(value, named.unit())),
+                |grade| format!("G\u{a0}{}", figure(grade, "")),
             )
         }
-        Some(percent) => format!("; this kit is {percent:.2} % away"),
-        None => String::new(),
+        (Some(value), _) => format!("{} {}", named.name(), measured(value, named.unit())),
     };
+    format!("{mass}, {does}")
+}
+
+/// Returns the best that is possible and what this kit reaches. If that is far away, it says why.
+fn bound_words(checklist: &Checklist) -> String {
+    let proof = &checklist.certificate;
+    let unit = proof.figure.unit();
+    let best = measured(proof.bound, unit);
     let is_solid = proof.kept_solid_mm3 + proof.bosses_mm3 > 0.0;
-    let solid = if is_solid {
-        " with what is kept solid for cleaning and pins"
+    let of_what = if is_solid {
+        " for these cuts and pins"
     } else {
         ""
     };
-    format!("no hollowing{solid} has a better {name} than {bound}{written}")
+    let Some(written) = proof.written_value else {
+        return format!("{} {best} is possible{of_what}", proof.figure.name());
+    };
+    let away = ((written - proof.bound) / proof.bound).abs();
+    let why = if away > FAR_RATIO {
+        "; pins, cuts and rounding take the rest: a larger size or a thinner wall would help"
+    } else {
+        ""
+    };
+    format!(
+        "best possible{of_what}: {} {best}; this kit: {}{why}",
+        proof.figure.name(),
+        measured(written, unit)
+    )
 }
 
 fn balance(checklist: &Checklist) -> Option<String> {
@@ -115,8 +125,11 @@ fn small(value: f64, unit: &str) -> String {
 
 /// Returns the size of the finished object along the model's axes.
 fn size(checklist: &Checklist) -> String {
-    let size = checklist.model.size_mm.map(|mm| figure(mm, "")).join(" × ");
-    format!("{size} mm")
+    measured_extent(
+        &checklist
+            .finished_size_mm
+            .unwrap_or(checklist.model.size_mm),
+    )
 }
 
 fn masses(checklist: &Checklist) -> String {
@@ -126,11 +139,11 @@ fn masses(checklist: &Checklist) -> String {
     let besides = if is_all {
         String::new()
     } else {
-        format!(", {} with all that goes in", figure(whole_g, "g"))
+        format!("; {} with all that is added", measured(whole_g, "g"))
     };
     format!(
         "{} of {}{besides}",
-        figure(printed_g, "g"),
+        measured(printed_g, "g"),
         checklist.material.name
     )
 }

@@ -111,8 +111,7 @@ impl Status {
                 least_miss,
                 ..
             } => format!(
-                "no hollowing with this wall can {}; every interior misses it by at least {:.2} % \
-                 of the solid's own size in these moments",
+                "no hollowing with this wall can {} (it misses by {:.1} %)",
                 obstacle.task(goal.kind),
                 100.0 * least_miss
             ),
@@ -125,8 +124,7 @@ impl Status {
                 proved,
             } => explain_instability(least_ratio, proved),
             Self::CannotStand { greatest_angle_rad } => format!(
-                "with any hollowing, the centre of mass stays outside the support; it leans over \
-                 by at least {:.3}°",
+                "it falls over however it is hollowed (at least {:.1}° short)",
                 -greatest_angle_rad.to_degrees()
             ),
             Self::Sinks { least_ratio } => format!(

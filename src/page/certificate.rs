@@ -38,6 +38,7 @@ pub fn certificate(inputs: &PageInputs) -> String {
             (proof::proof(sheet, pictures))
             section { h2 { "Sections at the cuts" } (figures(pictures, Role::Cut)) }
             (proof::parts(sheet))
+            (proof::voids(sheet))
             (grid::table(&sheet.grid))
             (proof::files(inputs))
         }

@@ -2,7 +2,7 @@
 
 use maud::{Markup, html};
 
-use crate::base::numbers::{measured, number, quantity};
+use crate::base::numbers::{number, quantity};
 use crate::sheet::{Checklist, Half, Process};
 
 /// Returns a line to write on.

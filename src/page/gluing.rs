@@ -323,8 +323,8 @@ mod tests {
     #[test]
     fn only_turning_objects_are_warned_of_unbalance() {
         assert!(
-            glue_advice(GoalKind::Top).contains("axis")
-                && !glue_advice(GoalKind::Stand).contains("axis")
+            glue_advice(GoalKind::Top).contains("unbalances")
+                && !glue_advice(GoalKind::Stand).contains("unbalances")
         );
     }
 

@@ -2,7 +2,7 @@
 //! printer's axes.
 
 use super::figure::{Draft, Role};
-use crate::base::numbers::number;
+use crate::base::numbers::measured;
 use crate::draw::{Camera, Color, Item, Label, PLATE, Scene, Shot, view_direction};
 use crate::geom::{Aabb, Point, Vector};
 use crate::mesh::TriMesh;
@@ -106,7 +106,7 @@ pub(super) fn draft<'a>(
 fn dimensions(part: &Aabb) -> Vec<Label> {
     let (low, high) = (part.min, part.max);
     let size = part.size();
-    let words = |axis: &str, mm: f64| format!("{axis} {}", number(mm));
+    let words = |axis: &str, mm: f64| format!("{axis} {}", measured(mm, "mm"));
     let right = Point::new(high.x, low.y, low.z);
     vec![
         Label::Length(

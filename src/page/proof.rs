@@ -9,7 +9,7 @@ use super::inputs::PageInputs;
 use super::words;
 use crate::base::numbers::{coordinates, extent, number, quantity, quantity_or_dash};
 use crate::base::units::{MM3_PER_CM3, format_count};
-use crate::sheet::{BossRow, Checklist, PartRow};
+use crate::sheet::{BossRow, Checklist, PartRow, VoidRow};
 use crate::verify::{Check, Figures};
 
 /// A guide to the figures.
@@ -180,6 +180,41 @@ fn part_line(part: &PartRow) -> Markup {
                 (format_count(part.pins.len(), "pin")) ", " (format_count(part.sockets.len(), "socket"))
                 @for mark in &part.marks { ", “" (mark.text) "” sunk into its face in " (mark.cut) }
             }
+        }
+    }
+}
+
+/// Returns the table of voids: how each is opened and cleaned.
+pub(super) fn voids(sheet: &Checklist) -> Markup {
+    html! {
+        @if !sheet.voids.is_empty() {
+            section {
+                h2 { "Voids" }
+                table class="stack" {
+                    thead {
+                        tr {
+                            th scope="col" { "Void" } th scope="col" class="n" { "Volume" } th scope="col" class="n" { "Opening" }
+                            th scope="col" class="n" { "Needed" } th scope="col" class="n" { "Depth" } th scope="col" class="n" { "Wall in sight" }
+                            th scope="col" { "Opened by, and cleaned by" }
+                        }
+                    }
+                    tbody { @for void in &sheet.voids { (void_line(void)) } }
+                }
+            }
+        }
+    }
+}
+
+fn void_line(void: &VoidRow) -> Markup {
+    html! {
+        tr {
+            th scope="row" { (void.id) }
+            td class="n" data-head="Volume" { (quantity(void.volume_mm3 / MM3_PER_CM3, "cm³")) }
+            td class="n" data-head="Opening" { (quantity(void.opening_mm, "mm")) }
+            td class="n" data-head="Needed" { (quantity(void.least_opening_mm, "mm")) }
+            td class="n" data-head="Depth" { (quantity(void.depth_mm, "mm")) }
+            td class="n" data-head="Wall in sight" { (quantity_or_dash(void.sight_ratio.map(|ratio| 100.0 * ratio), "%")) }
+            td data-head="Opened by, and cleaned by" { (void.opened_by.join(", ")) ": " (void.method) }
         }
     }
 }

@@ -7,11 +7,22 @@ use crate::testing::{sample, sample_pictures};
 /// Returns the page of a sheet with every picture and the view.
 fn whole_page(sheet: &Checklist, evidence: &crate::verify::Evidence) -> String {
     let (pictures, view) = sample_pictures(sheet, evidence);
-    page(&PageInputs {
+    job(&PageInputs {
         sheet,
         sha256: &"0123456789abcdef".repeat(4),
         pictures: &pictures,
         view: Some(&view),
+    })
+}
+
+/// Returns the certificate of a sheet with every picture.
+fn whole_certificate(sheet: &Checklist, evidence: &crate::verify::Evidence) -> String {
+    let (pictures, _) = sample_pictures(sheet, evidence);
+    certificate(&PageInputs {
+        sheet,
+        sha256: &"0123456789abcdef".repeat(4),
+        pictures: &pictures,
+        view: None,
     })
 }
 
@@ -35,9 +46,13 @@ fn the_page_stands_alone_and_escapes_what_it_is_given() {
         assert!(!own.contains(outside), "{outside}");
     }
     assert!(page.contains("default-src 'none'"));
+    // Model, cut-away, apart, two parts, as made.
+    assert_eq!(page.matches("data:image/png;base64,iVBOR").count(), 6);
+    let page = whole_certificate(&sheet, &evidence);
+    assert!(page.contains("default-src 'none'") && !page.contains("<script"));
     assert!(page.contains("box &lt;&amp;&gt; lid.stl") && !page.contains("box <&>"));
-    // Model, cut-away, apart, two parts, before and after.
-    assert_eq!(page.matches("data:image/png;base64,iVBOR").count(), 7);
+    // Before and as made.
+    assert_eq!(page.matches("data:image/png;base64,iVBOR").count(), 2);
 }
 
 #[test]
@@ -66,13 +81,15 @@ fn the_page_says_what_to_do_in_order() {
     let places: Vec<usize> = [
         "1. Print",
         "Solid, 100 % infill",
-        "2. Clean",
-        "3. Weigh the parts",
-        "4. Dry fit",
-        "5. Glue",
-        "6. Weigh the whole",
-        "7. Test",
+        "2. Clean and weigh",
+        "Reject outside",
+        "3. Join",
+        "opened like a book",
+        "Glue: ",
+        "4. Test",
+        "Weigh the whole",
         ">Sign-off",
+        "no toy for children",
     ]
     .map(|step| page.find(step).unwrap())
     .into();
@@ -80,18 +97,31 @@ fn the_page_says_what_to_do_in_order() {
     for said in [
         "Job id <strong>box-01234567",
         "Spins upright from",
-        "opened by C1",
         "no pins",
         "all promises kept",
         "Flush with the water",
-        "96 % of the wall within 150\u{a0}mm (reach the other 4 % with a bent tool): ✓ open ✓ clean",
+        "The last 4\u{a0}% is round a corner",
         "glue on a tip of that length",
-        "hang it by a thread",
+        "Hang it by a thread",
         "turns a second",
         "Material lot",
-        &sheet.printer.profile_sha256,
+        "super glue",
     ] {
         assert!(page.contains(said), "{said}");
+    }
+    let proof = whole_certificate(&sheet, &evidence);
+    for said in [
+        "Job id <strong>box-01234567",
+        "It is proved that no hollowing",
+        "Sections at the cuts",
+        "Sizes on this printer",
+        &sheet.printer.profile_sha256,
+    ] {
+        assert!(proof.contains(said), "{said}");
+        assert!(
+            !page.contains(said) || said.contains("Job id"),
+            "{said} is on the job sheet"
+        );
     }
 }
 
@@ -100,18 +130,19 @@ fn a_failed_check_is_the_first_thing_on_the_page() {
     let (mut sheet, _) = sample();
     sheet.checks[0].pass = false;
     sheet.verdict = Verdict::of(&sheet.checks);
-    let page = page(&PageInputs {
+    let inputs = PageInputs {
         sheet: &sheet,
         sha256: "",
         pictures: &[],
         view: None,
-    });
+    };
+    let page = job(&inputs);
     assert!(
         !page.contains("<script"),
         "without a view there is nothing to run"
     );
     assert!(page.find("do not print").unwrap() < page.find("1. Print").unwrap());
-    assert!(page.contains("✗ broken"));
+    assert!(page.contains("Broken: ") && certificate(&inputs).contains("✗ broken"));
 }
 
 #[test]
@@ -131,6 +162,7 @@ fn the_pictures_and_the_view_are_the_same_on_one_thread_and_on_four() {
         "parts.svg",
         "P01.svg",
         "P02.svg",
+        "joint-J1.svg",
         "cut-C1.svg",
         "inertia-before.svg",
         "inertia-after.svg",

@@ -1,6 +1,6 @@
 //! Goals, promises and proofs in words.
 
-use crate::base::numbers::{coordinates, number, quantity, quantity_or_dash};
+use crate::base::numbers::{coordinates, measured, number, quantity, quantity_or_dash};
 use crate::goal::GoalKind;
 use crate::sheet::{Certificate, Checklist, GoalRow, ObjectiveName, WallRow};
 use crate::verify::Figures;
@@ -77,17 +77,14 @@ pub fn promise(sheet: &Checklist) -> String {
         body.topples_deg,
         body.dominance_ratio,
     ) {
-        (GoalKind::Top, Some(rpm), _, _) => format!("Spins upright from {}.", quantity(rpm, "rpm")),
+        (GoalKind::Top, Some(rpm), _, _) => format!("Spins upright from {}.", measured(rpm, "rpm")),
         (GoalKind::Top, None, _, _) => "Does not spin upright at any speed.".to_owned(),
         (GoalKind::Yoyo, _, _, Some(ratio)) if ratio < 1.0 => {
-            format!(
-                "Spins stably: its moment of inertia across the axis is at most {} of the one about it; below 1 is stable.",
-                number(ratio)
-            )
+            format!("Spins steadily as a yo-yo (steadiness {ratio:.2}; must be below 1).")
         }
         (GoalKind::Yoyo, ..) => "Does not spin stably about its axis.".to_owned(),
         (GoalKind::Stand, _, Some(tilt), _) if tilt > 0.0 => {
-            format!("Stands until tilted by {}.", quantity(tilt, "°"))
+            format!("Stands until tilted by {}.", measured(tilt, "°"))
         }
         (GoalKind::Stand, ..) => "Does not stand.".to_owned(),
         (GoalKind::Float, ..) => floats(sheet),
@@ -100,8 +97,8 @@ fn floats(sheet: &Checklist) -> String {
     match sheet.assembly.afloat {
         Some(afloat) if afloat.metacentric_height_mm > 0.0 => format!(
             "Floats upright, {} deep, with a metacentric height of {}.",
-            quantity(afloat.waterline_mm, "mm"),
-            quantity(afloat.metacentric_height_mm, "mm")
+            measured(afloat.waterline_mm, "mm"),
+            measured(afloat.metacentric_height_mm, "mm")
         ),
         Some(_) => "Floats, but not upright.".to_owned(),
         None => "Sinks.".to_owned(),
@@ -117,8 +114,8 @@ fn runs_true(sheet: &Checklist) -> String {
         grade(&sheet.assembly),
     ) {
         (Some(order), Some(solid), Some(written)) => format!(
-            "Balanced to G\u{a0}{written} at {}; solid it is G\u{a0}{solid}.",
-            quantity(order.speed_rpm, "rpm")
+            "Runs true: balanced to G\u{a0}{written} at {}; solid it would be G\u{a0}{solid}.",
+            measured(order.speed_rpm, "rpm")
         ),
         _ => "Not known to run true.".to_owned(),
     }
@@ -177,10 +174,8 @@ pub fn wall(wall: &WallRow) -> String {
         Some(_) => format!("{given} ordered"),
         None => format!("{given}, the least this printer makes"),
     };
-    let measured = quantity_or_dash(wall.measured_min_mm, "mm");
-    format!(
-        "{ordered}; thinnest measured {measured}, where 1 % less than the wall is allowed for facets"
-    )
+    let thinnest = quantity_or_dash(wall.measured_min_mm, "mm");
+    format!("{ordered}; thinnest measured {thinnest}")
 }
 
 /// Words what the proof assumes solid besides the wall; empty if nothing.

@@ -65,7 +65,7 @@ impl fmt::Display for ShellFact {
 pub enum NotOneBody {
     /// The surface passes through itself: the overlap would count twice.
     #[error(
-        "{} pairs of its triangles pass through each other or lie on each other{}; remedy: unite the overlapping bodies \
+        "its surface crosses or overlaps itself in {} places{}; remedy: unite the overlapping bodies \
          in a modelling program (boolean union), or mend the surface there, then export again",
         .0.pairs, first_at(.0)
     )]
@@ -239,7 +239,7 @@ mod tests {
         let other = cuboid(&Point::new(1.0, 1.0, 1.0), &Point::new(9.0, 9.0, 9.0));
         let message = refusal(cube(4.0).joined(&other)).to_string();
         assert!(
-            message.contains("pass through each other") && message.contains("boolean union"),
+            message.contains("crosses or overlaps itself") && message.contains("boolean union"),
             "{message}"
         );
     }

@@ -208,7 +208,7 @@ fn joint_checks(promise: &Promise, found: &Judgement) -> Vec<Check> {
         .at(off_at),
         Check::new(
             CheckKind::Clearance,
-            "the gap of every pin on each side is the ordered one, short by",
+            "pin gap as ordered, on each side; it lacks",
             lack_mm,
             Limit::at_most(GAP_TOLERANCE_MM, "mm"),
         )

@@ -67,11 +67,9 @@ fn fill_in(sheet: &mut Value, with: Value) {
 /// Writes the job sheet and the list of hashes for the checklist as it is.
 fn seal(folder: &Path) {
     let json = fs::read(folder.join(CHECKLIST_FILE)).unwrap();
-    fs::write(
-        folder.join(SHEET_FILE),
-        format!("made for {}", sha256_hex(&[&json])),
-    )
-    .unwrap();
+    let sha256 = sha256_hex(&[&json]);
+    fs::write(folder.join(SHEET_FILE), format!("made for {sha256}")).unwrap();
+    fs::write(folder.join(CERTIFICATE_FILE), format!("proof of {sha256}")).unwrap();
     let sheet: Value = serde_json::from_slice(&json).unwrap();
     let mut files: Vec<String> = sheet["files"]
         .as_object()
@@ -79,7 +77,7 @@ fn seal(folder: &Path) {
         .keys()
         .cloned()
         .collect();
-    files.extend([CHECKLIST_FILE, SHEET_FILE].map(str::to_owned));
+    files.extend([CHECKLIST_FILE, SHEET_FILE, CERTIFICATE_FILE].map(str::to_owned));
     let bytes: Vec<Vec<u8>> = files
         .iter()
         .map(|file| fs::read(folder.join(file)).unwrap())
@@ -268,7 +266,11 @@ fn papers_that_do_not_belong_together_are_reported_one_by_one() {
         }
     };
     let page = changed(&append(SHEET_FILE));
-    assert_eq!(page, "checklist.html was changed: it has other bytes");
+    assert_eq!(page, "job.html was changed: it has other bytes");
+    let proof = changed(&append(CERTIFICATE_FILE));
+    assert_eq!(proof, "certificate.html was changed: it has other bytes");
+    let missing = changed(&|kit| fs::remove_file(kit.join(CERTIFICATE_FILE)).unwrap());
+    assert_eq!(missing, "certificate.html is missing");
     assert_eq!(
         changed(&append(CHECKLIST_FILE))
             .matches("checklist.json was changed")
@@ -293,7 +295,7 @@ fn papers_that_do_not_belong_together_are_reported_one_by_one() {
         )
         .unwrap();
     });
-    assert_eq!(other, "checklist.html belongs to another checklist.json");
+    assert_eq!(other, "job.html belongs to another checklist.json");
 }
 
 #[test]

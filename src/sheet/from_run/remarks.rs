@@ -5,6 +5,8 @@ use super::foot::flat_foot;
 use super::hardware::shallow_axle;
 use super::joints::{is_shown_at_its_step, warn_of_joints};
 use super::printer::{enlargement, scale_note};
+use crate::base::numbers::measured;
+use crate::base::units::MM3_PER_CM3;
 use crate::cut;
 use crate::goal::GoalKind;
 use crate::run::Remark;
@@ -33,13 +35,17 @@ pub fn warnings(facts: &Facts, foot: Option<&FootRow>) -> Vec<String> {
     let repairs = placed.model.repairs.notable();
     let repairs = (!repairs.is_empty()).then(|| format!("the model was repaired: {repairs}"));
     let refused = facts.made.refused_mm3;
-    let which = if facts.made.cleaning.iter().any(|round| round.by_plan) {
-        "that could not be cleaned, or that the plan keeps solid,"
+    let why = if facts.made.cleaning.iter().any(|round| round.by_plan) {
+        "because it could not be cleaned or because the plan says so"
     } else {
-        "that could not be cleaned"
+        "because it could not be cleaned"
     };
-    let small = (refused >= LEAST_REPORTED_MM3)
-        .then(|| format!("{refused:.1} mm³ of voids {which} stay solid"));
+    let small = (refused >= LEAST_REPORTED_MM3).then(|| {
+        format!(
+            "{} is left solid, {why}; it is counted already, and nothing needs to be done",
+            measured(refused / MM3_PER_CM3, "cm³")
+        )
+    });
     let floats = placed.placement.goal.kind == GoalKind::Float;
     let seal = floats.then(|| SEAL.to_owned());
     let unweighed = (floats && !placed.shop.material.is_measured()).then(|| UNWEIGHED.to_owned());
