@@ -39,8 +39,8 @@ pub fn quantity(value: f64, unit: &str) -> String {
     }
 }
 
-/// Returns a quantity rounded to what a shop measures: a tenth of a millimetre, degree or gram, a
-/// hundredth of a light gram, a whole turn per minute. It is never rounded to zero.
+/// Returns a quantity rounded to what a shop measures. That is a tenth of a millimetre, degree or
+/// gram, a hundredth of a gram below ten, a whole turn per minute. It is never rounded to zero.
 pub fn measured(value: f64, unit: &str) -> String {
     let wanted = match unit {
         "rpm" | "mm²" | "mm³" | "s" => 0,

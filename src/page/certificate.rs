@@ -67,7 +67,13 @@ fn facts(sheet: &Checklist) -> Markup {
                 }
             }
             tr { th scope="row" { "Material" } td { (material(&sheet.material)) } }
-            tr { th scope="row" { "Mass" } td { (quantity(sheet.assembly.mass_g, "g")) "; " (quantity(sheet.solid.mass_g, "g")) " if it were solid" } }
+            tr {
+                th scope="row" { "Mass" }
+                td {
+                    (quantity(sheet.assembly.mass_g, "g")) "; "
+                    (quantity(sheet.solid.mass_g, "g")) " if it were solid"
+                }
+            }
             tr { th scope="row" { "Wall" } td { (words::wall(&sheet.wall)) } }
         }
     }

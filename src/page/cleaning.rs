@@ -27,7 +27,9 @@ pub(super) fn clean_one(sheet: &Checklist, void: &VoidRow) -> Markup {
             @else {
                 (measured(void.opening_mm, "mm")) " wide and " (measured(void.depth_mm, "mm")) " deep, open at the cut face. "
             }
-            @for check in checks_of_void(&sheet.checks, &void.id).filter(|check| !check.pass) { (broken(check)) " " }
+            @for check in checks_of_void(&sheet.checks, &void.id) {
+                @if !check.pass { (broken(check)) " " }
+            }
             (void.clean) (hidden_rest(sheet, void))
             " Left full of " (residue(&sheet.printer.process)) ", it weighs about " (measured(full_g, "g")) " too much."
         }
@@ -69,7 +71,15 @@ pub(super) fn cost(sheet: &Checklist) -> Markup {
         }
         @if !proof.cleaning_rounds.is_empty() {
             table class="stack" {
-                thead { tr { th scope="col" { "Round" } th scope="col" { "Void and why" } th scope="col" class="n" { "Kept solid" } th scope="col" class="n" { "Before" } th scope="col" class="n" { "After" } } }
+                thead {
+                    tr {
+                        th scope="col" { "Round" }
+                        th scope="col" { "Void and why" }
+                        th scope="col" class="n" { "Kept solid" }
+                        th scope="col" class="n" { "Before" }
+                        th scope="col" class="n" { "After" }
+                    }
+                }
                 tbody {
                 @for (index, round) in proof.cleaning_rounds.iter().enumerate() {
                     tr {

@@ -12,6 +12,9 @@ use crate::sheet::Checklist;
 /// Seconds in a minute.
 const S_PER_MIN: f64 = 60.0;
 
+/// The columns to fill in of the sign-off.
+const HEADS: [&str; 3] = ["Name", "Date", "Remarks"];
+
 /// Returns a table to sign every step off, in the order of the sheet.
 pub(super) fn sign_off(sheet: &Checklist) -> Markup {
     let steps = step_names(sheet).into_iter().enumerate();
@@ -20,10 +23,15 @@ pub(super) fn sign_off(sheet: &Checklist) -> Markup {
         section class="together" {
             h2 id="sign-off" { "Sign-off" }
             table class="stack" {
-                thead { tr { th scope="col" { "Step" } th scope="col" { "Name" } th scope="col" { "Date" } th scope="col" { "Remarks" } } }
+                thead {
+                    tr { th scope="col" { "Step" } @for head in HEADS { th scope="col" { (head) } } }
+                }
                 tbody {
                     @for step in steps.chain(["Release".to_owned()]) {
-                        tr { th scope="row" { (step) } td data-head="Name" { (blank()) } td data-head="Date" { (blank()) } td data-head="Remarks" { (blank()) } }
+                        tr {
+                            th scope="row" { (step) }
+                            @for head in HEADS { td data-head=(head) { (blank()) } }
+                        }
                     }
                 }
             }

@@ -97,7 +97,9 @@ fn align_halves(sheet: &Checklist) -> Markup {
             p {
                 strong { "Turn half A on the axle until its outline meets that of half B all around: " }
                 "sight along the axle and along the seam, at ears, corners or any mark that runs over the seam, before the glue sets. "
-                "Turn it within " (measured(most_turn_deg(turn), "°")) " (" (measured(most_turn_deg(turn) * rim_mm(sheet), "mm")) " at the rim)."
+                @let most_deg = most_turn_deg(turn);
+                "Turn it within " (measured(most_deg, "°"))
+                " (" (measured(most_deg * rim_mm(sheet), "mm")) " at the rim)."
             }
         }
     }

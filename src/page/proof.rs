@@ -213,7 +213,8 @@ fn void_line(void: &VoidRow) -> Markup {
             td class="n" data-head="Opening" { (quantity(void.opening_mm, "mm")) }
             td class="n" data-head="Needed" { (quantity(void.least_opening_mm, "mm")) }
             td class="n" data-head="Depth" { (quantity(void.depth_mm, "mm")) }
-            td class="n" data-head="Wall in sight" { (quantity_or_dash(void.sight_ratio.map(|ratio| 100.0 * ratio), "%")) }
+            @let sight = void.sight_ratio.map(|ratio| 100.0 * ratio);
+            td class="n" data-head="Wall in sight" { (quantity_or_dash(sight, "%")) }
             td data-head="Opened by, and cleaned by" { (void.opened_by.join(", ")) ": " (void.method) }
         }
     }
