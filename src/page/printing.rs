@@ -23,7 +23,6 @@ pub(super) fn print_step(sheet: &Checklist, pictures: &[Picture]) -> Markup {
             @if sheet.printer.build_volume_mm.is_none() {
                 li { strong { "Room: " } "the build volume of this printer is not known; check by hand that every part fits." }
             }
-            @if let Some(cups) = cup_warning(sheet) { li { strong { "Warning: " } (cups) "." } }
             @if let Some(parts) = parts_without_id(sheet) {
                 li { strong { "Names: " } "write the id on these parts when they come off the plate: " strong { (parts) } "." }
             }
