@@ -74,7 +74,7 @@
   const [low, high] = data.box;
   const size = high.map((value, axis) => value - low[axis]);
   const middle = high.map((value, axis) => 0.5 * (value + low[axis]));
-  const START = { yaw: -0.5, pitch: 0.35, zoom: 1.3 };
+  const START = { yaw: -0.5, pitch: 0.35, zoom: 1 };
   const view = { ...START, apart: 0, axis: -1, share: 0.5 };
   const clamp = (value, least, most) => Math.min(Math.max(value, least), most);
 
@@ -90,7 +90,11 @@
     if (canvas.width !== width || canvas.height !== height) [canvas.width, canvas.height] = [width, height];
     const far = Math.max(...data.items.map((item) => Math.hypot(...item.shift)));
     const radius = 0.5 * Math.hypot(...size) + view.apart * far;
-    const unit = view.zoom * Math.min(width, height) / (1.05 * radius);
+    // Half of what is seen at the start, whichever way it is turned about its axis.
+    const [across, up] = [0.5 * Math.hypot(size[0], size[1]), 0.5 * size[2]];
+    const over = up * Math.cos(START.pitch) + across * Math.sin(START.pitch);
+    const reach = view.apart * far;
+    const unit = view.zoom * Math.min(width / (across + reach), height / (over + reach)) / 1.08;
     gl.viewport(0, 0, width, height);
     gl.enable(gl.DEPTH_TEST);
     gl.clearColor(1, 1, 1, 1);

@@ -1,5 +1,5 @@
 // Drives a job sheet in headless Chromium with the network off: no rule of axe broken, no request, no error, and the view does
-// what its controls say. usage: node check.js CHECKLIST.html (CHROMIUM=path, TOOLS=folder with puppeteer-core and axe-core)
+// what its controls say. usage: node check.js JOB.html MOST_PAGES (CHROMIUM=path, TOOLS=folder with puppeteer-core and axe-core)
 "use strict";
 const { createRequire } = require("node:module");
 const path = require("node:path");
@@ -11,6 +11,7 @@ const axe = require("node:fs").readFileSync(tools.resolve("axe-core/axe.min.js")
 const SOFTWARE_GL = ["--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
 // A control that does something moves this share of the pixels; noise moves none.
 const CHANGED = 0.01;
+const MOST_PAGES = Number(process.argv[3] || 8);
 const faults = [];
 const must = (holds, claim) => {
   console.log(`${holds ? "ok   " : "WRONG"} ${claim}`);
@@ -50,6 +51,30 @@ const share = (data, test) => {
 const difference = (a, b) => share(a, (at) => [0, 1, 2].some((channel) => Math.abs(a[at + channel] - b[at + channel]) > 8));
 const ofCut = (data) => share(data, (at) => Math.abs(data[at] - 213) < 6 && Math.abs(data[at + 1] - 94) < 6 && data[at + 2] < 6);
 
+// Whether the outermost pixels of the view are paper.
+const clear = async (page, data) => {
+  const [width, height] = await page.$eval("#view-canvas", (canvas) => [canvas.width, canvas.height]);
+  const isPaper = (x, y) => data[4 * (y * width + x)] + data[4 * (y * width + x) + 1] + data[4 * (y * width + x) + 2] > 740;
+  const across = Array.from({ length: width }, (_, x) => isPaper(x, 0) && isPaper(x, height - 1));
+  const down = Array.from({ length: height }, (_, y) => isPaper(0, y) && isPaper(width - 1, y));
+  return across.concat(down).every(Boolean);
+};
+
+// Nothing is wider than a phone.
+const fitsPhone = async (page) => {
+  await page.setViewport({ width: 390, height: 800 });
+  const wide = await page.$$eval("table, figure, svg, p, li, h1, h2", (all) => all
+    .filter((one) => one.getBoundingClientRect().right > window.innerWidth + 1 || one.scrollWidth > one.clientWidth + 1 && one.tagName === "TABLE")
+    .map((one) => `${one.tagName} ${one.textContent.slice(0, 40)}`));
+  must(wide.length === 0, `on a phone nothing needs sideways scrolling ${wide.join("; ")}`);
+};
+
+// The pages that the sheet takes on paper.
+const pagesOn = async (page, format) => {
+  const pdf = Buffer.from(await page.pdf({ format, preferCSSPageSize: false, printBackground: true })).toString("latin1");
+  return (pdf.match(/\/Type\s*\/Page\b/g) || []).length;
+};
+
 const presses = async (page, id, key, times) => {
   await page.focus(id);
   for (let time = 0; time < times; time += 1) await page.keyboard.press(key);
@@ -66,6 +91,7 @@ const drive = async (page) => {
   const start = await pixels(page);
   must(share(start, (at) => start[at] + start[at + 1] + start[at + 2] < 740) > 0.02, "the assembly is drawn");
   must(ofCut(start) === 0, "nothing is cut at first");
+  must(await clear(page, start), "all of it is seen, with room at every edge");
   await presses(page, "#view-explode", "ArrowRight", 60);
   const apart = await pixels(page);
   must(difference(start, apart) > CHANGED, "the slider takes it apart");
@@ -107,12 +133,17 @@ const drive = async (page) => {
   await shown.page.emulateMediaType("print");
   await accessible(shown.page, "on paper");
   must(shown.trouble.length === 0, `no error and no request ${shown.trouble.join("; ")}`);
+  for (const format of ["A4", "Letter"]) {
+    const pages = await pagesOn(shown.page, format);
+    must(pages > 0 && pages <= MOST_PAGES, `on ${format} it takes ${pages} pages, at most ${MOST_PAGES}`);
+  }
   await shown.browser.close();
 
   const plain = await opened(file, ["--disable-gpu", "--disable-3d-apis"]);
   must(await plain.page.$eval("#view", (view) => view.hidden), "without WebGL the view stays away");
   must(await plain.page.$$eval("figure img, figure svg", (all) => all.every((one) => one.getBoundingClientRect().width > 100)), "and the pictures are there");
   await accessible(plain.page, "without the view");
+  await fitsPhone(plain.page);
   must(plain.trouble.length === 0, `no error and no request ${plain.trouble.join("; ")}`);
   await plain.browser.close();
   process.exit(faults.length === 0 ? 0 : 1);
