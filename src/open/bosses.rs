@@ -320,3 +320,6 @@ impl<'r, 'a> Search<'r, 'a> {
         (state.voids, state.held) = (settled.voids, held);
     }
 }
+
+#[cfg(test)]
+mod tests;

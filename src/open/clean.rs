@@ -211,3 +211,6 @@ fn keep_solid(
     };
     Ok((round, less))
 }
+
+#[cfg(test)]
+mod tests;

@@ -67,3 +67,6 @@ impl Failed {
         self.reasons.iter().map(remark).collect()
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -329,3 +329,6 @@ fn unless_refused<T>(way: Result<T, Error>) -> Result<Option<T>, Error> {
         Err(error) => Err(error),
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -15,6 +15,9 @@ mod resolve;
 mod settle;
 mod way;
 
+#[cfg(test)]
+mod scenes;
+
 pub use defect::defect_ratio;
 pub use ladder::climb;
 pub use plan::plan_once;

@@ -21,3 +21,45 @@ pub fn request(placed: &Placed, watch: &Watch) -> PlanRequest {
         ..usual
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cut::rods;
+    use crate::geom::{Point, Vector};
+    use crate::job::IdStyle;
+    use crate::open::scenes::{thick_box, unwatched};
+
+    #[test]
+    fn cuts_keep_to_the_goals_axis_the_policy_and_the_shops_rods() {
+        let mut placed = thick_box();
+        placed.policy.cut_worth_ratio = 0.07;
+        placed.shop.rods = rods().unwrap();
+        let request = unwatched(&placed);
+        assert_eq!(request.worth_ratio, 0.07);
+        assert_eq!(request.rods, placed.shop.rods);
+        // The middle of the foot, and up.
+        let middle = Point::new(10.0, 10.0, 0.0);
+        assert!((request.axis.point - middle).norm() < 1e-9);
+        assert_eq!(request.axis.direction, Vector::z());
+        assert_eq!(request.min_opening_mm, 3.0);
+    }
+
+    #[test]
+    fn ids_are_sunk_into_cut_faces_only_if_the_job_says_so() {
+        let mut placed = thick_box();
+        for (ids, is_engraved) in [(IdStyle::None, false), (IdStyle::Engraved, true)] {
+            placed.job.ids = ids;
+            assert_eq!(unwatched(&placed).labels.is_some(), is_engraved);
+        }
+    }
+
+    #[test]
+    fn the_button_of_a_run_stops_its_plans() {
+        let placed = thick_box();
+        let watch = Watch::silent();
+        let request = request(&placed, &watch);
+        watch.cancel();
+        assert!(request.watch.is_cancelled());
+    }
+}

@@ -264,3 +264,6 @@ pub fn finish(mut voids: Voids, watch: &Watch) -> Result<Voids, Error> {
     voids.hollowed.voids = finished.collect::<Result<_, _>>()?;
     Ok(voids)
 }
+
+#[cfg(test)]
+mod tests;

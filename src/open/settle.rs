@@ -124,3 +124,6 @@ fn list_unclean(voids: &Voids, plan: &CutPlan, terms: &Terms) -> Result<Vec<Uncl
     });
     Ok(unclean)
 }
+
+#[cfg(test)]
+mod tests;

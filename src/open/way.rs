@@ -102,3 +102,6 @@ impl<'a> Way<'a> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;
