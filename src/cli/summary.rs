@@ -7,7 +7,7 @@ use super::show::{GREEN, RED, paint, table, verdict};
 use super::voice::Manner;
 use crate::base::numbers::quantity as figure;
 use crate::base::units::format_count;
-use crate::page::promise;
+use crate::page::{promise, spins_on};
 use crate::sheet::{Checklist, Course, LogRow, PassRow};
 use crate::verify::Check;
 
@@ -24,6 +24,7 @@ const STEP_NUMBERS: [&str; 4] = ["passes", "value", "bound", "residual"];
 pub fn ten_lines(checklist: &Checklist, out: &Path, manner: Manner) -> String {
     let lines = [
         Some(("what it does", promise(checklist))),
+        spins_on(checklist).map(|words| ("spins on", words)),
         Some(("filled solid", solid_words(checklist))),
         Some(("at best", bound_words(checklist))),
         balance(checklist).map(|words| ("balance", words)),
@@ -155,6 +156,8 @@ fn parts(checklist: &Checklist) -> String {
         format_count(pins, "pin"),
         format_count(checklist.voids.len(), "void"),
     ];
+    let tip = checklist.goal.spins_on.is_some_and(|spin| spin.has_tip);
+    let tip = if tip { " and a tip" } else { "" };
     let plates = checklist
         .files
         .keys()
@@ -166,7 +169,7 @@ fn parts(checklist: &Checklist) -> String {
         String::new()
     };
     format!(
-        "{}{plates} for {}",
+        "{}{tip}{plates} for {}",
         counts.join(", "),
         checklist.printer.name
     )

@@ -84,6 +84,9 @@ fn facts(sheet: &Checklist) -> Markup {
                     "; " (quantity(sheet.solid.mass_g, "g")) " if it were solid"
                 }
             }
+            @if let Some(foot) = words::spins_on(sheet) {
+                tr { th scope="row" { "Spins on" } td { (foot) "." } }
+            }
             tr { th scope="row" { "Wall" } td { (words::wall(&sheet.wall)) } }
         }
     }

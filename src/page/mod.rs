@@ -44,4 +44,4 @@ pub use job_sheet::page;
 pub use printing::cup_warning;
 pub use subject::Subject;
 pub use view::View;
-pub use words::promise;
+pub use words::{promise, spins_on};

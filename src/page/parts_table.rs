@@ -4,6 +4,7 @@ use maud::{Markup, html};
 
 use super::fields::{blank, file_name, half_name, mass_with_window};
 use super::figure::Picture;
+use super::hardware::bar;
 use crate::base::numbers::{extent, quantity};
 use crate::base::units::{MM3_PER_CM3, format_count};
 use crate::sheet::{Checklist, PartRow};
@@ -21,6 +22,19 @@ pub(super) fn parts(sheet: &Checklist, pictures: &[Picture]) -> Markup {
             table class="parts" {
                 thead { tr { th scope="col" { "As it lies on the plate" } th scope="col" { "Part and file" } th scope="col" class="n" { "Mass" } th scope="col" { "To fill in" } } }
                 tbody { @for part in &sheet.parts { (line(sheet, part, pictures)) } }
+            }
+            (bought(sheet))
+        }
+    }
+}
+
+/// Lists the hardware, which is bought and not printed; empty if there is none.
+fn bought(sheet: &Checklist) -> Markup {
+    html! {
+        @if !sheet.hardware.is_empty() {
+            p { "Not printed, to have at hand:" }
+            ul class="ticks" {
+                @for piece in &sheet.hardware { li { strong { (piece.id) } ", " (bar(piece)) } }
             }
         }
     }
