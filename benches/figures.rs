@@ -229,8 +229,9 @@ impl Scene {
     }
 
     fn placement(&self) -> &Placement {
-        self.placement
-            .get_or_init(|| place(self.solid(), self.wall_mm(), &self.request).unwrap())
+        self.placement.get_or_init(|| {
+            place(self.solid(), self.wall_mm(), &self.request.unpromised()).unwrap()
+        })
     }
 
     fn shell(&self) -> &Shell {

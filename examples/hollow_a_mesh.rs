@@ -23,7 +23,9 @@ fn main() -> anyhow::Result<()> {
     let watch = Watch::silent();
     let (mesh, _) = repair(read_model(path.as_ref())?);
     let solid = Solid::new(mesh)?;
-    let placed = place(&solid, WALL_MM, &Request::new(GoalKind::Top))?;
+    // On its own lowest point: a tip would have to be weighed in.
+    let top = Request::new(GoalKind::Top).unpromised();
+    let placed = place(&solid, WALL_MM, &top)?;
     let shell = Shell::new(&solid, &placed.goal.frame, WALL_MM, &placed.keeps)?;
     let columns = Columns::of_shell(&shell, shell.coarse_pitch(200), &watch)?;
     let problem = Problem {

@@ -342,6 +342,11 @@ mod tests {
             mass_g: Some(2.5),
             ..Hardware::default()
         });
+        let mut firm = job();
+        firm.goal.tip = "none".parse().unwrap();
+        firm.goal.least_lean_deg = 12.5;
+        assert!(firm.to_toml().unwrap().contains("tip = \"none\""));
+        assert_eq!(reread(&firm), firm);
         assert!(yoyo.to_toml().unwrap().contains("axle = \"6mmx30mm:2.7\""));
         for job in [job(), other, rotor, boat, yoyo] {
             assert_eq!(reread(&job), job);
@@ -365,7 +370,7 @@ mod tests {
         for line in [
             "schema = 1",
             "up = \"z\"",
-            "contact = \"lowest\"",
+            "contact = \"auto\"",
             "size = \"100mm\"",
             "kind = \"top\"",
         ] {
@@ -417,7 +422,7 @@ mod tests {
         ("up = \"z\"", "up = \"0,0,0\"", "has no direction"),
         ("up = \"z\"", "up = \"w\"", "is not a direction"),
         (
-            "contact = \"lowest\"",
+            "contact = \"auto\"",
             "contact = \"highest\"",
             "is not a contact point",
         ),

@@ -80,6 +80,30 @@ fn an_independent_judge_weighs_the_tip_and_the_stem_of_a_top() {
 }
 
 #[test]
+fn an_independent_judge_leans_a_top_on_its_tip_and_finds_a_false_lean() {
+    let Some(python) = find_python(PACKAGES) else {
+        return;
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let kit = folder.path().join("kit");
+    let sheet = make_kit(&kit, "--wall 1mm --up y --goal top --contact center");
+    let (code, said) = judge(JUDGE, &python, &kit);
+    assert!(code == Some(0) && said.contains("lean promised"), "{said}");
+    let lean_deg = number(&sheet, "/goal/spins_on/lean_deg");
+    let path = kit.join("checklist.json");
+    let stated = fs::read_to_string(&path).unwrap();
+    let lie = stated.replacen(
+        &format!("\"lean_deg\": {lean_deg}"),
+        &format!("\"lean_deg\": {}", lean_deg + 0.01),
+        1,
+    );
+    assert_ne!(stated, lie);
+    fs::write(&path, lie).unwrap();
+    let (code, said) = judge(JUDGE, &python, &kit);
+    assert!(code == Some(1) && said.contains("FAIL lean, °"), "{said}");
+}
+
+#[test]
 fn an_independent_judge_agrees_with_the_checklist_and_finds_a_false_mass() {
     let Some(python) = find_python(PACKAGES) else {
         return;

@@ -67,7 +67,7 @@ impl Case {
     }
 
     fn of_solid(solid: Solid, request: &Request, wall_mm: f64) -> Self {
-        let placement = place(&solid, wall_mm, request).unwrap();
+        let placement = place(&solid, wall_mm, &request.unpromised()).unwrap();
         let shell = Shell::new(&solid, &placement.goal.frame, wall_mm, &placement.keeps).unwrap();
         let columns =
             Columns::of_shell(&shell, shell.coarse_pitch(COLUMNS), &Watch::silent()).unwrap();

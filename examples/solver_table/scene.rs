@@ -32,7 +32,7 @@ impl Scene {
         let Some(solid) = solid(model, file)? else {
             return Ok(None);
         };
-        let placement = place(&solid, WALL_MM, request)?;
+        let placement = place(&solid, WALL_MM, &request.unpromised())?;
         let shell = Shell::new(&solid, &placement.goal.frame, WALL_MM, &placement.keeps)?;
         Ok(Some(Self {
             goal: placement.goal,

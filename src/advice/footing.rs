@@ -1,11 +1,13 @@
 //! The faces a model can stand on: those of its convex hull.
 
 use super::directions::{is_new, round_direction, with_axis};
+use super::reached::Reached;
 use super::remedy::{Change, Kind, Remedy};
 use super::sampled_model::{SampledModel, Trial};
 use crate::base::setting::{Key, Setting};
 use crate::geom::{Point, Vector};
 use crate::goal::Up;
+use crate::hollow::Figure;
 use crate::mesh::{Csg, TriMesh};
 
 /// The greatest number of faces that are tried, the largest first. The hull of a scan has
@@ -55,7 +57,8 @@ fn merge_faces(hull: &TriMesh) -> Vec<(f64, Vector)> {
         .collect()
 }
 
-/// Returns the nearest face on which the model stands, by the angle by which it is turned.
+/// Returns the nearest face on which the model stands as firmly as is promised, by the angle by
+/// which it is turned.
 pub(super) fn remedy(model: &SampledModel, up: &Vector) -> Remedy {
     let mut faces = resting_directions(model.case.solid.mesh());
     faces.retain(|face| is_new(&[*up], face, SAME_FACE_COSINE));
@@ -79,14 +82,17 @@ pub(super) fn remedy(model: &SampledModel, up: &Vector) -> Remedy {
     Remedy::helping(Kind::NearestFace, change, &trial)
 }
 
-/// Returns the confirming solve for a face on which the model stands.
+/// Returns the confirming solve for a face on which the model stands as firmly as is promised.
 fn trial(model: &SampledModel, face: &Vector) -> Option<Trial> {
     let (request, wall_mm) = (with_axis(&model.case.request, face), model.case.wall_mm);
-    if model.allows(&request, wall_mm) {
-        model.confirm(&request, wall_mm)
-    } else {
-        None
+    if !model.allows(&request, wall_mm) {
+        return None;
     }
+    let trial = model.confirm(&request, wall_mm)?;
+    let reached = Reached::of(&trial.solution.certificate);
+    let is_angle = reached.figure == Figure::TopplingAngleRad;
+    let is_kept = !is_angle || reached.value >= request.least_angle_deg.to_radians();
+    is_kept.then_some(trial)
 }
 
 #[cfg(test)]

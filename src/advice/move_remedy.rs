@@ -7,7 +7,7 @@ use super::sampled_model::SampledModel;
 use crate::base::setting::{Key, Setting};
 use crate::base::units::show_mm;
 use crate::geom::Vector;
-use crate::goal::{Contact, Request};
+use crate::goal::{Contact, Request, TipChoice};
 
 /// Returns the nearest move that helps, as a remedy. If no axis helps, it is also searched with the
 /// contact below the centre of mass.
@@ -20,7 +20,7 @@ pub(super) fn remedy(model: &SampledModel, moves: &Moves) -> Remedy {
     };
     let nearest = centered.and_then(|moves| find_nearest(model, &moves));
     match found.or(nearest) {
-        Some(nearest) => describe(moves, &nearest),
+        Some(nearest) => describe(model, moves, &nearest),
         None => Remedy::dead_end(kind(moves.part), no_help(moves.part).to_owned()),
     }
 }
@@ -43,7 +43,7 @@ fn no_help(part: Part) -> &'static str {
 }
 
 /// Returns the remedy of a step that was found.
-fn describe(moves: &Moves, nearest: &Nearest) -> Remedy {
+fn describe(model: &SampledModel, moves: &Moves, nearest: &Nearest) -> Remedy {
     let length = nearest.step.norm();
     let amount = if moves.part == Part::Axis {
         length.to_degrees()
@@ -52,7 +52,7 @@ fn describe(moves: &Moves, nearest: &Nearest) -> Remedy {
     };
     let change = Change {
         amount,
-        settings: settings(moves.part, &nearest.request),
+        settings: settings(model, moves.part, nearest),
         words: words(moves, nearest),
     };
     Remedy::helping(kind(moves.part), change, &nearest.trial)
@@ -72,8 +72,17 @@ fn words(moves: &Moves, nearest: &Nearest) -> String {
     format!("tilt the axis by {angle:.1}° toward {towards}{contact}")
 }
 
-/// Returns the options for a moved part.
-fn settings(part: Part, request: &Request) -> Vec<Setting> {
+/// Returns the options for a moved part, and for the tip that it needs.
+fn settings(model: &SampledModel, part: Part, nearest: &Nearest) -> Vec<Setting> {
+    let moved = moved(part, &nearest.request);
+    let footing = nearest.trial.placement.footing.as_ref();
+    let is_new = footing.is_some_and(|footing| footing.tip().is_some())
+        && model.case.request.tip == TipChoice::None;
+    let tip = is_new.then(|| Setting::new(Key::Tip, TipChoice::Auto));
+    moved.into_iter().chain(tip).collect()
+}
+
+fn moved(part: Part, request: &Request) -> Vec<Setting> {
     let up = Setting::new(Key::Up, request.up);
     match (part, request.contact, request.spin_point) {
         (Part::Contact, Some(contact), _) => vec![Setting::new(Key::Contact, contact)],

@@ -4,7 +4,7 @@ use super::case::Case;
 use super::directions::lattice;
 use super::orientation::over_corners;
 use crate::geom::{Frame, Point, Vector};
-use crate::goal::{Contact, Goal, GoalKind, Request, SpinPoint, Up};
+use crate::goal::{Contact, Goal, GoalKind, Request, SpinPoint, TipChoice, Up};
 use crate::mass::{Body, Moments};
 
 /// The number of lattice directions that are tried in turn, the least tilt first: 20° apart.
@@ -76,7 +76,7 @@ impl Moves {
     fn none(case: &Case, goal: &Goal) -> Self {
         Self {
             part: Part::Axis,
-            asked: case.request,
+            asked: with_tip_to_come(case.request),
             frame: goal.frame,
             limit: 0.0,
             seeds: Vec::new(),
@@ -158,6 +158,20 @@ impl Moves {
         };
         self.frame
             .direction_to_model(&(across * tilt.sin() + Vector::z() * tilt.cos()))
+    }
+}
+
+/// Returns the request with a tip if its new place needs one, also if none was ordered. A contact
+/// in the air is no remedy.
+fn with_tip_to_come(request: Request) -> Request {
+    let is_waived = request.tip == TipChoice::None && request.least_lean_deg > 0.0;
+    Request {
+        tip: if is_waived {
+            TipChoice::Auto
+        } else {
+            request.tip
+        },
+        ..request
     }
 }
 

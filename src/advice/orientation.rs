@@ -9,7 +9,7 @@ use super::reached::Reached;
 use super::sampled_model::{COARSE_SAMPLES, FINE_SAMPLES, SampledModel, Trial};
 use crate::base::watch::{Cancelled, Watch};
 use crate::geom::{Frame, Point, Vector};
-use crate::goal::{Contact, GoalKind, Request};
+use crate::goal::{self, Contact, GoalKind, MeasuredSolid, Request};
 use crate::mass::{Body, moments_of_mesh};
 use crate::mesh::{Csg, TriMesh};
 
@@ -47,8 +47,8 @@ pub struct Orientation {
 /// Returns the axis on which the goal reaches the best value. `None` if it is possible on none of
 /// the axes tried.
 ///
-/// The contact follows the request's own rule. If the lowest point allows no axis, the contact is
-/// put below the centre of mass, where a tip has to reach it.
+/// The contact follows the request's own rule. If the lowest point allows no axis, it is put below
+/// the centre of mass on a tip. So it is if the contact is free and leans too little there.
 ///
 /// The axes tried are the faces of the convex hull for a standing object. For the other goals they
 /// are a lattice over the sphere, the coordinate axes and the solid's principal axes. A yo-yo's
@@ -61,18 +61,31 @@ pub struct Orientation {
 /// # Errors
 /// The watch was stopped.
 pub fn best_orientation(case: &Case, watch: &Watch) -> Result<Option<Orientation>, Cancelled> {
-    let best = best_with_contact_rule(case, watch);
+    let with = |contact| {
+        let request = Request {
+            contact: Some(contact),
+            ..case.request
+        };
+        best_with_contact_rule(&Case { request, ..*case }, watch)
+    };
+    let best = match case.request.contact {
+        Some(Contact::Auto) => with(Contact::Lowest).filter(|best| spins_on_lowest(case, best)),
+        _ => best_with_contact_rule(case, watch),
+    };
     watch.check()?;
-    if best.is_some() || case.request.contact != Some(Contact::Lowest) {
+    let is_lowest = matches!(case.request.contact, Some(Contact::Auto | Contact::Lowest));
+    if best.is_some() || !is_lowest {
         return Ok(best);
     }
-    let request = Request {
-        contact: Some(Contact::Center),
-        ..case.request
-    };
-    let best = best_with_contact_rule(&Case { request, ..*case }, watch);
+    let best = with(Contact::Center);
     watch.check()?;
     Ok(best)
+}
+
+/// Returns true if a top keeps its promise on the lowest point below an axis.
+fn spins_on_lowest(case: &Case, best: &Orientation) -> bool {
+    let measured = MeasuredSolid::new(case.solid);
+    goal::spins_on_lowest(&measured, case.wall_mm, &best.request).unwrap_or(false)
 }
 
 fn best_with_contact_rule(case: &Case, watch: &Watch) -> Option<Orientation> {
@@ -86,7 +99,12 @@ fn best_with_contact_rule(case: &Case, watch: &Watch) -> Option<Orientation> {
         .map(|start| refine(&model, start))
         .collect();
     let best = refined.into_iter().flatten().min_by(by_score)?;
-    let (request, reached) = (best.request, best.reached);
+    let (request, wall_mm) = (best.request, case.wall_mm);
+    let as_promised = model.trial_as_promised(&request, wall_mm);
+    let reached = as_promised.filter(Trial::is_possible);
+    let reached = reached.map_or(best.reached, |trial| {
+        Reached::of(&trial.solution.certificate)
+    });
     Some(Orientation {
         request,
         reached,

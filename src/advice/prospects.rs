@@ -10,7 +10,7 @@ use super::reached::Reached;
 use super::sampled_model::{COARSE_SAMPLES, SampledModel, Trial};
 use crate::base::watch::Watch;
 use crate::geom::Vector;
-use crate::goal::{Contact, GoalKind, Request, Up};
+use crate::goal::{Contact, Footing, GoalKind, Request, Rod, Up, Warning};
 use crate::hollow::Status;
 
 /// A principal axis this near to a coordinate axis is that axis: cos 1°.
@@ -26,7 +26,11 @@ pub struct Prospect {
     /// Tops: the contact point; `None` for the others.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub contact: Option<Contact>,
-    /// True if some hollowing with this wall meets it; the full solid counts too.
+    /// Tops: the tip that it needs; `None` if it spins on its own foot, and for the others.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tip: Option<Rod>,
+    /// True if some hollowing with this wall meets it and its promises of lean and toppling angle.
+    /// The full solid counts too.
     pub possible: bool,
     /// The best value reached, to a few per cent; `None` if it is impossible.
     pub reached: Option<Reached>,
@@ -35,8 +39,8 @@ pub struct Prospect {
 }
 
 /// Returns the goals that a model could meet with its wall, along the coordinate axes and the
-/// solid's principal axes. They are tops on their lowest point, else with the contact below the
-/// centre of mass; yo-yos about their centre of mass; and standing objects. Goals that cannot be
+/// solid's principal axes. They are tops on their lowest point, else on a tip below the centre of
+/// mass; yo-yos about their centre of mass; and standing objects. Goals that cannot be
 /// placed are left out.
 ///
 /// Ignores the request of the case. Costs about thirty trials.
@@ -75,50 +79,62 @@ fn name_axis(axis: &Vector) -> Up {
 }
 
 fn prospect(model: &SampledModel, request: &Request) -> Option<Prospect> {
-    let top = request.kind == GoalKind::Top;
-    let with_contact = |contact| {
-        model.trial(
-            &Request {
-                contact,
-                ..*request
-            },
-            model.case.wall_mm,
-        )
-    };
-    let lowest = with_contact(top.then_some(Contact::Lowest));
-    let is_possible = |trial: &Option<Trial>| trial.as_ref().is_some_and(Trial::is_possible);
-    let below = if top && !is_possible(&lowest) {
-        with_contact(Some(Contact::Center))
+    let is_top = request.kind == GoalKind::Top;
+    let (contact, trial) = if is_top {
+        let (contact, trial) = try_contacts(model, request)?;
+        (Some(contact), trial)
     } else {
-        None
+        (None, model.trial(request, model.case.wall_mm)?)
     };
-    let helps = is_possible(&below);
-    let contact = top.then_some(if helps {
-        Contact::Center
-    } else {
-        Contact::Lowest
-    });
-    let trial = if helps { below } else { lowest }?;
-    let possible = trial.is_possible();
     let reached = Reached::of(&trial.solution.certificate);
-    let places = if top {
-        ", neither on its lowest point nor below its centre of mass"
-    } else {
-        ""
-    };
-    let reason = if possible {
-        String::new()
-    } else {
-        brief(&trial) + places
-    };
+    let refusal = refusal(request, &trial, &reached);
+    let possible = refusal.is_none();
+    let footing = trial.placement.footing.as_ref();
     Some(Prospect {
         kind: request.kind,
         up: request.up,
         contact,
+        tip: footing.and_then(Footing::tip).filter(|_| possible),
         possible,
         reached: possible.then_some(reached),
-        reason,
+        reason: refusal.unwrap_or_default(),
     })
+}
+
+/// Returns the reason why a trial does not do what is promised; `None` if it does.
+fn refusal(request: &Request, trial: &Trial, reached: &Reached) -> Option<String> {
+    let is_top = request.kind == GoalKind::Top;
+    if !trial.is_possible() {
+        let places = if is_top {
+            ", neither on its lowest point nor below its centre of mass"
+        } else {
+            ""
+        };
+        return Some(brief(trial) + places);
+    }
+    if trial.placement.warnings.contains(&Warning::NoTip) {
+        return Some("no tip below its centre of mass is held by the model".to_owned());
+    }
+    let angle_deg = reached.value.to_degrees();
+    let is_shaky = request.kind == GoalKind::Stand && angle_deg < request.least_angle_deg;
+    is_shaky.then(|| format!("it stands, but topples at {angle_deg:.1}° at best"))
+}
+
+/// Tries a top on its lowest point if it leans there as promised, else below its centre of mass.
+/// Returns the contact that is possible, the latter if none is.
+fn try_contacts(model: &SampledModel, request: &Request) -> Option<(Contact, Trial)> {
+    let with = |contact| {
+        let request = Request {
+            contact: Some(contact),
+            ..*request
+        };
+        let trial = model.trial_as_promised(&request, model.case.wall_mm)?;
+        Some((contact, trial))
+    };
+    let is_possible = |(_, trial): &(Contact, Trial)| trial.is_possible();
+    let spins = model.spins_on_lowest(request);
+    let lowest = spins.then(|| with(Contact::Lowest)).flatten();
+    lowest.filter(is_possible).or_else(|| with(Contact::Center))
 }
 
 /// Returns the reason why a goal is impossible, in a few words with the number.

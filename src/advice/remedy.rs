@@ -5,6 +5,7 @@ use serde::Serialize;
 use super::reached::Reached;
 use super::sampled_model::{CONFIRMING_COLUMNS, Trial};
 use crate::base::setting::Setting;
+use crate::goal::Footing;
 
 /// The kind of change.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -118,10 +119,13 @@ impl Remedy {
             &[]
         };
         let appended = warnings.iter().map(|warning| format!("; {warning}"));
+        let footing = trial.placement.footing.as_ref();
+        let tip = footing.and_then(Footing::tip);
         let words = format!(
-            "{}; it then {}{}",
+            "{}; it then {}{}{}",
             change.words,
             confirmed.reached,
+            tip.map_or(String::new(), |tip| format!(" on a tip of {tip}")),
             appended.collect::<String>()
         );
         Self {

@@ -3,13 +3,15 @@
 use super::case::Case;
 use super::reached::Reached;
 use crate::base::watch::Watch;
+use crate::geom::Point;
 use crate::goal::{
-    Hydrostatics, MeasuredSolid, Placement, PrintStock, Request, Warning, Waterline, place_measured,
+    Footing, Hydrostatics, MeasuredSolid, Placement, PrintStock, Request, Warning, Waterline,
+    place_measured, spins_on_lowest,
 };
 use crate::hollow::{Problem, Settings, Solution, solve, solve_on_model_columns};
 use crate::interior::{Columns, Depths};
-use crate::mass::moments_of_mesh;
-use crate::shell::Shell;
+use crate::mass::RoundBar;
+use crate::shell::{Keep, Shell};
 
 /// The number of depth samples of a search. With a third of them its answers differ by some per
 /// cent from the confirmed ones. Three times as many cost three times as much a trial, and the
@@ -57,20 +59,23 @@ impl Trial {
 
 impl<'a> SampledModel<'a> {
     pub fn new(case: Case<'a>, samples: usize, watch: &Watch) -> Self {
-        let weighed = MeasuredSolid {
-            solid: case.solid,
-            moments: moments_of_mesh(case.solid.mesh()),
-        };
         Self {
             depths: Depths::of_solid(case.solid, samples),
-            weighed,
+            weighed: MeasuredSolid::new(case.solid),
             case,
             watch: watch.muted(),
         }
     }
 
-    /// Solves a request on the sampled depths. Returns `None` if the request cannot be place.
+    /// Solves a request on the sampled depths, without its promises of lean and angle. Returns
+    /// `None` if the request cannot be placed.
     pub fn trial(&self, request: &Request, wall_mm: f64) -> Option<Trial> {
+        self.trial_as_promised(&request.unpromised(), wall_mm)
+    }
+
+    /// Solves a request on the sampled depths, with the tip that its promise needs. Returns `None`
+    /// if the request cannot be placed.
+    pub fn trial_as_promised(&self, request: &Request, wall_mm: f64) -> Option<Trial> {
         let placement = self.place(request, wall_mm)?;
         let columns = self.depths.columns(wall_mm, &placement.keeps);
         self.best_trial(&placement, &columns, solve_on_model_columns)
@@ -118,7 +123,13 @@ impl<'a> SampledModel<'a> {
             wall_mm,
             density_g_cm3: self.case.density_g_cm3,
         };
-        place_measured(&self.weighed, &stock, request).ok()
+        let placement = place_measured(&self.weighed, &stock, request).ok()?;
+        Some(with_tip(placement, &stock))
+    }
+
+    /// Returns true if a top keeps its promise on the lowest point of the model.
+    pub fn spins_on_lowest(&self, request: &Request) -> bool {
+        spins_on_lowest(&self.weighed, self.case.wall_mm, request).unwrap_or(false)
     }
 
     /// Returns the placement itself or, for a free waterline, the placement at several lines over
@@ -166,6 +177,30 @@ impl<'a> SampledModel<'a> {
         };
         trials.min_by(|a, b| score(a).total_cmp(&score(b)))
     }
+}
+
+/// Counts the tip of a placed top: its mass in place of the print, and the wall around its socket.
+/// The gap around it is left out, which is some per cent of its mass.
+fn with_tip(mut placement: Placement, stock: &PrintStock) -> Placement {
+    let Some(rod) = placement.footing.as_ref().and_then(Footing::tip) else {
+        return placement;
+    };
+    let frame = placement.goal.frame;
+    let at = |z: f64| frame.to_model(&Point::new(0.0, 0.0, z));
+    let [end, mouth, bottom] = [0.0, rod.out_mm(), rod.length_mm()].map(at);
+    let pin = RoundBar {
+        is_round: true,
+        ..RoundBar::plain(bottom, end, rod.radius_mm())
+    };
+    let socket = RoundBar::plain(mouth, bottom, rod.radius_mm());
+    let more = pin.moments() * (rod.density_g_cm3 / stock.density_g_cm3) - socket.moments();
+    placement.goal.solid += more.in_frame(&frame);
+    placement.keeps.push(Keep {
+        from: mouth,
+        to: bottom,
+        radius_mm: rod.radius_mm() + stock.wall_mm,
+    });
+    placement
 }
 
 /// A solver for columns in the model's or in the goal's frame.

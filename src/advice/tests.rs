@@ -87,7 +87,7 @@ fn askew_yoyo() -> Request {
 
 /// Returns a top on a lens whose contact lies too far aside.
 fn top_aside(lens: &Solid) -> Request {
-    let lowest = place(lens, 1.0, &Request::new(GoalKind::Top))
+    let lowest = place(lens, 1.0, &Request::new(GoalKind::Top).unpromised())
         .unwrap()
         .goal
         .frame
@@ -95,7 +95,7 @@ fn top_aside(lens: &Solid) -> Request {
     let aside = [lowest.x - 12.0, lowest.y + 5.0, lowest.z];
     Request {
         contact: Some(Contact::At(aside)),
-        ..Request::new(GoalKind::Top)
+        ..Request::new(GoalKind::Top).unpromised()
     }
 }
 

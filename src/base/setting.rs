@@ -69,6 +69,10 @@ choice! {
         Tip = "tip",
         /// The stem of a top.
         Stem = "stem",
+        /// The least lean that a top promises.
+        LeastLean = "least_lean_deg",
+        /// The least toppling angle that a standing object promises.
+        LeastAngle = "least_angle_deg",
         /// The folder or file that is written; it is not part of a job.
         Out = "out",
         /// The permission to replace what is there; it is not part of a job.

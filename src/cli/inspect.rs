@@ -270,7 +270,10 @@ fn plain(value: f64, unit: &str) -> String {
 /// Returns a line for each goal and axis.
 fn becoming_text(becoming: &Becoming) -> String {
     let line = |prospect: &Prospect| {
-        let reached = prospect.reached.map(|reached| format!("it {reached}"));
+        let tip = prospect.tip.map_or(String::new(), |tip| {
+            format!(" on a tip ({})", flag(&Setting::new(Key::Tip, tip)))
+        });
+        let reached = prospect.reached.map(|reached| format!("it {reached}{tip}"));
         let verdict = reached.unwrap_or_else(|| format!("impossible: {}", prospect.reason));
         [
             prospect.kind.to_string(),
@@ -286,11 +289,11 @@ fn becoming_text(becoming: &Becoming) -> String {
     )
 }
 
-/// Returns the axis, and the contact of a top that differs from the default.
+/// Returns the axis, and the contact of a top if it is not its lowest point.
 fn settings(prospect: &Prospect) -> Vec<Setting> {
     let other = prospect
         .contact
-        .filter(|contact| *contact != Contact::Lowest);
+        .filter(|contact| *contact == Contact::Center);
     let up = Setting::new(Key::Up, prospect.up);
     let contact = other.map(|contact| Setting::new(Key::Contact, contact));
     std::iter::once(up).chain(contact).collect()

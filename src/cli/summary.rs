@@ -8,7 +8,7 @@ use super::voice::Manner;
 use crate::base::numbers::{measured, measured_extent, quantity as figure};
 use crate::base::units::format_count;
 use crate::goal::GoalKind;
-use crate::page::promise;
+use crate::page::{promise, spins_on};
 use crate::sheet::{Checklist, Course, LogRow, PassRow};
 use crate::verify::{Check, SHEET_FILE};
 
@@ -23,6 +23,7 @@ const STEP_NUMBERS: [&str; 4] = ["passes", "value", "bound", "residual"];
 pub fn ten_lines(checklist: &Checklist, out: &Path, manner: Manner) -> String {
     let lines = [
         Some(("what it does", promise(checklist))),
+        spins_on(checklist).map(|words| ("spins on", words)),
         Some(("if solid", solid_words(checklist))),
         Some(("how good", bound_words(checklist))),
         balance(checklist).map(|words| ("balance", words)),
@@ -165,6 +166,8 @@ fn parts(checklist: &Checklist) -> String {
         format_count(pins, "pin"),
         format_count(checklist.voids.len(), "void"),
     ];
+    let tip = checklist.goal.spins_on.is_some_and(|spin| spin.has_tip);
+    let tip = if tip { " and a tip" } else { "" };
     let plates = checklist.plates().count();
     let plates = if plates > 0 {
         format!(" on {}", format_count(plates, "plate"))
@@ -172,7 +175,7 @@ fn parts(checklist: &Checklist) -> String {
         String::new()
     };
     format!(
-        "{}{plates} for {}",
+        "{}{tip}{plates} for {}",
         counts.join(", "),
         checklist.printer.name
     )

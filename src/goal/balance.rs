@@ -33,6 +33,7 @@ pub(super) fn place(
         goal,
         keeps,
         warnings: Vec::new(),
+        footing: None,
     })
 }
 

@@ -141,7 +141,7 @@ mod tests {
     fn a_flat_disc_of_a_block_has_its_closed_form_critical_speed() {
         // 20 × 20 × 2: I_c = M (20² + 20²)/12, I_b = M (20² + 2²)/12, ℓ = 1: ω² = 12 g/(800 − 404).
         let solid = block([-10., -10., 0.], [10., 10., 2.]);
-        let goal = place(&solid, 0.5, &Request::new(GoalKind::Top))
+        let goal = place(&solid, 0.5, &Request::new(GoalKind::Top).unpromised())
             .unwrap()
             .goal;
         let got = compute_figures(&goal, &goal.solid);
@@ -156,7 +156,7 @@ mod tests {
         let goal = place(
             &block([0., 0., 0.], [2., 2., 9.]),
             0.5,
-            &Request::new(GoalKind::Top),
+            &Request::new(GoalKind::Top).unpromised(),
         )
         .unwrap()
         .goal;
@@ -185,7 +185,7 @@ mod tests {
         let request = Request {
             up: Up::Along([tilt.sin(), 0.0, tilt.cos()]),
             contact: Some(Contact::Center),
-            ..Request::new(GoalKind::Top)
+            ..Request::new(GoalKind::Top).unpromised()
         };
         let goal = place(&solid, 0.5, &request).unwrap().goal;
         assert!((compute_figures(&goal, &goal.solid).axis_tilt_rad - tilt).abs() < 1e-9);
@@ -228,7 +228,7 @@ mod tests {
                 0.5,
                 &Request {
                     objective,
-                    ..Request::new(GoalKind::Top)
+                    ..Request::new(GoalKind::Top).unpromised()
                 },
             )
             .unwrap()

@@ -30,6 +30,7 @@ pub(super) fn place(site: &Site, density_g_cm3: f64, water: Water) -> Result<Pla
         goal,
         keeps: Vec::new(),
         warnings: Vec::new(),
+        footing: None,
     })
 }
 

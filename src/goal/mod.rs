@@ -8,11 +8,13 @@
 //! the assembled parts.
 
 mod balance;
+mod drill;
 mod error;
 mod figures;
 mod float;
 mod hardware;
 mod kind;
+mod lean;
 mod place;
 mod placement;
 mod request;
@@ -24,6 +26,8 @@ mod stand;
 mod support;
 #[cfg(test)]
 pub(crate) mod testing;
+mod tip_choice;
+mod tips;
 mod top;
 mod water;
 mod yoyo;
@@ -33,13 +37,15 @@ pub(crate) use figures::to_rpm;
 pub use figures::{Figures, compute_figures};
 pub use hardware::{Hardware, HardwareError, Rod, STEEL_G_CM3};
 pub use kind::{GoalKind, Objective};
-pub use place::{PrintStock, place, place_in_material, place_measured};
-pub use placement::{Goal, Placement, Warning};
-pub use request::{Request, RequestError};
+pub use lean::Lean;
+pub use place::{PrintStock, place, place_in_material, place_measured, spins_on_lowest};
+pub use placement::{Footing, Goal, Placement, Warning};
+pub use request::{LEAST_ANGLE_DEG, LEAST_LEAN_DEG, Request, RequestError};
 pub use resting::{FootStability, find_foot_stability};
 pub use rotor::{Rotor, Spindle};
 pub use site::MeasuredSolid;
 pub use sites::{Contact, SpinPoint, Up};
 pub(crate) use support::edges as support_edges;
+pub use tip_choice::TipChoice;
 pub(crate) use top::height_over_origin;
 pub use water::{FloatConditions, Hydrostatics, Liquid, Water, Waterline};

@@ -5,9 +5,8 @@ use super::kind::GoalKind;
 use super::placement::Placement;
 use super::request::Request;
 use super::site::{MeasuredSolid, Site};
-use super::sites::{Contact, SpinPoint};
+use super::sites::SpinPoint;
 use super::{balance, float, stand, top, yoyo};
-use crate::mass::moments_of_mesh;
 use crate::mesh::Solid;
 
 /// The wall and the material of a model.
@@ -45,14 +44,7 @@ pub fn place_in_material(
     stock: &PrintStock,
     request: &Request,
 ) -> Result<Placement, GoalError> {
-    place_measured(
-        &MeasuredSolid {
-            solid,
-            moments: moments_of_mesh(solid.mesh()),
-        },
-        stock,
-        request,
-    )
+    place_measured(&MeasuredSolid::new(solid), stock, request)
 }
 
 /// Places a goal in a solid whose moments are known, which saves time when it is placed often.
@@ -74,15 +66,7 @@ pub fn place_measured(
     let request = request.validate()?;
     let site = Site::new(weighed, &request)?;
     match request.kind {
-        GoalKind::Top => {
-            let contact = request.contact.unwrap_or(Contact::Lowest);
-            top::place(
-                &site,
-                wall_mm,
-                contact,
-                request.hardware.and_then(|hardware| hardware.tip),
-            )
-        }
+        GoalKind::Top => top::place(&site, wall_mm, top::Order::of(&request)),
         GoalKind::Yoyo => yoyo::place(&site, request.spin_point.unwrap_or(SpinPoint::Center)),
         GoalKind::Stand => stand::place(&site),
         GoalKind::Float => float::place(&site, density_g_cm3, request.water.unwrap_or_default()),
@@ -93,9 +77,24 @@ pub fn place_measured(
     }
 }
 
+/// Returns true if a top keeps its promise on the lowest point of the model, without a tip but for
+/// one that was ordered.
+///
+/// # Errors
+/// The goal cannot be placed there.
+pub fn spins_on_lowest(
+    weighed: &MeasuredSolid,
+    wall_mm: f64,
+    request: &Request,
+) -> Result<bool, GoalError> {
+    let request = request.validate()?;
+    let site = Site::new(weighed, &request)?;
+    top::spins_on_lowest(&site, wall_mm, top::Order::of(&request))
+}
+
 #[cfg(test)]
 mod tests {
-    use super::super::{Objective, RequestError, Up, Warning, testing::*};
+    use super::super::{Contact, Objective, RequestError, TipChoice, Up, Warning, testing::*};
     use super::*;
     use crate::geom::{Point, Vector};
 
@@ -105,12 +104,11 @@ mod tests {
 
     #[test]
     fn a_block_on_its_face_touches_at_the_faces_middle() {
-        let placed = place(
-            &block([-1., -2., 3.], [5., 4., 9.]),
-            1.0,
-            &request(GoalKind::Top),
-        )
-        .unwrap();
+        let lowest = Request {
+            contact: Some(Contact::Lowest),
+            ..request(GoalKind::Top).unpromised()
+        };
+        let placed = place(&block([-1., -2., 3.], [5., 4., 9.]), 1.0, &lowest).unwrap();
         assert!((placed.goal.frame.origin - Point::new(2., 1., 3.)).norm() < 1e-12);
         assert!(placed.warnings.is_empty());
         assert_eq!(placed.keeps.len(), 1);
@@ -123,6 +121,7 @@ mod tests {
         let table = arch();
         let request = Request {
             contact: Some(Contact::Center),
+            tip: TipChoice::None,
             ..request(GoalKind::Top)
         };
         let placed = place(&table, 1.0, &request).unwrap();

@@ -2,7 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::hardware::Rod;
 use super::kind::{GoalKind, Objective};
+use super::lean::Lean;
 use super::rotor::Spindle;
 use super::water::FloatConditions;
 use crate::base::setting::{Key, Setting};
@@ -39,6 +41,44 @@ pub struct Placement {
     pub keeps: Vec<Keep>,
     /// Findings that do not stop the run.
     pub warnings: Vec<Warning>,
+    /// Top: the part that touches the floor; `None` for the others, and if nothing is promised.
+    pub footing: Option<Footing>,
+}
+
+/// The part of a top that touches the floor, and how far the top leans on it.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Footing {
+    /// A pin with a round end.
+    Tip {
+        /// The pin.
+        rod: Rod,
+        /// The lean on it.
+        lean: Lean,
+        /// Further pins, should this one not fit its socket; empty if it was ordered.
+        spares: Vec<Rod>,
+    },
+    /// Its own foot.
+    Foot {
+        /// The lean on it.
+        lean: Lean,
+    },
+}
+
+impl Footing {
+    /// Returns how far the top leans.
+    pub fn lean(&self) -> Lean {
+        match self {
+            Self::Tip { lean, .. } | Self::Foot { lean } => *lean,
+        }
+    }
+
+    /// Returns the pin, `None` if the top spins on its own foot.
+    pub fn tip(&self) -> Option<Rod> {
+        match self {
+            Self::Tip { rod, .. } => Some(*rod),
+            Self::Foot { .. } => None,
+        }
+    }
 }
 
 /// A remark on the placement that the user should read.
@@ -56,6 +96,25 @@ pub enum Warning {
         /// The distance from the contact up along the axis to the surface, mm.
         missing_mm: f64,
     },
+    /// A top without a tip, as ordered, leans less than is promised with one.
+    #[error(
+        "it spins on its own foot, as ordered: more than the foot touches the floor when it leans \
+         by {lean_deg:.1}°; for more put in a tip (`{}`)",
+        Setting::new(Key::Tip, "auto")
+    )]
+    OnFoot {
+        /// The lean at which more than the foot touches the floor, degrees.
+        lean_deg: f64,
+    },
+    /// The contact needs a tip, and the model has no room for one.
+    #[error(
+        "no stock pin that is long enough for its lean is held by the model at the contact; give \
+         another contact (`{}`), another size (`{}`) or a tip of your own (`{}`)",
+        Setting::open(Key::Contact),
+        Setting::open(Key::Size),
+        Setting::new(Key::Tip, "DIAMETERxLENGTHxDEPTH")
+    )]
+    NoTip,
     /// The top stands still on its foot instead of falling over. Its centre of mass is lower than
     /// the contact's radius of curvature.
     #[error(
@@ -88,6 +147,16 @@ pub enum Warning {
         /// The depth of the lowest point below the contact, mm.
         depth_mm: f64,
     },
+}
+
+impl Warning {
+    /// Returns true if the contact is not on the surface, or not the lowest point.
+    pub fn is_off_contact(&self) -> bool {
+        matches!(
+            self,
+            Self::ContactInAir { .. } | Self::AxisMissesModel | Self::BelowContact { .. }
+        )
+    }
 }
 
 /// Returns the setting that puts in a tip.

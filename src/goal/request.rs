@@ -2,11 +2,21 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::hardware::{Hardware, HardwareError};
+use super::hardware::{Hardware, HardwareError, Rod};
 use super::kind::{GoalKind, Objective};
 use super::rotor::Rotor;
 use super::sites::{Contact, SpinPoint, Up};
+use super::tip_choice::TipChoice;
 use super::water::Water;
+
+/// The default of the least lean of a top, degrees. Thrown by hand, tops wobble by some degrees
+/// before they sleep upright.
+pub const LEAST_LEAN_DEG: f64 = 10.0;
+/// The default of the least toppling angle of a standing object, degrees. Less does not survive a
+/// nudge, or a table that is not level.
+pub const LEAST_ANGLE_DEG: f64 = 5.0;
+/// The greatest lean and toppling angle that may be promised, degrees.
+const MOST_PROMISED_DEG: f64 = 60.0;
 
 /// A goal as it was asked for, before it is known whether the model allows it.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -16,7 +26,7 @@ pub struct Request {
     pub kind: GoalKind,
     /// The direction that becomes z: the spin axis or up.
     pub up: Up,
-    /// The contact of a top; `None` for the lowest point, and for other goals.
+    /// The contact of a top; `None` for [`Contact::Auto`], and for other goals.
     pub contact: Option<Contact>,
     /// The point that the axis of a yo-yo or a rotor passes through; `None` for the centre of mass,
     /// and for other goals.
@@ -33,6 +43,32 @@ pub struct Request {
     /// The parts put in that are not printed; `None` for none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub hardware: Option<Hardware>,
+    /// The tip of a top. A tip in `hardware` has precedence.
+    #[serde(default, skip_serializing_if = "TipChoice::is_auto")]
+    pub tip: TipChoice,
+    /// Top: the least lean at which more than its tip or foot may touch the floor, degrees; zero
+    /// for any.
+    #[serde(default = "least_lean_deg", skip_serializing_if = "is_least_lean")]
+    pub least_lean_deg: f64,
+    /// Stand: the least tilt at which it may topple, degrees; zero for any.
+    #[serde(default = "least_angle_deg", skip_serializing_if = "is_least_angle")]
+    pub least_angle_deg: f64,
+}
+
+fn least_lean_deg() -> f64 {
+    LEAST_LEAN_DEG
+}
+
+fn is_least_lean(angle_deg: &f64) -> bool {
+    *angle_deg == LEAST_LEAN_DEG
+}
+
+fn least_angle_deg() -> f64 {
+    LEAST_ANGLE_DEG
+}
+
+fn is_least_angle(angle_deg: &f64) -> bool {
+    *angle_deg == LEAST_ANGLE_DEG
 }
 
 /// A contradiction within a request.
@@ -69,6 +105,21 @@ pub enum RequestError {
     /// A liquid or waterline was given for a goal other than floating.
     #[error("a liquid or waterline goes with the goal float, not with {0}; remedy: leave it out")]
     NoWater(GoalKind),
+    /// A least lean or toppling angle that no object of the goal can promise.
+    #[error(
+        "a least {what} of {angle_deg}° cannot be promised with the goal {kind}; remedy: give 0 to \
+         {MOST_PROMISED_DEG}°, and only with the goal {only}"
+    )]
+    Promise {
+        /// The angle: lean or toppling angle.
+        what: &'static str,
+        /// The angle asked for, degrees.
+        angle_deg: f64,
+        /// The goal.
+        kind: GoalKind,
+        /// The goal that has such an angle.
+        only: &'static str,
+    },
     /// The hardware contradicts itself or the goal.
     #[error(transparent)]
     Hardware(#[from] HardwareError),
@@ -87,18 +138,62 @@ pub enum RequestError {
 
 impl Request {
     /// Returns the request with all defaults: up is z, the objective is the kind's first. A top
-    /// stands on its lowest point; a yo-yo or rotor turns about its centre of mass.
+    /// spins on its lowest point or on a tip; a yo-yo or rotor turns about its centre of mass.
     pub fn new(kind: GoalKind) -> Self {
         Self {
             kind,
             up: Up::Z,
-            contact: (kind == GoalKind::Top).then_some(Contact::Lowest),
+            contact: (kind == GoalKind::Top).then_some(Contact::Auto),
             spin_point: kind.has_spin_point().then_some(SpinPoint::Center),
             objective: Objective::default_for(kind),
             rotor: (kind == GoalKind::Balance).then(Rotor::default),
             water: (kind == GoalKind::Float).then(Water::default),
             hardware: None,
+            tip: TipChoice::Auto,
+            least_lean_deg: LEAST_LEAN_DEG,
+            least_angle_deg: LEAST_ANGLE_DEG,
         }
+    }
+
+    /// Returns the request without its promises of lean and toppling angle, and without a tip that
+    /// only they would call for. Placing it is quick: a trial asks no more.
+    pub fn unpromised(self) -> Self {
+        let tip = match self.ordered_tip() {
+            TipChoice::Auto if self.kind == GoalKind::Top => TipChoice::None,
+            ordered => ordered,
+        };
+        Self {
+            tip,
+            least_lean_deg: 0.0,
+            least_angle_deg: 0.0,
+            ..self
+        }
+    }
+
+    /// Returns the tip that was ordered, in the hardware or beside it.
+    pub fn ordered_tip(&self) -> TipChoice {
+        let rod = self.hardware.and_then(|hardware| hardware.tip);
+        rod.map_or(self.tip, TipChoice::Rod)
+    }
+
+    /// Returns the hardware with this tip in it.
+    pub fn hardware_with(&self, tip: Option<Rod>) -> Hardware {
+        Hardware {
+            tip,
+            ..self.hardware.unwrap_or_default()
+        }
+    }
+
+    /// Returns the lean that is promised, degrees; zero if it is waived, `None` for other goals.
+    pub fn promised_lean_deg(&self) -> Option<f64> {
+        let is_waived = self.ordered_tip() == TipChoice::None;
+        let lean_deg = if is_waived { 0.0 } else { self.least_lean_deg };
+        (self.kind == GoalKind::Top).then_some(lean_deg)
+    }
+
+    /// Returns the toppling angle that is promised, degrees; `None` for other goals.
+    pub fn promised_angle_deg(&self) -> Option<f64> {
+        (self.kind == GoalKind::Stand).then_some(self.least_angle_deg)
     }
 
     /// Returns the request itself if its parts are consistent.
@@ -132,9 +227,39 @@ impl Request {
         if self.water.is_some() && kind != GoalKind::Float {
             return Err(RequestError::NoWater(kind));
         }
-        self.hardware
-            .map_or(Ok(()), |hardware| hardware.check(kind))?;
+        self.hardware_with(self.ordered_tip().rod()).check(kind)?;
+        self.check_promises()?;
         Ok(self)
+    }
+
+    fn check_promises(&self) -> Result<(), RequestError> {
+        let Self { kind, tip, .. } = *self;
+        if tip == TipChoice::None && kind != GoalKind::Top {
+            return Err(HardwareError::NotATop(kind).into());
+        }
+        let promises = [
+            ("lean", self.least_lean_deg, LEAST_LEAN_DEG, GoalKind::Top),
+            (
+                "toppling angle",
+                self.least_angle_deg,
+                LEAST_ANGLE_DEG,
+                GoalKind::Stand,
+            ),
+        ];
+        for (what, angle_deg, default_deg, only) in promises {
+            let is_sound = (0.0..=MOST_PROMISED_DEG).contains(&angle_deg);
+            let is_its_own = kind == only || [0.0, default_deg].contains(&angle_deg);
+            if !(is_sound && is_its_own) {
+                let only = only.word();
+                return Err(RequestError::Promise {
+                    what,
+                    angle_deg,
+                    kind,
+                    only,
+                });
+            }
+        }
+        Ok(())
     }
 
     fn check_rotor(&self) -> Result<(), RequestError> {
@@ -192,9 +317,11 @@ mod tests {
     }
 
     #[test]
-    fn every_default_request_is_consistent() {
+    fn every_default_request_is_consistent_with_its_promises_and_without() {
         for &kind in GoalKind::ALL {
-            assert_eq!(Request::new(kind).validate(), Ok(Request::new(kind)));
+            for request in [Request::new(kind), Request::new(kind).unpromised()] {
+                assert_eq!(request.validate(), Ok(request));
+            }
         }
     }
 

@@ -1,30 +1,57 @@
 //! The model as every kind of goal sees it: upright, with its moments and its extent.
 
+use std::sync::OnceLock;
+
 use super::error::{FAR_LENGTHS, GoalError};
 use super::kind::{GoalKind, Objective};
 use super::placement::Goal;
 use super::request::Request;
 use super::sites::Up;
 use crate::geom::{Frame, Point, Vector};
-use crate::mass::{Body, Moments};
-use crate::mesh::Solid;
+use crate::mass::{Body, Moments, moments_of_mesh};
+use crate::mesh::{Csg, Solid};
 
 /// Heights closer than this part of the model's extent count as equal. Below 1e-12 rounding decides
 /// between the two senses of a symmetric model's axis. Above 1e-6 a real difference would be
 /// ignored.
 const TIE_RATIO: f64 = 1e-9;
 
-/// A solid with its moments.
-#[derive(Debug, Clone, Copy)]
+/// A solid with its moments and, once they were asked for, the corners of its convex hull.
+#[derive(Debug, Clone)]
 pub struct MeasuredSolid<'a> {
     /// The solid.
     pub solid: &'a Solid,
     /// Its moments, model frame, mm: those of [`crate::mass::moments_of_mesh`].
     pub moments: Moments,
+    hull_corners: OnceLock<Vec<Point>>,
+}
+
+impl<'a> MeasuredSolid<'a> {
+    /// Measures the moments of a solid.
+    pub fn new(solid: &'a Solid) -> Self {
+        Self {
+            solid,
+            moments: moments_of_mesh(solid.mesh()),
+            hull_corners: OnceLock::new(),
+        }
+    }
+
+    /// Returns the corners of the convex hull, model frame, mm; all vertices if there is no hull.
+    fn hull_corners(&self) -> &[Point] {
+        self.hull_corners.get_or_init(|| {
+            let vertices = self.solid.mesh().vertices();
+            let hull = Csg::convex_hull(vertices).and_then(|hull| hull.to_mesh());
+            match hull {
+                Ok(hull) if !hull.vertices().is_empty() => hull.vertices().to_vec(),
+                _ => vertices.to_vec(),
+            }
+        })
+    }
 }
 
 /// The facts of the model that every kind of goal needs.
 pub(super) struct Site<'a> {
+    measured: &'a MeasuredSolid<'a>,
     pub solid: &'a Solid,
     pub kind: GoalKind,
     pub objective: Objective,
@@ -40,15 +67,14 @@ pub(super) struct Site<'a> {
 }
 
 impl<'a> Site<'a> {
-    pub fn new(
-        &MeasuredSolid { solid, moments }: &MeasuredSolid<'a>,
-        request: &Request,
-    ) -> Result<Self, GoalError> {
+    pub fn new(measured: &'a MeasuredSolid<'a>, request: &Request) -> Result<Self, GoalError> {
+        let (solid, moments) = (measured.solid, measured.moments);
         let body = Body::new(&moments, 1.0);
         let up = up_direction(request.up, solid, &body)?;
         let (lowest_mm, highest_mm) = extent_along(solid, &up);
         let upright = Frame::with_axis(Point::origin(), &up);
         Ok(Self {
+            measured,
             solid,
             kind: request.kind,
             objective: request.objective,
@@ -85,6 +111,12 @@ impl<'a> Site<'a> {
             .vertices()
             .iter()
             .map(|vertex| self.upright.to_local(vertex))
+    }
+
+    /// Returns the corners of the model's convex hull in the upright frame.
+    pub fn hull_corners(&self) -> impl Iterator<Item = Point> + '_ {
+        let corners = self.measured.hull_corners().iter();
+        corners.map(|corner| self.upright.to_local(corner))
     }
 
     /// Returns the solid's centre of mass in the upright frame.

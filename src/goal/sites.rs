@@ -161,6 +161,8 @@ macro_rules! place {
 place! {
     /// The point at which a top touches the floor.
     Contact, "contact point" {
+        /// The lowest point if the top spins there, else below the solid's centre of mass.
+        Auto = "auto",
         /// The lowest point of the model; the middle of the lowest edge or face.
         Lowest = "lowest",
         /// Vertically below the solid's centre of mass, at the height of the lowest point.

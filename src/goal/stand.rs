@@ -36,6 +36,7 @@ pub(super) fn place(site: &Site) -> Result<Placement, GoalError> {
         goal,
         keeps: Vec::new(),
         warnings: Vec::new(),
+        footing: None,
     })
 }
 

@@ -2,10 +2,14 @@
 
 use super::error::GoalError;
 use super::hardware::Rod;
-use super::placement::{Placement, Warning};
+use super::lean::Lean;
+use super::placement::{Footing, Placement, Warning};
+use super::request::Request;
 use super::site::Site;
 use super::sites::Contact;
 use super::support;
+use super::tip_choice::TipChoice;
+use super::tips::TipPlace;
 use crate::geom::{Point, Vector};
 use crate::shell::Keep;
 
@@ -24,26 +28,157 @@ const AIR_RATIO: f64 = 1e-6;
 /// Air below the surface that is thinner than any printed layer, mm: no tip is missing.
 const TOUCHING_MM: f64 = 0.01;
 
+/// The order for a top's contact.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Order {
+    contact: Contact,
+    tip: TipChoice,
+    least_lean_rad: f64,
+}
+
+impl Order {
+    /// Returns the order that a request gives.
+    pub fn of(request: &Request) -> Self {
+        Self {
+            contact: request.contact.unwrap_or(Contact::Auto),
+            tip: request.ordered_tip(),
+            least_lean_rad: request.least_lean_deg.to_radians(),
+        }
+    }
+
+    /// Returns true if nothing is promised of the lean, so that none need be found.
+    fn is_unpromised(&self) -> bool {
+        self.tip == TipChoice::None && self.least_lean_rad == 0.0
+    }
+
+    fn is_kept_by(&self, placement: &Placement) -> bool {
+        let is_off = |warning: &Warning| warning.is_off_contact();
+        let lean_rad = placement
+            .footing
+            .as_ref()
+            .map(|footing| footing.lean().lean_rad);
+        !placement.warnings.iter().any(is_off)
+            && lean_rad.is_none_or(|lean_rad| lean_rad >= self.least_lean_rad)
+    }
+}
+
 /// Places a top. With a tip it touches the floor as far below the surface as the tip stands out.
-/// The tip's socket has a wall of its own, so the contact needs no solid region.
-pub(super) fn place(
+pub(super) fn place(site: &Site, wall_mm: f64, order: Order) -> Result<Placement, GoalError> {
+    let contact = match order.contact {
+        Contact::Auto if spins_on_lowest(site, wall_mm, order)? => Contact::Lowest,
+        Contact::Auto => Contact::Center,
+        chosen => chosen,
+    };
+    place_on(site, wall_mm, Order { contact, ..order })
+}
+
+/// Returns true if a top keeps its promise on the model's lowest point, without a tip but for one
+/// that was ordered.
+pub(super) fn spins_on_lowest(site: &Site, wall_mm: f64, order: Order) -> Result<bool, GoalError> {
+    if order.tip == TipChoice::None {
+        return Ok(true);
+    }
+    let bare = Order {
+        contact: Contact::Lowest,
+        tip: order.tip.rod().map_or(TipChoice::None, TipChoice::Rod),
+        ..order
+    };
+    Ok(bare.is_kept_by(&place_on(site, wall_mm, bare)?))
+}
+
+/// Places a top on a contact that was chosen.
+fn place_on(site: &Site, wall_mm: f64, order: Order) -> Result<Placement, GoalError> {
+    let origin = contact_point(site, order.contact)?;
+    if let TipChoice::Rod(tip) = order.tip {
+        return place_tip(site, wall_mm, &origin, &[tip]);
+    }
+    let bare = place_at(site, wall_mm, origin)?;
+    if order.is_unpromised() {
+        return Ok(bare);
+    }
+    let bare = with_foot(site, bare);
+    if order.is_kept_by(&bare) {
+        return Ok(bare);
+    }
+    if order.tip == TipChoice::None && bare.warnings.iter().any(Warning::is_off_contact) {
+        return Ok(bare);
+    }
+    if order.tip == TipChoice::None {
+        return Ok(with_warning(bare, |lean| Warning::OnFoot {
+            lean_deg: lean.lean_rad.to_degrees(),
+        }));
+    }
+    let pins = stock_pins(site, wall_mm, &origin, order.least_lean_rad);
+    if pins.is_empty() {
+        return Ok(with_warning(bare, |_| Warning::NoTip));
+    }
+    place_tip(site, wall_mm, &origin, &pins)
+}
+
+/// Returns the stock pins for a tip on the axis through this point.
+fn stock_pins(site: &Site, wall_mm: f64, origin: &Point, least_lean_rad: f64) -> Vec<Rod> {
+    let Some(surface_mm) = first_surface_above(site, origin) else {
+        return Vec::new();
+    };
+    TipPlace {
+        site,
+        seat: origin + Vector::z() * surface_mm,
+        wall_mm,
+        least_lean_rad,
+    }
+    .pins()
+}
+
+/// Adds a bare top's foot, and how far it leans on it.
+fn with_foot(site: &Site, placement: Placement) -> Placement {
+    let lean = Lean::on_foot(
+        &hull_in(site, &placement),
+        site.solid.mesh().longest_side_mm(),
+    );
+    Placement {
+        footing: Some(Footing::Foot { lean }),
+        ..placement
+    }
+}
+
+fn with_warning(mut placement: Placement, warning: impl Fn(Lean) -> Warning) -> Placement {
+    let lean = placement.footing.as_ref().map(Footing::lean);
+    placement.warnings.extend(lean.map(warning));
+    placement
+}
+
+/// Returns the corners of the model's convex hull in the goal frame.
+fn hull_in(site: &Site, placement: &Placement) -> Vec<Point> {
+    let origin = site.upright.to_local(&placement.goal.frame.origin);
+    site.hull_corners()
+        .map(|corner| Point::from(corner - origin))
+        .collect()
+}
+
+/// Places a top on the first of some tips, whose socket has a wall of its own. So the contact needs
+/// no solid region.
+fn place_tip(
     site: &Site,
     wall_mm: f64,
-    contact: Contact,
-    tip: Option<Rod>,
+    origin: &Point,
+    tips: &[Rod],
 ) -> Result<Placement, GoalError> {
-    let origin = contact_point(site, contact)?;
-    let Some(tip) = tip else {
-        return place_at(site, wall_mm, origin);
-    };
-    let surface_mm = first_surface_above(site, &origin).ok_or(GoalError::NoSeat)?;
-    let end = origin + Vector::z() * (surface_mm - tip.out_mm());
-    let Placement { goal, warnings, .. } = place_at(site, wall_mm, end)?;
+    let surface_mm = first_surface_above(site, origin).ok_or(GoalError::NoSeat)?;
+    let (rod, spares) = tips.split_first().ok_or(GoalError::NoSeat)?;
+    let end = origin + Vector::z() * (surface_mm - rod.out_mm());
+    let bare = place_at(site, wall_mm, end)?;
     let is_of_body = |warning: &Warning| !matches!(warning, Warning::ContactInAir { .. });
+    let footing = Footing::Tip {
+        rod: *rod,
+        lean: Lean::on_tip(hull_in(site, &bare), rod.radius_mm()),
+        spares: spares.to_vec(),
+    };
+    let Placement { goal, warnings, .. } = bare;
     Ok(Placement {
         goal,
         keeps: Vec::new(),
         warnings: warnings.into_iter().filter(is_of_body).collect(),
+        footing: Some(footing),
     })
 }
 
@@ -61,13 +196,14 @@ fn place_at(site: &Site, wall_mm: f64, origin: Point) -> Result<Placement, GoalE
         goal,
         keeps,
         warnings: warnings(site, &origin, surface_mm),
+        footing: None,
     })
 }
 
 fn contact_point(site: &Site, contact: Contact) -> Result<Point, GoalError> {
     let [x, y] = match contact {
         Contact::At(point) => return site.locate_point("contact", point),
-        Contact::Lowest => lowest_feature_middle(site),
+        Contact::Lowest | Contact::Auto => lowest_feature_middle(site),
         Contact::Center => [site.upright_center().x, site.upright_center().y],
     };
     Ok(Point::new(x, y, site.lowest_mm))

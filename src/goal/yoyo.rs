@@ -14,5 +14,6 @@ pub(super) fn place(site: &Site, spin_point: SpinPoint) -> Result<Placement, Goa
         goal: site.goal_at(&origin, Vec::new()),
         keeps: Vec::new(),
         warnings: Vec::new(),
+        footing: None,
     })
 }

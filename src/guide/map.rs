@@ -9,6 +9,7 @@
 //! | Where is a broken mesh mended, and who says what was changed? | `repair` in `repair/ladder.rs`; `Repairs` counts the changes |
 //! | How thick is the wall, and why? | `quantise_wall` in `printer/wall.rs`; `Shell` in `shell/wall.rs` keeps it |
 //! | Where does a request become a frame with a support? | `place` in `goal/place.rs`, then the goal's own file, say `goal/top.rs` |
+//! | Who decides if a top needs a tip, and which? | `choose_contact` in `prepare/place.rs`; `Lean` in `goal/lean.rs` says how far it leans, `TipPlace` in `goal/tips.rs` picks the pin |
 //! | Where is the bound computed? | `Visit` in `hollow/dual/visit.rs` evaluates the dual, `climb` in `hollow/dual/ascent.rs` raises it |
 //! | What is tried if the goal cannot be met? | `remedies` in `prepare/advise.rs`; the trials are in `advice/remedy.rs` |
 //! | Which cut is better than another, and by how much? | `penalty` and `Term` in `cut/planner/score.rs` |

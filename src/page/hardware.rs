@@ -51,13 +51,7 @@ fn description(sheet: &Checklist, piece: &Hardware) -> String {
         piece.socket_mm,
     ]
     .map(|mm| measured(mm, "mm"));
-    let rod = format!(
-        "{} of {} in diameter, cut {length} long, {} ({})",
-        word(&piece.kind),
-        quantity(piece.diameter_mm, "mm"),
-        measured(piece.mass_g, "g"),
-        quantity(piece.density_g_cm3, "g/cm³")
-    );
+    let rod = bar(piece);
     match piece.kind {
         HardwareKind::Axle => format!(
             "{rod}: glued {depth} deep into the {socket} socket of each half, with {} between the halves; a shim of that thickness holds \
@@ -77,6 +71,19 @@ fn description(sheet: &Checklist, piece: &Hardware) -> String {
             format!("{rod}: glued {depth} deep into the {socket} socket on top; {out} stand out.")
         }
     }
+}
+
+/// Describes a piece as it is bought or cut.
+pub(super) fn bar(piece: &Hardware) -> String {
+    let length_mm = (Point::from(piece.to_mm) - Point::from(piece.from_mm)).norm();
+    format!(
+        "{} of {} in diameter, cut {} long, {} ({})",
+        word(&piece.kind),
+        quantity(piece.diameter_mm, "mm"),
+        measured(length_mm, "mm"),
+        measured(piece.mass_g, "g"),
+        quantity(piece.density_g_cm3, "g/cm³")
+    )
 }
 
 /// Returns the word for a kind of hardware.

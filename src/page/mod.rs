@@ -47,4 +47,4 @@ pub use job_sheet::job;
 pub use printing::cup_warning;
 pub use subject::Subject;
 pub use view::View;
-pub use words::promise;
+pub use words::{promise, spins_on};

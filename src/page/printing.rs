@@ -4,6 +4,7 @@ use maud::{Markup, html};
 
 use super::fields::{file_name, half_name};
 use super::figure::Picture;
+use super::hardware::bar;
 use super::support;
 use crate::base::numbers::quantity;
 use crate::base::units::MM3_PER_CM3;
@@ -28,6 +29,19 @@ pub(super) fn print_step(sheet: &Checklist, pictures: &[Picture]) -> Markup {
             }
         }
         div class="cards" { @for part in &sheet.parts { (card(part, pictures)) } }
+        (bought(sheet))
+    }
+}
+
+/// Lists the hardware, which is bought and not printed; empty if there is none.
+fn bought(sheet: &Checklist) -> Markup {
+    html! {
+        @if !sheet.hardware.is_empty() {
+            p { "Not printed, to have at hand:" }
+            ul class="ticks" {
+                @for piece in &sheet.hardware { li { strong { (piece.id) } ", " (bar(piece)) } }
+            }
+        }
     }
 }
 

@@ -76,8 +76,23 @@ fn top_lines(sheet: &Checklist) -> Vec<String> {
     tip_line(sheet)
         .into_iter()
         .chain([hang])
+        .chain(lean_line(sheet))
         .chain(spin)
         .collect()
+}
+
+/// Words the test of the promised lean; `None` if none is promised.
+fn lean_line(sheet: &Checklist) -> Option<String> {
+    let least = sheet.goal.aim.least_lean_deg.filter(|deg| *deg > 0.0)?;
+    let least = quantity(least, "°");
+    let foot = if sheet.goal.spins_on?.has_tip {
+        "tip"
+    } else {
+        "round foot"
+    };
+    Some(format!(
+        "Set it upright on a flat table and lean it by hand to every side: up to {least} only its {foot} touches the table."
+    ))
 }
 
 /// Words the spin test of a top that falls when it is slow.

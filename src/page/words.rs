@@ -3,7 +3,7 @@
 use crate::base::numbers::{coordinates, measured, number, quantity, quantity_or_dash};
 use crate::goal::GoalKind;
 use crate::sheet::{Certificate, Checklist, GoalRow, ObjectiveName, WallRow};
-use crate::verify::Figures;
+use crate::verify::{CONTACT_LIMIT_MM, Figures, SpinFacts};
 
 /// Relative difference up to which the ordered and the printed wall count as equal.
 const SAME_WALL_RATIO: f64 = 1e-3;
@@ -90,6 +90,45 @@ pub fn promise(sheet: &Checklist) -> String {
         (GoalKind::Float, ..) => floats(sheet),
         (GoalKind::Balance, ..) => runs_true(sheet),
     }
+}
+
+/// Words the part of a top that touches the floor and how far it leans; `None` for other goals.
+pub fn spins_on(sheet: &Checklist) -> Option<String> {
+    let SpinFacts {
+        has_tip,
+        radius_mm,
+        lean_deg,
+        gap_mm,
+        ..
+    } = sheet.goal.spins_on?;
+    let part = if has_tip {
+        format!(
+            "a tip with a round end of {} radius",
+            quantity(radius_mm, "mm")
+        )
+    } else if gap_mm > CONTACT_LIMIT_MM {
+        return Some(format!(
+            "nothing yet: its contact is {} off it",
+            quantity(gap_mm, "mm")
+        ));
+    } else if radius_mm > 0.0 {
+        format!(
+            "its own foot, round as a ball of {} radius",
+            quantity(radius_mm, "mm")
+        )
+    } else {
+        "its own foot".to_owned()
+    };
+    let name = if has_tip { "tip" } else { "foot" };
+    let lean = quantity(lean_deg, "°");
+    let waived = if sheet.goal.aim.least_lean_deg == Some(0.0) {
+        "; no lean was promised"
+    } else {
+        ""
+    };
+    Some(format!(
+        "{part}; leaned by less than {lean} only the {name} touches the floor{waived}"
+    ))
 }
 
 /// Words how it floats.

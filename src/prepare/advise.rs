@@ -4,9 +4,10 @@ use super::hints::hint;
 use super::outcome::{Failure, Impossible, Prepared};
 use crate::advice::{self, Case, Kind, Remedy};
 use crate::base::numbers::quantity;
+use crate::base::setting::{Key, Setting};
 use crate::base::watch::{Cancelled, Phase, Watch};
 use crate::error::Error;
-use crate::goal::Request;
+use crate::goal::{PrintStock, Request, TipChoice, place_in_material};
 use crate::run::{Model, Placed, Shop};
 use crate::verify::{Check, CheckKind};
 
@@ -40,7 +41,7 @@ pub fn remedies(
         return Ok(impossible);
     }
     watch.enter(Phase::Advise);
-    if placed.fitted.is_some() {
+    if placed.has_ordered_hardware() {
         let hints = impossible.hints.into_iter().chain([BARE.to_owned()]);
         return Ok(Impossible {
             hints: hints.collect(),
@@ -75,6 +76,7 @@ pub fn on_failure(placed: &Placed, prepared: Prepared, watch: &Watch) -> Result<
             hints.push(hint);
         }
     }
+    hints.extend(longer_tip(placed, &broken));
     hints.push(MORE_ROOM.to_owned());
     let falls_over = broken.iter().any(|check| check.kind == CheckKind::Standing);
     let failure = Failure {
@@ -90,6 +92,26 @@ pub fn on_failure(placed: &Placed, prepared: Prepared, watch: &Watch) -> Result<
         failure: Some(failure),
         ..prepared
     })
+}
+
+/// Names the stock tip that keeps the promise of a top on a given tip that breaks it.
+fn longer_tip(placed: &Placed, broken: &[&Check]) -> Option<String> {
+    let is_contact = |check: &&Check| matches!(check.kind, CheckKind::Contact | CheckKind::Lean);
+    placed.request.ordered_tip().rod()?;
+    broken.iter().copied().find(|check| is_contact(check))?;
+    let request = Request {
+        tip: TipChoice::Auto,
+        hardware: Some(placed.request.hardware_with(None)),
+        ..placed.request
+    };
+    let stock = PrintStock {
+        wall_mm: placed.shop.wall.wall_mm,
+        density_g_cm3: placed.density_g_cm3(),
+    };
+    let placement = place_in_material(&placed.model.solid, &stock, &request).ok()?;
+    let pin = placement.footing?.tip()?;
+    let setting = Setting::new(Key::Tip, pin);
+    Some(format!("take a longer tip (`{setting}`)"))
 }
 
 /// Explains what the goal could have reached, and what the parts keep of it.

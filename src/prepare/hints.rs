@@ -7,9 +7,16 @@ use crate::verify::{CheckKind, FigureName};
 pub fn hint(kind: &CheckKind) -> Option<String> {
     let open = Setting::open;
     Some(match kind {
+        CheckKind::Contact | CheckKind::Lean => format!(
+            "let it spin on a tip below its centre of mass (`{}` and `{}`), or waive the lean (`{}`)",
+            Setting::new(Key::Contact, "center"),
+            Setting::new(Key::Tip, "auto"),
+            Setting::new(Key::Tip, "none")
+        ),
         CheckKind::Standing => format!(
-            "lay ballast into its foot (`{}`)",
-            Setting::new(Key::Ballast, "auto")
+            "lay ballast into its foot (`{}`), or promise less (`{}`)",
+            Setting::new(Key::Ballast, "auto"),
+            open(Key::LeastAngle)
         ),
         CheckKind::AxisOffset | CheckKind::AxisTilt => format!(
             "a finer pitch (`{}`) brings the written parts nearer to the optimum",

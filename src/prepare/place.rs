@@ -1,10 +1,13 @@
 //! Place: the goal in the model, with its axis, its waterline and its hardware.
 
 use super::{advise, hardware, waterline};
-use crate::advice::best_orientation;
+use crate::advice::{Case, best_orientation, is_possible};
 use crate::base::watch::{Cancelled, Watch};
 use crate::error::Error;
-use crate::goal::{GoalKind, PrintStock, Request, Up, place_in_material};
+use crate::goal::{
+    Contact, GoalKind, MeasuredSolid, PrintStock, Request, TipChoice, Up, place_in_material,
+    spins_on_lowest,
+};
 use crate::hollow::Fill;
 use crate::job::Job;
 use crate::run::{AxisChoice, Model, Placed, Policy, Shop};
@@ -23,6 +26,10 @@ pub fn goal(job: &Job, model: Model, shop: Shop, watch: &Watch) -> Result<Placed
     let stock = PrintStock {
         wall_mm: shop.wall.wall_mm,
         density_g_cm3: shop.material.density_g_cm3.value,
+    };
+    let request = Request {
+        contact: choose_contact(job, &advise::case(&model, &shop, request), watch)?,
+        ..request
     };
     let placement = place_in_material(&model.solid, &stock, &request)?;
     let mut bound = job.clone();
@@ -65,6 +72,41 @@ fn choose_axis(
         possible: best.possible,
         reached: best.reached,
     }))
+}
+
+/// Returns the contact of a request, chosen if it leaves it open.
+///
+/// It is the lowest point if the top keeps its promise there and some hollowing makes it spin. Else
+/// it is below the centre of mass, if that is possible or the lowest point keeps no promise.
+fn choose_contact(job: &Job, case: &Case, watch: &Watch) -> Result<Option<Contact>, Error> {
+    let request = &case.request;
+    if request.contact != Some(Contact::Auto) {
+        return Ok(request.contact);
+    }
+    let lowest = spins_on_lowest(&MeasuredSolid::new(case.solid), case.wall_mm, request)?;
+    let is_known =
+        request.ordered_tip() == TipChoice::None || job.fill.is_some() || !job.ballast.is_none();
+    if !lowest || is_known {
+        return Ok(Some(if lowest {
+            Contact::Lowest
+        } else {
+            Contact::Center
+        }));
+    }
+    for contact in [Contact::Lowest, Contact::Center] {
+        let contact = Some(contact);
+        let tried = Case {
+            request: Request {
+                contact,
+                ..*request
+            },
+            ..*case
+        };
+        if is_possible(&tried, watch)? {
+            return Ok(contact);
+        }
+    }
+    Ok(Some(Contact::Lowest))
 }
 
 /// Returns the filling of the voids; an error if it does not go with the rest of the job.

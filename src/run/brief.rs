@@ -3,7 +3,7 @@
 use super::{AxisChoice, Policy};
 use crate::ballast::Load;
 use crate::cut::{Hollowed, Rod};
-use crate::goal::{Goal, Placement, Request};
+use crate::goal::{Footing, Goal, Hardware, Placement, Request};
 use crate::hardware::Fitted;
 use crate::hollow::Fill;
 use crate::job::Job;
@@ -74,6 +74,18 @@ impl Placed {
     /// Returns the placed goal.
     pub fn goal(&self) -> &Goal {
         &self.placement.goal
+    }
+
+    /// Returns the hardware that goes in: what was ordered, and the tip that was chosen.
+    pub fn hardware(&self) -> Hardware {
+        let tip = self.placement.footing.as_ref().and_then(Footing::tip);
+        self.request.hardware_with(tip)
+    }
+
+    /// Returns whether hardware was ordered, besides a tip that is left to the run.
+    pub fn has_ordered_hardware(&self) -> bool {
+        let tip = self.request.ordered_tip().rod();
+        !self.request.hardware_with(tip).is_empty()
     }
 
     /// Returns the density of the printed material, g/cm³.

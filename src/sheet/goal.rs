@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::goal::Objective;
-use crate::verify::Aim;
+use crate::verify::{Aim, SpinFacts};
 
 /// The goal as it was placed on the model.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -20,6 +20,9 @@ pub struct GoalRow {
     /// Depth of the contact point below the surface, mm; zero if the surface touches it. A tip of
     /// this length is needed.
     pub contact_gap_mm: f64,
+    /// Top: the part that touches the floor; `None` for other goals, and in kits of older versions.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub spins_on: Option<SpinFacts>,
     /// Reason for the choice of the axis, if the job left it open.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub choice: Option<String>,

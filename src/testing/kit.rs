@@ -114,6 +114,7 @@ fn checklist(evidence: &Evidence, found: &Judgement) -> Checklist {
             objective: ObjectiveName::CriticalSpeed,
             spin_it_weights: None,
             contact_gap_mm: 10.0,
+            spins_on: found.spin,
             choice: None,
         },
         promise: Some(PromisedFigure {

@@ -12,7 +12,7 @@ use super::{Check, CheckKind, Judgement, Limit, PartFacts, Peg, PegFacts, Promis
 /// Returns all checks of a kit, in the order of a person's questions. Does it do what was ordered?
 /// Is the wall there? Can it be printed? Do the parts make the whole?
 pub fn checks(promise: &Promise, found: &Judgement) -> Vec<Check> {
-    let mut checks = goal_checks(&promise.goal, &found.assembly);
+    let mut checks = goal_checks(&promise.goal, found);
     checks.extend(
         promise
             .promise

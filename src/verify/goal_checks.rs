@@ -1,17 +1,19 @@
 //! The checks of the goal: the axis, the support, the water, the balance and the promised figure.
 
 use super::limits::{
-    AXIS_OFFSET_LIMIT_MM, AXIS_TILT_LIMIT_DEG, DOMINANCE_LIMIT_RATIO, FIGURE_SLACK_RATIO,
-    METACENTRIC_LIMIT_MM, RIGHTING_LIMIT_DEG, STANDING_LIMIT_DEG, WATERLINE_LIMIT_MM,
+    AXIS_OFFSET_LIMIT_MM, AXIS_TILT_LIMIT_DEG, CONTACT_LIMIT_MM, DOMINANCE_LIMIT_RATIO,
+    FIGURE_SLACK_RATIO, METACENTRIC_LIMIT_MM, RIGHTING_LIMIT_DEG, STANDING_LIMIT_DEG,
+    WATERLINE_LIMIT_MM,
 };
 use super::{
-    Afloat, Aim, Check, CheckKind, FigureName, Figures, Limit, PromisedFigure, RotorOrder,
-    WaterOrder,
+    Afloat, Aim, Check, CheckKind, FigureName, Figures, Judgement, Limit, PromisedFigure,
+    RotorOrder, SpinFacts, WaterOrder,
 };
 use crate::goal::GoalKind;
 
 /// Checks that the assembly does what its goal demands of any body.
-pub(super) fn goal_checks(aim: &Aim, assembly: &Figures) -> Vec<Check> {
+pub(super) fn goal_checks(aim: &Aim, found: &Judgement) -> Vec<Check> {
+    let assembly = &found.assembly;
     let offset = |promise| {
         Check::new(
             CheckKind::AxisOffset,
@@ -24,6 +26,7 @@ pub(super) fn goal_checks(aim: &Aim, assembly: &Figures) -> Vec<Check> {
         GoalKind::Top => [
             vec![offset("the centre of mass lies on the spin axis")],
             spinning_checks(assembly),
+            contact_checks(aim, found.spin.as_ref()),
         ]
         .concat(),
         GoalKind::Yoyo => [
@@ -31,12 +34,7 @@ pub(super) fn goal_checks(aim: &Aim, assembly: &Figures) -> Vec<Check> {
             spinning_checks(assembly),
         ]
         .concat(),
-        GoalKind::Stand => vec![Check::new(
-            CheckKind::Standing,
-            "it stands, and topples when tilted by",
-            assembly.topples_deg,
-            Limit::above(STANDING_LIMIT_DEG, "°"),
-        )],
+        GoalKind::Stand => vec![standing_check(aim, assembly)],
         GoalKind::Float => aim
             .water
             .iter()
@@ -48,6 +46,49 @@ pub(super) fn goal_checks(aim: &Aim, assembly: &Figures) -> Vec<Check> {
             .map(|order| grade_check(order, assembly))
             .collect(),
     }
+}
+
+/// Checks that a standing object stands, and as firmly as it promises.
+fn standing_check(aim: &Aim, assembly: &Figures) -> Check {
+    let limit = match aim.least_angle_deg {
+        Some(least_deg) if least_deg > STANDING_LIMIT_DEG => Limit::at_least(least_deg, "°"),
+        _ => Limit::above(STANDING_LIMIT_DEG, "°"),
+    };
+    Check::new(
+        CheckKind::Standing,
+        "it stands, and topples when tilted by",
+        assembly.topples_deg,
+        limit,
+    )
+}
+
+/// Checks that a top spins on its contact: nothing is lower, and it leans as far as it promises.
+///
+/// If the lean is waived, a contact in the air is the maker's own wish. Kits of older versions
+/// promise nothing of the contact.
+fn contact_checks(aim: &Aim, found: Option<&SpinFacts>) -> Vec<Check> {
+    let Some(least_deg) = aim.least_lean_deg else {
+        return Vec::new();
+    };
+    let is_waived = least_deg == 0.0;
+    let gap_mm = |spin: &SpinFacts| if is_waived { 0.0 } else { spin.gap_mm };
+    let contact = Check::new(
+        CheckKind::Contact,
+        "its contact is its lowest point",
+        found.map(|spin| spin.below_mm.max(gap_mm(spin))),
+        Limit::at_most(CONTACT_LIMIT_MM, "mm"),
+    );
+    let promise = if found.is_some_and(|spin| spin.has_tip) {
+        "it leans before more than its tip touches the floor by"
+    } else {
+        "it leans before more than its foot touches the floor by"
+    };
+    let lean = (!is_waived).then(|| {
+        let limit = Limit::at_least(least_deg, "°");
+        let lean_deg = found.map(|spin| spin.lean_deg);
+        Check::new(CheckKind::Lean, promise, lean_deg, limit)
+    });
+    std::iter::once(contact).chain(lean).collect()
 }
 
 /// Checks that the assembly floats at its waterline, upright, and rights itself. The outer surface

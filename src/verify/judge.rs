@@ -10,8 +10,8 @@ use super::joints::{count_lost_strokes, film_error, film_moments};
 use super::part_probe::PartProbe;
 use super::pegs::{count_overlaps, measure_pegs};
 use super::{
-    Evidence, Figures, Judgement, PartEvidence, PartFacts, Setting, Shells, SurfaceFacts,
-    assembly_moments,
+    Evidence, Figures, Judgement, PartEvidence, PartFacts, Setting, Shells, SpinFacts,
+    SurfaceFacts, assembly_moments,
 };
 use crate::base::watch::{Cancelled, Watch};
 use crate::mass::{Moments, moments_of_mesh};
@@ -59,6 +59,7 @@ pub fn judge(evidence: &Evidence, watch: &Watch) -> Result<Judgement, Cancelled>
             &outer,
             promise.wall.required_mm,
         ),
+        spin: SpinFacts::of_top(&promise.goal, &promise.hardware, &outer),
         ballast_room_mm: least_room_mm(&promise.ballast, &welded, &outer),
         pegs: measure_pegs(promise, &probes, &evidence.hollowed, watch)?,
         overlaps: count_overlaps(&probes, watch)?,

@@ -1,7 +1,9 @@
 //! The judgement of a kit: the facts found in its files, and the verdict on every promise.
 
 use super::joints::FilmError;
-use super::{Check, Figures, FileChange, Fit, PartFacts, PegFacts, SurfaceFacts, VoidFacts};
+use super::{
+    Check, Figures, FileChange, Fit, PartFacts, PegFacts, SpinFacts, SurfaceFacts, VoidFacts,
+};
 
 /// The judgement of a kit.
 #[derive(Debug, Clone, PartialEq)]
@@ -20,6 +22,8 @@ pub struct Judgement {
     pub wall_min_mm: Option<f64>,
     /// The fit of the hardware in the outer surface; `None` without hardware.
     pub fit: Option<Fit>,
+    /// The contact of a top; `None` for other goals.
+    pub spin: Option<SpinFacts>,
     /// The least gap around a part of ballast, mm; `None` without ballast.
     pub ballast_room_mm: Option<f64>,
     /// Every pin and its socket, as found in the files.

@@ -21,6 +21,10 @@ pub enum CheckKind {
     AxisTilt,
     /// Ratio I_b/I_c, which makes the spin axis the stable one.
     Dominance,
+    /// Distance of the contact of a top from its lowest point.
+    Contact,
+    /// Lean at which more than the tip or the foot of a top touches the floor.
+    Lean,
     /// Tilt at which a standing object topples.
     Standing,
     /// Distance of a floating object's waterline from the predicted one.
@@ -109,6 +113,8 @@ impl fmt::Display for CheckKind {
             Self::AxisOffset => "axis offset",
             Self::AxisTilt => "axis tilt",
             Self::Dominance => "dominance",
+            Self::Contact => "contact",
+            Self::Lean => "lean",
             Self::Standing => "standing",
             Self::Waterline => "waterline",
             Self::Upright => "upright",
@@ -149,10 +155,12 @@ mod tests {
     use serde_json::json;
 
     /// The keys and names of all kinds without data.
-    const KEYS: [(CheckKind, &str, &str); 30] = [
+    const KEYS: [(CheckKind, &str, &str); 32] = [
         (CheckKind::AxisOffset, "axis-offset", "axis offset"),
         (CheckKind::AxisTilt, "axis-tilt", "axis tilt"),
         (CheckKind::Dominance, "dominance", "dominance"),
+        (CheckKind::Contact, "contact", "contact"),
+        (CheckKind::Lean, "lean", "lean"),
         (CheckKind::Standing, "standing", "standing"),
         (CheckKind::Waterline, "waterline", "waterline"),
         (CheckKind::Upright, "upright", "upright"),

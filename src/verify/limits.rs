@@ -7,7 +7,10 @@ pub const AXIS_OFFSET_LIMIT_MM: f64 = 0.005;
 pub const AXIS_TILT_LIMIT_DEG: f64 = 0.05;
 /// I_b/I_c must be below this for the spin axis to be the stable one (intermediate axis theorem).
 pub const DOMINANCE_LIMIT_RATIO: f64 = 1.0;
-/// A standing object must topple at more than this tilt, degrees.
+/// The contact of a top may be this far from its lowest point, mm. The rounding of files is far
+/// below it, a layer or a speck of dust above.
+pub const CONTACT_LIMIT_MM: f64 = 0.05;
+/// A standing object without a promised angle must topple at more than this tilt, degrees.
 pub const STANDING_LIMIT_DEG: f64 = 0.0;
 /// A floating object's waterline may be this far from the predicted one, mm. The meniscus hides far
 /// more.

@@ -19,6 +19,7 @@ mod ballast;
 mod figures;
 mod hardware;
 mod rotor;
+mod spin;
 mod support;
 mod water;
 // The facts about surfaces, parts and joints.
@@ -87,6 +88,7 @@ pub use measure::{PartFacts, SurfaceFacts};
 pub use pegs::PegFacts;
 pub use rotor::Unbalance;
 pub use shells::Shells;
+pub use spin::SpinFacts;
 pub use support::{SUPPORT_BAND_RATIO, Support};
 pub use water::{Afloat, Hull};
 
@@ -95,11 +97,11 @@ pub use check::{Check, Comparison, Limit};
 pub use checks::checks;
 pub use kind::CheckKind;
 pub use limits::{
-    AXIS_OFFSET_LIMIT_MM, AXIS_TILT_LIMIT_DEG, DOMINANCE_LIMIT_RATIO, FIGURE_SLACK_RATIO,
-    FILM_LIMIT_RATIO, GAP_TOLERANCE_MM, METACENTRIC_LIMIT_MM, PIN_LIMIT_MM, POSE_LIMIT_RATIO,
-    RESTING_LIMIT_MM, RIGHTING_LIMIT_DEG, SHEET_LIMIT_RATIO, SIGHT_TOLERANCE_RATIO,
-    STANDING_LIMIT_DEG, STRING_GAP_TOLERANCE_MM, VOLUME_SUM_LIMIT_RATIO, WALL_TOLERANCE_MM,
-    WATERLINE_LIMIT_MM,
+    AXIS_OFFSET_LIMIT_MM, AXIS_TILT_LIMIT_DEG, CONTACT_LIMIT_MM, DOMINANCE_LIMIT_RATIO,
+    FIGURE_SLACK_RATIO, FILM_LIMIT_RATIO, GAP_TOLERANCE_MM, METACENTRIC_LIMIT_MM, PIN_LIMIT_MM,
+    POSE_LIMIT_RATIO, RESTING_LIMIT_MM, RIGHTING_LIMIT_DEG, SHEET_LIMIT_RATIO,
+    SIGHT_TOLERANCE_RATIO, STANDING_LIMIT_DEG, STRING_GAP_TOLERANCE_MM, VOLUME_SUM_LIMIT_RATIO,
+    WALL_TOLERANCE_MM, WATERLINE_LIMIT_MM,
 };
 
 // The files of a kit and their changes.

@@ -104,10 +104,17 @@ pub struct Aim {
     /// The order for a floating object; `None` for other goals.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub water: Option<WaterOrder>,
+    /// The lean that a top promises, degrees, zero if it is waived. `None` for other goals, and in
+    /// kits of older versions.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub least_lean_deg: Option<f64>,
+    /// The toppling angle that a standing object promises, degrees; `None` for other goals.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub least_angle_deg: Option<f64>,
 }
 
 impl Aim {
-    /// Returns a goal with a place alone, without rotor and water.
+    /// Returns a goal with a place alone, without rotor, water and promised angles.
     pub fn new(kind: GoalKind, origin_mm: [f64; 3], axis: [f64; 3]) -> Self {
         Self {
             kind,
@@ -115,6 +122,8 @@ impl Aim {
             axis,
             rotor: None,
             water: None,
+            least_lean_deg: None,
+            least_angle_deg: None,
         }
     }
 

@@ -115,6 +115,10 @@ fn restate_whole(sheet: &Value, promise: &Promise, judgement: &Judgement) -> Map
         "verdict".to_owned(),
         json!(if passes { "pass" } else { "fail" }),
     );
+    // Kits of older versions do not state on which part a top spins.
+    if let (Some(spin), true) = (judgement.spin, sheet["goal"]["spins_on"].is_object()) {
+        rows.insert("goal".to_owned(), json!({ "spins_on": spin }));
+    }
     if let Some(promised) = promise.promise {
         rows.insert(
             "promise".to_owned(),

@@ -38,6 +38,13 @@ SPEED_AGREEMENT_RATIO = 1e-5
 # The metacentric height by the waterplane's second moment, against the program's by righting arms at a small heel.
 METACENTRE_AGREEMENT_RATIO = 1e-3
 WATERLINE_TOLERANCE_MM = 0.02
+# How far a top's contact may be from its lowest point.
+CONTACT_LIMIT_MM = 0.05
+# The contact of a leaning top rolls as long as it goes on by steps no longer than this share of the longest side, and is
+# no further from the axis than on a ball with the longest side as its radius.
+STEP_RATIO = 0.05
+# How many directions a foot is leaned in.
+LEAN_DIRECTIONS = 72
 # Pins, sockets and engraved marks take this share off one of a joint's faces at most.
 FILM_RATIO = 0.1
 # Triangles this many times longer than most are cut into pieces before near ones are looked for.
@@ -784,6 +791,71 @@ def judge_foot(table, sheet, outer, center):
         table.same("centre over the floor, mm", sheet["foot"]["center_height_mm"], rest, 1e-4)
 
 
+def lean_on_tip(points, radius):
+    """The lean, degrees, at which a point first reaches the floor beside a ball about (0, 0, radius): by bisection."""
+    out, up = np.hypot(points[:, 0], points[:, 1]), points[:, 2] - radius
+    reaches = lambda degrees: (out * math.sin(math.radians(degrees)) - up * math.cos(math.radians(degrees))).max() > radius
+    low, high = 0.0, 90.0
+    if reaches(low) or not reaches(high):
+        return low if reaches(low) else high
+    while high - low > 1e-9:
+        middle = (low + high) / 2
+        low, high = (low, middle) if reaches(middle) else (middle, high)
+    return low
+
+
+def lean_on_foot(points, size):
+    """The lean, degrees, at which the contact of a body on its own foot no longer rolls: the least over all directions."""
+    return min(walk_of_contact(points, size, math.tau * k / LEAN_DIRECTIONS) for k in range(LEAN_DIRECTIONS))
+
+
+def walk_of_contact(points, size, turn):
+    """Follows the lowest point of a body that is leaned in one direction from place to place."""
+    out, height = points @ [math.cos(turn), math.sin(turn), 0.0], points[:, 2]
+    lowest = np.flatnonzero(height <= height.min())
+    here, at, lean = np.zeros(3), lowest[out[lowest].argmax()], 0.0
+    while True:
+        patch = (STEP_RATIO + math.sin(lean)) * size
+        if np.linalg.norm(points[at] - here) > STEP_RATIO * size or np.hypot(*points[at, :2]) > patch:
+            return math.degrees(lean)
+        beyond = np.flatnonzero(out > out[at])
+        if not len(beyond):
+            return 90.0
+        slopes = np.arctan2(height[beyond] - height[at], out[beyond] - out[at])
+        steepness = slopes.min()
+        # Of points on one line the last touches.
+        level = beyond[slopes <= steepness + 1e-12]
+        here, at, lean = points[at], level[out[level].argmax()], max(steepness, 0.0)
+
+
+def judge_contact(table, sheet, outer):
+    """Whether a top's contact is its lowest point, and how far it leans until more than its tip or its foot touches the floor."""
+    from scipy.spatial import ConvexHull
+
+    goal, stated = sheet["goal"], sheet["goal"].get("spins_on")
+    if goal["kind"] != "top" or stated is None:
+        return
+    origin, axes = frame(goal)
+    corners = np.concatenate(outer).reshape(-1, 3)
+    points = (corners[ConvexHull(corners).vertices] - origin) @ axes.T
+    size = np.ptp(corners, axis=0).max()
+    tip = next((rod for rod in sheet.get("hardware", []) if rod["what"] == "tip"), None)
+    lowest = points[:, 2].min()
+    if tip:
+        end = axes @ (np.array(tip["to_mm"], float) - origin)
+        table.at_most("tip's end off the contact, mm", CONTACT_LIMIT_MM, np.linalg.norm(end))
+        lowest, lean = min(lowest, end[2]), lean_on_tip(points - [0, 0, end[2]], tip["diameter_mm"] / 2)
+    else:
+        lean = lean_on_foot(points, size)
+        if goal.get("least_lean_deg"):
+            gap = trimesh.proximity.closest_point(welded(np.concatenate(outer)), origin[None])[1][0]
+            table.at_most("contact off the surface, mm", CONTACT_LIMIT_MM, gap)
+    table.at_most("lowest point below the contact, mm", CONTACT_LIMIT_MM, -lowest)
+    table.line("lean, °", stated["lean_deg"], lean, abs(stated["lean_deg"] - lean) <= 1e-3)
+    if goal.get("least_lean_deg"):
+        table.at_least("lean promised, °", goal["least_lean_deg"], lean)
+
+
 def judge_part(table, kit, part, printer):
     """Checks one file and returns its corners in the model frame."""
     path, room = kit / part["file"], printer.get("build_volume_mm")
@@ -846,6 +918,7 @@ def judge(kit):
     judge_hardware(table, sheet, outer)
     judge_size(table, sheet, parts)
     judge_foot(table, sheet, outer, center)
+    judge_contact(table, sheet, outer)
     judge_support(table, sheet, parts, whole)
     for part in ballast:
         table.at_least(f"{part['id']} ({part['part']}) room, mm", 0.0, ballast_room(part, whole, voids))
@@ -891,7 +964,7 @@ def judge_body(table, promised, body, found):
 
 def judge_goal(table, goal, promise, found):
     if goal["kind"] == "stand":
-        table.at_least("stands, °", 0.0, found["topples_deg"])
+        table.at_least("stands, °", goal.get("least_angle_deg", 0.0), found["topples_deg"])
     elif goal["kind"] == "float":
         ordered = abs(found["waterline_mm"] - goal["water"]["waterline_mm"])
         table.at_most("waterline, off by mm", WATERLINE_TOLERANCE_MM, ordered)

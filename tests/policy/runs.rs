@@ -103,7 +103,8 @@ fn job(row: &Row, path: PathBuf) -> Job {
         id: row.printer.clone(),
         material: None,
     };
-    let goal = Request::new(row.goal.parse().unwrap());
+    // The rows were recorded without tips.
+    let goal = Request::new(row.goal.parse().unwrap()).unpromised();
     let up = row.up.as_ref().map(|up| up.parse().unwrap());
     let contact = row.contact.as_ref().map(|contact| contact.parse().unwrap());
     let water = row.liquid.as_ref().map(|liquid| Water {

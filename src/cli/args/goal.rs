@@ -3,9 +3,9 @@
 
 use clap::Args;
 
-use super::values::factor;
+use super::values::{angle, factor};
 use crate::base::units::Length;
-use crate::goal::{Hardware, Liquid, Rod, Rotor, Water, Waterline};
+use crate::goal::{Hardware, Liquid, Rod, Rotor, TipChoice, Water, Waterline};
 
 /// The arguments of the goal balance.
 #[derive(Debug, Clone, Args)]
@@ -62,6 +62,19 @@ impl WaterArgs {
     }
 }
 
+/// The promises of a top and of a standing object.
+#[derive(Debug, Clone, Args)]
+#[command(next_help_heading = "Goal")]
+pub struct PromiseArgs {
+    /// The least lean of a top, in degrees, at which more than its tip or its round foot may touch
+    /// the floor [default: 10]
+    #[arg(long, value_name = "DEG", value_parser = angle, allow_hyphen_values = true)]
+    pub least_lean: Option<f64>,
+    /// The least tilt, in degrees, at which a standing object may topple [default: 5]
+    #[arg(long, value_name = "DEG", value_parser = angle, allow_hyphen_values = true)]
+    pub least_angle: Option<f64>,
+}
+
 /// The arguments for parts that are not printed, for the goals yoyo and top.
 #[derive(Debug, Clone, Args)]
 #[command(next_help_heading = "Hardware")]
@@ -76,31 +89,31 @@ pub struct HardwareArgs {
     /// The mass of nuts, washers or a bearing on the axle in the gap, in g
     #[arg(long, value_name = "G", value_parser = factor, allow_hyphen_values = true)]
     pub hardware_mass: Option<f64>,
-    /// A round-ended pin at a top's contact, on which it spins: DIAMETERxLENGTH or
-    /// DIAMETERxLENGTHxDEPTH, with :G_PER_CM3 after it if it is not of steel [default: half of its
-    /// length inside]
-    #[arg(long, value_name = "ROD", allow_hyphen_values = true)]
-    pub tip: Option<Rod>,
-    /// A stem at the upper end of a top's axis to spin it by; written like the tip
+    /// A round-ended pin at a top's contact, on which it spins: auto, none, or a ROD. With auto it
+    /// is a stock pin, if the top does not spin on its own foot. A ROD is DIAMETERxLENGTH or
+    /// DIAMETERxLENGTHxDEPTH, with :G_PER_CM3 after it if it is not of steel [default: auto]
+    #[arg(long, value_name = "auto|none|ROD", allow_hyphen_values = true)]
+    pub tip: Option<TipChoice>,
+    /// A stem at the upper end of a top's axis to spin it by, a ROD like the tip
     #[arg(long, value_name = "ROD", allow_hyphen_values = true)]
     pub stem: Option<Rod>,
 }
 
 impl HardwareArgs {
-    /// Returns the hardware that was ordered; `None` if none was.
+    /// Returns the hardware that was ordered besides a tip; `None` if none was.
     pub fn order(&self) -> Option<Hardware> {
         let Self {
             string_gap,
             axle,
             hardware_mass: mass_g,
-            tip,
             stem,
+            ..
         } = *self;
         let hardware = Hardware {
             string_gap,
             axle,
             mass_g,
-            tip,
+            tip: None,
             stem,
         };
         (!hardware.is_empty()).then_some(hardware)

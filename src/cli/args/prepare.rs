@@ -8,7 +8,7 @@ use clap::Args;
 use super::ballast::BallastArgs;
 use super::cut::{CutArg, CutArgs};
 use super::error::ArgsError;
-use super::goal::{HardwareArgs, RotorArgs, WaterArgs};
+use super::goal::{HardwareArgs, PromiseArgs, RotorArgs, WaterArgs};
 use super::scaling::ScalingArgs;
 use super::values::{EXIT_CODES, words};
 use crate::base::units::Length;
@@ -61,8 +61,8 @@ pub struct PrepareArgs {
         help_heading = "Goal"
     )]
     pub up: Option<Up>,
-    /// The point where a top touches the ground: lowest, center (below the centre of mass) or X,Y,Z
-    /// in mm [default: lowest]
+    /// The point where a top touches the ground: lowest, center, X,Y,Z in mm, or auto. Center is
+    /// below the centre of mass; auto is lowest if it spins there, else center [default: auto]
     #[arg(
         long,
         value_name = "POINT",
@@ -89,6 +89,9 @@ pub struct PrepareArgs {
         help_heading = "Goal"
     )]
     pub objective: Option<Objective>,
+    /// The promises of lean and toppling angle.
+    #[command(flatten)]
+    pub promises: PromiseArgs,
     /// The speed and grade of a rotor.
     #[command(flatten)]
     pub rotor: RotorArgs,
@@ -135,7 +138,7 @@ pub struct PrepareArgs {
 }
 
 /// The arguments that a replayed job decides.
-const DECIDED_BY_JOB: [&str; 28] = [
+const DECIDED_BY_JOB: [&str; 30] = [
     "printer",
     "material",
     "wall",
@@ -144,6 +147,8 @@ const DECIDED_BY_JOB: [&str; 28] = [
     "contact",
     "spin_point",
     "objective",
+    "least_lean",
+    "least_angle",
     "speed",
     "grade",
     "bore",
@@ -232,6 +237,9 @@ impl PrepareArgs {
             rotor: self.rotor.or_default(default.rotor),
             water: self.water.or_default(default.water),
             hardware: self.hardware.order(),
+            tip: self.hardware.tip.unwrap_or(default.tip),
+            least_lean_deg: self.promises.least_lean.unwrap_or(default.least_lean_deg),
+            least_angle_deg: self.promises.least_angle.unwrap_or(default.least_angle_deg),
             ..default
         };
         Ok(request.validate()?)

@@ -5,7 +5,7 @@ use std::path::Path;
 use clap::CommandFactory;
 
 use super::*;
-use crate::goal::{Contact, GoalKind, Objective, SpinPoint, Up};
+use crate::goal::{Contact, GoalKind, Objective, SpinPoint, TipChoice, Up};
 use crate::job::{CutMode, ModelUnit, PartFormat, Scaling};
 
 fn parse(line: &str) -> Result<Cli, clap::Error> {
@@ -42,10 +42,37 @@ fn hardware_and_the_weights_of_the_functional_reach_the_job() {
     );
     let hardware = top.hardware.unwrap();
     assert_eq!(
-        (hardware.tip.unwrap().to_string(), hardware.axle),
+        (top.tip.to_string(), hardware.axle),
         ("4mmx12mmx5mm".to_owned(), None)
     );
     assert_eq!(request(PREPARE).job.goal.hardware, None);
+}
+
+#[test]
+fn the_promises_of_a_top_reach_the_job_and_its_tip_may_be_left_out() {
+    let plain = request(PREPARE).job.goal;
+    assert_eq!(
+        (plain.contact, plain.tip),
+        (Some(Contact::Auto), TipChoice::Auto)
+    );
+    assert_eq!(plain.promised_lean_deg(), Some(10.0));
+    let goal = request(&format!("{PREPARE} --tip none --least-lean 7.5"))
+        .job
+        .goal;
+    assert_eq!((goal.tip, goal.least_lean_deg), (TipChoice::None, 7.5));
+    assert_eq!(goal.promised_lean_deg(), Some(0.0));
+    for wrong in [
+        "--least-lean -1",
+        "--least-lean 1e3",
+        "--least-angle 4",
+        "--least-lean 5mm",
+    ] {
+        let parsed = parse(&format!("{PREPARE} {wrong}")).map(|cli| match cli.command {
+            Command::Prepare(args) => args.request().is_ok(),
+            other => panic!("{other:?}"),
+        });
+        assert!(!parsed.unwrap_or(false), "{wrong}");
+    }
 }
 
 #[test]
@@ -72,7 +99,7 @@ fn missing_arguments_get_the_documented_defaults() {
     assert_eq!(job.model.scaling, Scaling::Unit(ModelUnit::Mm));
     assert_eq!(
         (job.goal.up, job.goal.contact, job.goal.spin_point),
-        (Up::Z, Some(Contact::Lowest), None)
+        (Up::Z, Some(Contact::Auto), None)
     );
     assert_eq!(
         (job.wall, job.pitch, job.printer.material),

@@ -26,6 +26,19 @@ where
 #[error("`{0}` is not a positive, finite factor; remedy: give a number above zero")]
 pub struct FactorError(String);
 
+/// An angle that is not finite, or below zero.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("`{0}` is not an angle in degrees; remedy: give a number of zero or more, without a unit")]
+pub struct AngleError(String);
+
+/// Reads an angle in degrees.
+pub(super) fn angle(text: &str) -> Result<f64, AngleError> {
+    match text.trim().trim_end_matches('°').parse::<f64>() {
+        Ok(angle) if angle.is_finite() && angle >= 0.0 => Ok(angle),
+        _ => Err(AngleError(text.to_owned())),
+    }
+}
+
 /// Reads a factor.
 pub(super) fn factor(text: &str) -> Result<f64, FactorError> {
     match text.trim().parse::<f64>() {

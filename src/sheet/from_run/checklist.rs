@@ -37,7 +37,7 @@ pub fn checklist(facts: &Facts) -> Checklist {
         model: model_row(placed),
         printer: printer_row(placed),
         material: material_row(placed),
-        goal: goal_row(placed),
+        goal: goal_row(facts),
         promise: facts.promised,
         solid: judgement.solid.clone(),
         hollowed: judgement.hollowed.clone(),
@@ -87,7 +87,8 @@ fn model_row(placed: &Placed) -> ModelRow {
     }
 }
 
-fn goal_row(placed: &Placed) -> GoalRow {
+fn goal_row(facts: &Facts) -> GoalRow {
+    let placed = facts.placed;
     let gap = placed
         .placement
         .warnings
@@ -106,6 +107,7 @@ fn goal_row(placed: &Placed) -> GoalRow {
         objective: asked.into(),
         spin_it_weights,
         contact_gap_mm: gap.unwrap_or(0.0),
+        spins_on: facts.judgement.spin,
         choice: placed.choice.as_ref().map(ToString::to_string),
     }
 }

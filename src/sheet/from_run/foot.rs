@@ -18,10 +18,7 @@ pub fn foot_row(facts: &Facts) -> Option<FootRow> {
         .map(|p| goal.frame.to_local(p))
         .collect();
     // The end of a tip touches the floor; it is the origin.
-    let has_tip = placed
-        .request
-        .hardware
-        .is_some_and(|hardware| hardware.tip.is_some());
+    let has_tip = placed.hardware().tip.is_some();
     points.extend(has_tip.then(Point::origin));
     let center = goal
         .frame

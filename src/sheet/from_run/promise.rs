@@ -90,6 +90,8 @@ pub fn aim(placed: &Placed) -> Aim {
     Aim {
         rotor,
         water,
+        least_lean_deg: placed.request.promised_lean_deg(),
+        least_angle_deg: placed.request.promised_angle_deg(),
         ..Aim::new(
             goal.kind,
             goal.frame.origin.into(),

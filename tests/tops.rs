@@ -1,0 +1,83 @@
+//! Tops and standing objects that keep their promise on a table, as a user makes them.
+
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    reason = "a test whose input cannot be had has failed"
+)]
+
+mod common;
+
+use common::{assert_exit, json, list, make_kit, number, prepare_quickly, printed, verify};
+use serde_json::Value;
+
+/// The measured value of a check, and the verdict; `None` if there is no such check.
+fn check(sheet: &Value, kind: &str) -> Option<(f64, bool)> {
+    let row = list(sheet, "checks")
+        .iter()
+        .find(|row| row["kind"] == kind)?;
+    Some((number(row, "/value"), row["pass"] == true))
+}
+
+#[test]
+fn an_ellipsoid_spins_on_its_own_round_end() {
+    let folder = tempfile::tempdir().unwrap();
+    let sheet = make_kit(&folder.path().join("kit"), "--goal top --wall 1.5mm");
+    assert!(list(&sheet, "hardware").is_empty());
+    let (lean_deg, kept) = check(&sheet, "lean").unwrap();
+    assert!(kept && lean_deg > 20.0, "{lean_deg}");
+    // Its lowest end has a radius of about 60 mm at 100 mm, as a prototype in Python found.
+    let radius_mm = number(&sheet, "/goal/spins_on/radius_mm");
+    assert!((25.0..40.0).contains(&radius_mm), "{radius_mm}");
+}
+
+#[test]
+fn a_contact_in_the_air_brings_its_tip_and_leans_as_promised() {
+    let folder = tempfile::tempdir().unwrap();
+    let kit = folder.path().join("kit");
+    let sheet = make_kit(&kit, "--goal top --wall 1mm --up y --contact center");
+    let [tip] = list(&sheet, "hardware") else {
+        panic!("{}", sheet["hardware"])
+    };
+    assert_eq!(tip["what"], "tip");
+    assert!(check(&sheet, "lean").unwrap().0 >= 10.0);
+    assert!(check(&sheet, "contact").unwrap().0 < 0.05);
+    let (code, said) = verify(&kit);
+    assert_eq!(code, Some(0), "{said}");
+}
+
+#[test]
+fn without_a_tip_no_lean_is_promised_and_the_sheet_says_so() {
+    let folder = tempfile::tempdir().unwrap();
+    let options = "--goal top --wall 1.5mm --tip none";
+    let sheet = make_kit(&folder.path().join("kit"), options);
+    assert_eq!(check(&sheet, "lean"), None);
+    assert!(list(&sheet, "hardware").is_empty());
+}
+
+#[test]
+fn a_lean_that_is_not_reached_breaks_the_promise_and_names_the_tip_that_reaches_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let rod = "--contact center --tip 4mmx10mmx6mm --least-lean 30";
+    let options = format!("--goal top --wall 1mm --up y {rod}");
+    let output = prepare_quickly(&folder.path().join("kit"), &options);
+    assert_exit(&output, 1);
+    let (lean_deg, kept) = check(&json(&output), "lean").unwrap();
+    assert!(!kept && lean_deg < 30.0, "{lean_deg}");
+    let said = printed(&output);
+    assert!(said.contains("take a longer tip (--tip="), "{said}");
+}
+
+#[test]
+fn a_toppling_angle_that_is_not_reached_breaks_the_promise() {
+    let folder = tempfile::tempdir().unwrap();
+    let stand = |name: &str, least: &str| {
+        let options = format!("--goal stand --up y --wall 1.5mm {least}");
+        prepare_quickly(&folder.path().join(name), &options)
+    };
+    let kept = stand("kept", "--least-angle 0");
+    assert_exit(&kept, 0);
+    let (angle_deg, _) = check(&json(&kept), "standing").unwrap();
+    let more = format!("--least-angle {}", angle_deg + 0.1);
+    assert_exit(&stand("broken", &more), 1);
+}
