@@ -25,6 +25,7 @@ mod support;
 #[cfg(test)]
 pub(crate) mod testing;
 mod top;
+mod upright;
 mod water;
 mod yoyo;
 
@@ -42,4 +43,5 @@ pub use site::MeasuredSolid;
 pub use sites::{Contact, SpinPoint, Up};
 pub(crate) use support::edges as support_edges;
 pub(crate) use top::height_over_origin;
+pub use upright::{UprightPose, UprightReason, find_upright};
 pub use water::{FloatConditions, Hydrostatics, Liquid, Water, Waterline};
