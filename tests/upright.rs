@@ -5,14 +5,16 @@
     reason = "a test whose input cannot be had has failed"
 )]
 
+mod common;
+
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use equipoise::base::watch::Watch;
-use equipoise::geom::{Matrix, Vector};
+use equipoise::geom::{Matrix, Point, Vector};
 use equipoise::goal::{Up, find_upright};
-use equipoise::io::read_model;
-use equipoise::mesh::Solid;
+use equipoise::io::{read_model, stl};
+use equipoise::mesh::{Csg, Solid};
 use equipoise::repair::repair;
 use serde::Deserialize;
 
@@ -134,4 +136,41 @@ fn the_axes_of_the_file_do_not_matter() {
 #[ignore = "a minute of the same on larger models"]
 fn the_axes_of_no_file_matter() {
     assert_found(None, &axis_turns());
+}
+
+#[test]
+fn a_kit_without_an_ordered_up_says_which_way_was_taken_and_what_to_type_for_another() {
+    let folder = tempfile::tempdir().unwrap();
+    let kit = folder.path().join("boat");
+    let sheet = common::make_kit(&kit, "--wall 1.5mm --goal float --liquid seawater");
+    let choice = sheet["goal"]["choice"].as_str().unwrap();
+    assert!(choice.contains("was taken as the natural up"), "{choice}");
+    // The ellipsoid is as good upside down.
+    assert!(choice.contains("` is about as likely"), "{choice}");
+    let job = std::fs::read_to_string(kit.join("job.toml")).unwrap();
+    assert!(job.contains("up = \"natural\""), "{job}");
+    let axis: Vec<f64> = serde_json::from_value(sheet["goal"]["axis"].clone()).unwrap();
+    assert!(axis.iter().all(|part| part.is_finite()));
+}
+
+#[test]
+fn a_model_on_a_point_is_told_which_up_to_try() {
+    let folder = tempfile::tempdir().unwrap();
+    let model = folder.path().join("cone.stl");
+    let ring = (0..24).map(|i| (std::f64::consts::TAU * f64::from(i) / 24.0).sin_cos());
+    let ring = ring.map(|(sin, cos)| Point::new(20.0 * cos, 20.0 * sin, 40.0));
+    let points: Vec<Point> = ring.chain([Point::origin()]).collect();
+    let cone = Csg::convex_hull(&points).unwrap().to_mesh().unwrap();
+    std::fs::write(&model, stl::encode(&cone, "cone")).unwrap();
+    let usual = "--json prepare --printer objet-connex350 --goal stand --up z --out";
+    let mut line = common::words(usual);
+    let out = folder.path().join("kit");
+    line.extend([common::path(&out), common::path(&model)]);
+    let refused = common::equipoise(&line);
+    common::assert_exit(&refused, 2);
+    let said = common::printed(&refused);
+    assert!(
+        said.contains("with z up") && said.contains("try --up=-z"),
+        "{said}"
+    );
 }
