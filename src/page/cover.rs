@@ -59,6 +59,9 @@ fn facts(sheet: &Checklist) -> Markup {
     html! {
         table class="facts" {
             tr { th scope="row" { "Goal" } td { (words::goal(&sheet.goal)) ". Coordinates are along the model's own axes." } }
+            @if let Some(choice) = &sheet.goal.choice {
+                tr { th scope="row" { "Way up" } td { (sentence(choice)) } }
+            }
             tr {
                 th scope="row" { "Model" }
                 td {
