@@ -19,7 +19,7 @@ use serde_json::Value;
 fn remedies() -> Vec<Value> {
     let folder = tempfile::tempdir().unwrap();
     let kit = folder.path().join("thick");
-    let refused = prepare_quickly(&kit, "--goal top --wall 12mm");
+    let refused = prepare_quickly(&kit, "--goal top --up z --wall 12mm");
     assert_exit(&refused, 1);
     assert!(!kit.exists());
     list(&json(&refused), "remedies").to_vec()
@@ -49,7 +49,7 @@ fn a_recommended_wall_gives_a_kit() {
     let folder = tempfile::tempdir().unwrap();
     make_kit(
         &folder.path().join("thin"),
-        &format!("--goal top --wall {wall}"),
+        &format!("--goal top --up z --wall {wall}"),
     );
 }
 

@@ -91,7 +91,7 @@ fn voids_are_filled_with_something_lighter_or_heavier_than_the_print() {
     let folder = tempfile::tempdir().unwrap();
     for density_g_cm3 in [0.4, 5.0] {
         let kit = folder.path().join(density_g_cm3.to_string());
-        let sheet = common::make_kit(&kit, &format!("--goal top --fill {density_g_cm3}"));
+        let sheet = common::make_kit(&kit, &format!("--goal top --up z --fill {density_g_cm3}"));
         let printed_g = sum(list(&sheet, "parts"), "/mass_g");
         let filled_g = density_g_cm3 * sum(list(&sheet, "voids"), "/volume_mm3") / 1000.0;
         let mass_g = number(&sheet, "/assembly/mass_g");
@@ -105,6 +105,6 @@ fn voids_are_filled_with_something_lighter_or_heavier_than_the_print() {
 #[test]
 fn a_filling_as_heavy_as_the_print_is_refused() {
     let folder = tempfile::tempdir().unwrap();
-    let refused = prepare_quickly(&folder.path().join("kit"), "--goal top --fill 1.175");
+    let refused = prepare_quickly(&folder.path().join("kit"), "--goal top --up z --fill 1.175");
     assert_exit(&refused, 2);
 }

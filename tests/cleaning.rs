@@ -41,7 +41,7 @@ fn every_process_opens_its_voids_and_cleans_them_by_its_own_rule() {
         ("ultimaker-s5", "melt-out"),
     ] {
         let kit = folder.path().join(printer);
-        let sheet = make_on(printer, &kit, &["--goal", "top"]);
+        let sheet = make_on(printer, &kit, &["--goal", "top", "--up", "z"]);
         assert_eq!(sheet["printer"]["cleaning"]["rule"], rule, "{printer}");
         let voids = list(&sheet, "voids");
         assert!(!voids.is_empty(), "{printer}");

@@ -32,7 +32,7 @@ fn a_tilted_ellipsoid_becomes_a_rotor_within_its_grade() {
 fn a_hollow_ellipsoid_floats_upright_and_the_sheet_says_to_seal_it() {
     let folder = tempfile::tempdir().unwrap();
     let kit = folder.path().join("boat");
-    let sheet = make_kit(&kit, "--wall 1.5mm --goal float --liquid seawater");
+    let sheet = make_kit(&kit, "--wall 1.5mm --goal float --up z --liquid seawater");
     assert!(sheet["solid"].get("afloat").is_none(), "a solid one sinks");
     assert!(number(&sheet, "/assembly/afloat/metacentric_height_mm") > 0.0);
     assert!(number(&sheet, "/assembly/afloat/rights_from_deg") >= 5.0);
@@ -55,7 +55,7 @@ fn an_impossible_goal_is_proved_with_its_reason_and_remedies() {
     ] {
         let folder = tempfile::tempdir().unwrap();
         let kit = folder.path().join("none");
-        let output = prepare_quickly(&kit, &format!("--wall 1.5mm --goal {goal}"));
+        let output = prepare_quickly(&kit, &format!("--wall 1.5mm --up z --goal {goal}"));
         assert_exit(&output, 1);
         assert!(!kit.exists(), "{goal}");
         let answer = json(&output);

@@ -108,7 +108,10 @@ fn impossible_hardware_is_refused_with_a_remedy() {
         ("yoyo --axle 6mmx", "is not a rod"),
         ("yoyo --string-gap 3mm --axle 70mm", "has no wall"),
     ] {
-        let output = prepare_quickly(&folder.path().join("none"), &format!("--goal {goal}"));
+        let output = prepare_quickly(
+            &folder.path().join("none"),
+            &format!("--up z --goal {goal}"),
+        );
         assert_exit(&output, 2);
         let said = printed(&output);
         assert!(said.contains(words), "{goal}: {said}");

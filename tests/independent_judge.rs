@@ -110,7 +110,7 @@ fn an_independent_judge_agrees_with_the_checklist_and_finds_a_false_mass() {
     };
     let folder = tempfile::tempdir().unwrap();
     let kit = folder.path().join("kit");
-    make_kit(&kit, "--goal top --wall 1.5mm");
+    make_kit(&kit, "--goal top --up z --wall 1.5mm");
     let (code, said) = judge(JUDGE, &python, &kit);
     assert_eq!(code, Some(0), "{said}");
     let mut sheet = checklist(&kit);
@@ -123,7 +123,7 @@ fn an_independent_judge_agrees_with_the_checklist_and_finds_a_false_mass() {
 /// Makes a kit that states its parts in a format.
 fn make_packages(folder: &Path, printer: &str, format: &str) -> PathBuf {
     let kit = folder.join(format);
-    let sizes = "--goal top --size 60mm --wall 1.5mm --pitch 0.3mm";
+    let sizes = "--goal top --up z --size 60mm --wall 1.5mm --pitch 0.3mm";
     let options = format!("{sizes} --printer {printer} --format {format}");
     assert_exit(&prepare(&kit, &words(&options)), 0);
     kit

@@ -20,7 +20,7 @@ use serde_json::Value;
 
 /// Makes the shipped model a small top of filament: its walls are too thin for pins of 3 mm.
 fn make_small_top(out: &Path, options: &[&str]) -> Value {
-    let usual = words("--printer prusa-mk4 --goal top --size 40mm --pitch 0.3mm");
+    let usual = words("--printer prusa-mk4 --goal top --up z --size 40mm --pitch 0.3mm");
     let output = prepare(out, &[&usual[..], options].concat());
     assert_exit(&output, 0);
     json(&output)
@@ -124,7 +124,7 @@ fn marks(sheet: &Value) -> Vec<&str> {
 fn parts_bear_their_ids_unless_none_are_wanted() {
     let folder = tempfile::tempdir().unwrap();
     let make = |name: &str, ids: &str| {
-        let goal = format!("--goal top --wall 2.5mm {ids}");
+        let goal = format!("--goal top --up z --wall 2.5mm {ids}");
         make_kit(&folder.path().join(name), &goal)
     };
     let engraved = make("engraved", "");

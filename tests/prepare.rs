@@ -19,7 +19,7 @@ use common::{
 
 /// Prepares the shipped model as a small top, without JSON.
 fn prepare_top(out: &Path, options: &[&str]) -> Output {
-    let usual = format!("{QUICK} --goal top --wall 1.5mm");
+    let usual = format!("{QUICK} --goal top --up z --wall 1.5mm");
     let start = ["prepare", ELLIPSOID, "--out", path(out)];
     equipoise(&[&start[..], &words(&usual), options].concat())
 }
@@ -111,7 +111,7 @@ fn an_existing_kit_is_replaced_only_with_force() {
 /// Asks for a wall of 12 mm. Too little can then be emptied to move the centre of mass over the
 /// contact point.
 fn prepare_impossible(out: &Path, pitch: &str, more: &[&str]) -> Output {
-    let sizes = "--goal top --printer objet-connex350 --size 60mm --wall 12mm --pitch";
+    let sizes = "--goal top --up z --printer objet-connex350 --size 60mm --wall 12mm --pitch";
     let start = [more, &["prepare", ELLIPSOID, "--out", path(out)]].concat();
     equipoise(&[&start[..], &words(sizes), &[pitch]].concat())
 }

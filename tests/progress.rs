@@ -117,7 +117,7 @@ impl Record {
 #[test]
 fn progress_rises_to_the_end_and_never_stands_still() {
     let room = tempfile::tempdir().unwrap();
-    let options = format!("{QUICK} --goal top --wall 1.5mm");
+    let options = format!("{QUICK} --goal top --up z --wall 1.5mm");
     let order = order(Path::new(ELLIPSOID), &room.path().join("kit"), &options);
     let (record, end) = Record::of(&order);
     let whole = record.whole_ratios();
@@ -130,7 +130,7 @@ fn progress_rises_to_the_end_and_never_stands_still() {
 
 #[test]
 fn a_run_stopped_anywhere_ends_at_once_and_writes_nothing() {
-    let options = format!("{QUICK} --goal top --wall 1.5mm");
+    let options = format!("{QUICK} --goal top --up z --wall 1.5mm");
     for stop in 0..STOPS {
         let room = tempfile::tempdir().unwrap();
         let order = order(Path::new(ELLIPSOID), &room.path().join("kit"), &options);

@@ -20,7 +20,9 @@ use common::ELLIPSOID;
 fn stopped(signal: &str, after: Duration, out: &Path) -> Output {
     let child = Command::new(env!("CARGO_BIN_EXE_equipoise"))
         .args(["prepare", ELLIPSOID, "--printer", "objet-connex350"])
-        .args(["--goal", "top", "--size", "100mm", "--force", "--out"])
+        .args([
+            "--goal", "top", "--up", "z", "--size", "100mm", "--force", "--out",
+        ])
         .arg(out)
         .stdout(Stdio::piped())
         .stderr(Stdio::piped())

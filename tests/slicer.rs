@@ -95,7 +95,7 @@ fn a_slicer_takes_every_part_of_a_kit_without_repair() {
     }
     let folder = tempfile::tempdir().unwrap();
     let kit = folder.path().join("kit");
-    let sheet = make_kit(&kit, "--goal top --wall 1.5mm");
+    let sheet = make_kit(&kit, "--goal top --up z --wall 1.5mm");
     let parts = list(&sheet, "parts");
     assert!(parts.len() > 1, "{parts:?}");
     for part in parts {

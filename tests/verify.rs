@@ -26,7 +26,7 @@ fn made() -> &'static Path {
     static MADE: OnceLock<PathBuf> = OnceLock::new();
     MADE.get_or_init(|| {
         let kit = tempfile::tempdir().unwrap().keep().join("kit");
-        make_kit(&kit, "--goal top --wall 1.5mm");
+        make_kit(&kit, "--goal top --up z --wall 1.5mm");
         kit
     })
 }

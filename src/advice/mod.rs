@@ -33,7 +33,8 @@
 //!
 //! * `remedy`: the answer and its words
 //!
-//! * `orientation`, `prospects`: the best axis, and the goals a model could meet
+//! * `orientation`, `natural`, `prospects`: the best axis, the one nearest to the natural up, and
+//!   the goals a model could meet
 
 mod ballast;
 mod case;
@@ -42,6 +43,7 @@ mod directions;
 mod footing;
 mod move_remedy;
 mod moves;
+mod natural;
 mod nearest;
 mod orientation;
 mod prospects;
@@ -58,6 +60,7 @@ use crate::base::watch::{Cancelled, Watch};
 use crate::goal::GoalKind;
 
 pub use case::Case;
+pub use natural::{NearbyAxis, name_direction, nearest_orientation};
 pub use orientation::{Orientation, best_orientation};
 pub use prospects::{Prospect, prospects};
 pub use reached::Reached;

@@ -115,10 +115,10 @@ fn best_with_contact_rule(case: &Case, watch: &Watch) -> Option<Orientation> {
 
 /// A possible axis.
 #[derive(Debug, Clone, Copy)]
-struct Place {
-    axis: Vector,
-    request: Request,
-    reached: Reached,
+pub(super) struct Place {
+    pub axis: Vector,
+    pub request: Request,
+    pub reached: Reached,
 }
 
 fn by_score(a: &Place, b: &Place) -> std::cmp::Ordering {
@@ -126,7 +126,7 @@ fn by_score(a: &Place, b: &Place) -> std::cmp::Ordering {
 }
 
 /// Tries a goal on an axis. Returns `None` if it is impossible there.
-fn place_on(model: &SampledModel, axis: &Vector) -> Option<Place> {
+pub(super) fn place_on(model: &SampledModel, axis: &Vector) -> Option<Place> {
     let axis = round_direction(axis);
     let request = with_axis(&model.case.request, &axis);
     let trial = model
@@ -199,7 +199,7 @@ fn tilts_around(axis: &Vector, tilt: f64) -> Vec<Vector> {
 }
 
 /// Returns the axes to try.
-fn candidates(case: &Case) -> Vec<Vector> {
+pub(super) fn candidates(case: &Case) -> Vec<Vector> {
     let mesh = case.solid.mesh();
     if case.request.kind == GoalKind::Stand {
         return resting_directions(mesh);

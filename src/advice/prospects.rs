@@ -69,7 +69,7 @@ fn requests(kind: GoalKind, axes: &[Vector]) -> Vec<Request> {
 }
 
 /// Returns the word for a coordinate axis, or the vector.
-fn name_axis(axis: &Vector) -> Up {
+pub(super) fn name_axis(axis: &Vector) -> Up {
     let words = [Up::X, Up::Y, Up::Z, Up::NegX, Up::NegY, Up::NegZ];
     let is_it = |up: &Up| up.direction().is_some_and(|direction| direction == *axis);
     words

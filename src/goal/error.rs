@@ -2,6 +2,7 @@
 
 use super::request::RequestError;
 use super::sites::Up;
+use crate::base::setting::Setting;
 
 /// The greatest distance of a point from the model, in lengths of the model. No tip reaches farther
 /// than one length; beyond some thousands rounding would decide.
@@ -15,8 +16,8 @@ pub enum GoalError {
     #[error("up = {0} is not a direction; give three finite numbers that are not all zero")]
     NoDirection(Up),
     /// The axis is still to be chosen.
-    #[error("up = auto is not a direction yet; choose one first (advice::best_orientation)")]
-    NotChosen,
+    #[error("up = {0} is not a direction yet; choose one first")]
+    NotChosen(Up),
     /// A point with a coordinate that is not a number.
     #[error("{name} = ({x}, {y}, {z}) is not a point; give three finite numbers in mm")]
     NotAPoint {
@@ -62,12 +63,16 @@ pub enum GoalError {
     NoSeat,
     /// A support without area.
     #[error(
-        "the {vertices} lowest vertices of the model support it on a point or a line only; turn \
-         it, or give it a flat foot"
+        "with {up} up the {vertices} lowest vertices of the model support it on a point or a line \
+         only: try `{instead}`, or give it a flat foot"
     )]
     NoSupport {
+        /// The direction that is up.
+        up: Up,
         /// The number of vertices at the support plane.
         vertices: usize,
+        /// The setting to try instead.
+        instead: Setting,
     },
     /// A waterline above the model.
     #[error(

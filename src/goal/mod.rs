@@ -29,6 +29,7 @@ pub(crate) mod testing;
 mod tip_choice;
 mod tips;
 mod top;
+mod upright;
 mod water;
 mod yoyo;
 
@@ -48,4 +49,5 @@ pub use sites::{Contact, SpinPoint, Up};
 pub(crate) use support::edges as support_edges;
 pub use tip_choice::TipChoice;
 pub(crate) use top::height_over_origin;
+pub use upright::{UprightPose, UprightReason, find_upright};
 pub use water::{FloatConditions, Hydrostatics, Liquid, Water, Waterline};

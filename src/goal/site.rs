@@ -55,6 +55,8 @@ pub(super) struct Site<'a> {
     pub solid: &'a Solid,
     pub kind: GoalKind,
     pub objective: Objective,
+    /// The direction that is up, as it was asked for.
+    pub up: Up,
     /// The solid's moments, model frame.
     pub moments: Moments,
     /// Mass properties for unit density, model frame.
@@ -78,6 +80,7 @@ impl<'a> Site<'a> {
             solid,
             kind: request.kind,
             objective: request.objective,
+            up: request.up,
             moments,
             body,
             upright,
@@ -151,7 +154,7 @@ impl<'a> Site<'a> {
 fn up_direction(up: Up, solid: &Solid, body: &Body) -> Result<Vector, GoalError> {
     match up {
         Up::Principal => Ok(principal_direction(solid, body)),
-        Up::Auto => Err(GoalError::NotChosen),
+        Up::Auto | Up::Natural => Err(GoalError::NotChosen(up)),
         _ => up.direction().ok_or(GoalError::NoDirection(up)),
     }
 }

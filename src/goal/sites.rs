@@ -5,6 +5,7 @@ use std::{fmt, str::FromStr};
 
 use serde::{Deserialize, Serialize};
 
+use super::kind::GoalKind;
 use crate::base::words::{ChoiceError, as_text, parse_numbers};
 use crate::geom::Vector;
 
@@ -31,10 +32,12 @@ pub enum Up {
     Principal,
     /// The best of all directions. A run chooses it before it places the goal.
     Auto,
+    /// The direction in which the model stands by nature. A run finds it before it places the goal.
+    Natural,
 }
 
 /// The words for the axes, in the order of [`Up`]'s values.
-const AXES: [(&str, Up); 8] = [
+const AXES: [(&str, Up); 9] = [
     ("x", Up::X),
     ("y", Up::Y),
     ("z", Up::Z),
@@ -43,11 +46,12 @@ const AXES: [(&str, Up); 8] = [
     ("-z", Up::NegZ),
     ("principal", Up::Principal),
     ("auto", Up::Auto),
+    ("natural", Up::Natural),
 ];
 
 impl Up {
-    /// Returns the unit vector. `None` for the principal and the best axis, which depend on the
-    /// solid, and for a vector without a direction.
+    /// Returns the unit vector. `None` for the principal, best and natural axes, which depend on
+    /// the solid, and for a vector without a direction.
     pub fn direction(self) -> Option<Vector> {
         let [x, y, z] = [Vector::x(), Vector::y(), Vector::z()];
         match self {
@@ -58,7 +62,15 @@ impl Up {
             Self::NegY => Some(-y),
             Self::NegZ => Some(-z),
             Self::Along(along) => unit(along),
-            Self::Principal | Self::Auto => None,
+            Self::Principal | Self::Auto | Self::Natural => None,
+        }
+    }
+
+    /// Returns the direction of a job that names none: the natural one, but z for a rotor.
+    pub fn default_for(kind: GoalKind) -> Self {
+        match kind {
+            GoalKind::Balance => Self::Z,
+            _ => Self::Natural,
         }
     }
 }
@@ -94,6 +106,7 @@ impl FromStr for Up {
                     "X,Y,Z",
                     "principal",
                     "auto",
+                    "natural",
                 ],
             )
         })?;

@@ -3,7 +3,9 @@
 use super::error::GoalError;
 use super::placement::Placement;
 use super::site::Site;
+use super::sites::Up;
 use super::support;
+use crate::base::setting::{Key, Setting};
 use crate::geom::Point;
 
 /// Vertices within this part of the height of the lowest carry the object. A scanned foot is never
@@ -24,7 +26,11 @@ pub(super) fn place(site: &Site) -> Result<Placement, GoalError> {
     let vertices = feet.len();
     let hull = support::convex_hull(feet);
     if support::area(&hull) <= LEAST_AREA_RATIO * site.height_mm().powi(2) {
-        return Err(GoalError::NoSupport { vertices });
+        return Err(GoalError::NoSupport {
+            up: site.up,
+            vertices,
+            instead: Setting::new(Key::Up, Up::Natural),
+        });
     }
     let [x, y] = support::middle(&hull);
     let polygon = hull
@@ -60,6 +66,9 @@ mod tests {
     #[test]
     fn a_tip_is_no_support() {
         let refused = place(&octahedron(), 1.0, &Request::new(GoalKind::Stand));
-        assert_eq!(refused, Err(GoalError::NoSupport { vertices: 1 }));
+        assert!(matches!(
+            refused,
+            Err(GoalError::NoSupport { vertices: 1, .. })
+        ));
     }
 }

@@ -77,6 +77,9 @@ fn facts(sheet: &Checklist) -> Markup {
     html! {
         table class="facts" {
             @for (name, words) in rows { tr { th scope="row" { (name) } td { (words) } } }
+            @if let Some(choice) = &sheet.goal.choice {
+                tr { th scope="row" { "Way up" } td { (sentence(choice)) } }
+            }
             @if let Some(foot) = words::spins_on(sheet) {
                 tr { th scope="row" { "Spins on" } td { (foot) } }
             }

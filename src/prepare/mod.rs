@@ -11,6 +11,7 @@ mod outcome;
 mod papers;
 mod place;
 mod solve;
+mod upright;
 mod waterline;
 
 pub use outcome::{Failure, Impossible, Outcome, Prepared};

@@ -1,6 +1,6 @@
 //! Place: the goal in the model, with its axis, its waterline and its hardware.
 
-use super::{advise, hardware, waterline};
+use super::{advise, hardware, upright, waterline};
 use crate::advice::{Case, best_orientation, is_possible};
 use crate::base::watch::{Cancelled, Watch};
 use crate::error::Error;
@@ -10,17 +10,20 @@ use crate::goal::{
 };
 use crate::hollow::Fill;
 use crate::job::Job;
-use crate::run::{AxisChoice, Model, Placed, Policy, Shop};
+use crate::run::{AxisChoice, Model, NaturalUp, Placed, Policy, Shop};
 
 /// Places the job's goal in the model and settles what the job leaves open.
 pub fn goal(job: &Job, model: Model, shop: Shop, watch: &Watch) -> Result<Placed, Error> {
-    let choice = choose_axis(&job.goal, &model, &shop, watch)?;
+    let choice = choose_axis(job, &model, &shop, watch)?;
     let request = match &choice {
         Some(AxisChoice::Best { request, .. }) => **request,
-        Some(AxisChoice::NonePossible { up }) => Request {
-            up: *up,
-            ..job.goal
-        },
+        Some(AxisChoice::NearNatural { nearby, .. }) => nearby.request,
+        Some(AxisChoice::NonePossible { up } | AxisChoice::Natural(NaturalUp { up, .. })) => {
+            Request {
+                up: *up,
+                ..job.goal
+            }
+        }
         None => job.goal,
     };
     let stock = PrintStock {
@@ -31,7 +34,13 @@ pub fn goal(job: &Job, model: Model, shop: Shop, watch: &Watch) -> Result<Placed
         contact: choose_contact(job, &advise::case(&model, &shop, request), watch)?,
         ..request
     };
-    let placement = place_in_material(&model.solid, &stock, &request)?;
+    let placement = match place_in_material(&model.solid, &stock, &request) {
+        Ok(placement) => placement,
+        Err(error) => {
+            let case = advise::case(&model, &shop, request);
+            return Err(upright::advised(error, &case, watch)?);
+        }
+    };
     let mut bound = job.clone();
     bound.model.sha256 = Some(model.sha256.clone());
     let placed = Placed {
@@ -50,11 +59,15 @@ pub fn goal(job: &Job, model: Model, shop: Shop, watch: &Watch) -> Result<Placed
 
 /// Chooses the axis of a request that leaves it open; `None` if the request names one.
 fn choose_axis(
-    request: &Request,
+    job: &Job,
     model: &Model,
     shop: &Shop,
     watch: &Watch,
 ) -> Result<Option<AxisChoice>, Cancelled> {
+    let request = &job.goal;
+    if request.up == Up::Natural {
+        return upright::choose(job, model, shop, watch).map(Some);
+    }
     if request.up != Up::Auto {
         return Ok(None);
     }

@@ -13,6 +13,7 @@
 mod brief;
 mod glue;
 mod made;
+mod natural;
 mod opened;
 mod policy;
 mod remark;
@@ -20,6 +21,7 @@ mod solved;
 
 pub use brief::{Model, Placed, Shop};
 pub use made::{Made, WrittenPart};
+pub use natural::NaturalUp;
 pub use opened::{Achieved, BossRound, CleaningRound, KeptBoss, KeptSolid, Opened, Voids};
 pub use policy::{Policy, Rung};
 pub use remark::{AxisChoice, KeptCause, Refusal, Remark};

@@ -3,7 +3,8 @@
 use std::fmt;
 
 use super::Rung;
-use crate::advice::Reached;
+use super::natural::NaturalUp;
+use crate::advice::{NearbyAxis, Reached};
 use crate::base::setting::{Key, Setting};
 use crate::base::units::format_count;
 use crate::cut::{PartId, UncleanCause};
@@ -172,6 +173,15 @@ pub enum AxisChoice {
         /// The figure reached on it.
         reached: Reached,
     },
+    /// The natural up of the model.
+    Natural(NaturalUp),
+    /// The axis nearest to the natural up on which the goal is possible.
+    NearNatural {
+        /// The natural up.
+        natural: NaturalUp,
+        /// The axis.
+        nearby: NearbyAxis,
+    },
     /// None of those tried allows the goal.
     NonePossible {
         /// The axis that the answer is for.
@@ -191,6 +201,16 @@ impl fmt::Display for AxisChoice {
                 f,
                 "`{}` was chosen: {possible} of {tried} axes tried allow the goal; on this one, the best near any of them, it {reached}",
                 Setting::new(Key::Up, request.up)
+            ),
+            Self::Natural(natural) => natural.fmt(f),
+            Self::NearNatural { natural, nearby } => write!(
+                f,
+                "`{}` was taken, {:.0}° off the natural up (`{}`), which does not allow the goal: \
+                 it is the nearest of the axes tried on which it is possible; there it {}",
+                Setting::new(Key::Up, nearby.request.up),
+                nearby.off_deg,
+                natural.setting(),
+                nearby.reached
             ),
             Self::NonePossible { up } => {
                 write!(

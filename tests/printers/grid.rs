@@ -21,7 +21,7 @@ fn must_be_whole(row: &Value, coarser: &str) -> bool {
 /// Makes the same job on a printer and checks its table of grid steps.
 fn assert_on_grid(printer: &str, coarser: &str) {
     let folder = tempfile::tempdir().unwrap();
-    let sizes = "--goal top --size 60mm --wall 1.5mm --pitch 0.3mm --printer";
+    let sizes = "--goal top --up z --size 60mm --wall 1.5mm --pitch 0.3mm --printer";
     let kit = folder.path().join("kit");
     assert_exit(&prepare(&kit, &[&words(sizes)[..], &[printer]].concat()), 0);
     let sheet = crate::common::checklist(&kit);

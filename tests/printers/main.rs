@@ -45,7 +45,7 @@ fn make_profile(folder: &Path) -> String {
 fn prepare_in(folder: &Path) {
     let default = "printer = \"shop.toml\"\n";
     fs::write(folder.join("equipoise.toml"), default).unwrap();
-    let sizes = "--goal top --size 60mm --wall 1.5mm --pitch 0.3mm --out kit";
+    let sizes = "--goal top --up z --size 60mm --wall 1.5mm --pitch 0.3mm --out kit";
     let arguments = [&["-q", "prepare", ELLIPSOID][..], &words(sizes)].concat();
     assert_exit(&equipoise_in(folder, &arguments), 0);
 }

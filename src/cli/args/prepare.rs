@@ -53,7 +53,8 @@ pub struct PrepareArgs {
     )]
     pub goal: Option<GoalKind>,
     /// The spin axis or the direction up: x, y, z, -x, -y, -z or a vector X,Y,Z. Or principal (the
-    /// axis easiest to spin about), or auto (the best of all) [default: z]
+    /// axis easiest to spin about), or auto (the best of all). Or natural: the way the model stands
+    /// by itself; tops and yo-yos take the nearest that works [default: natural; z for balance]
     #[arg(
         long,
         value_name = "AXIS",
@@ -230,7 +231,7 @@ impl PrepareArgs {
     fn goal(&self) -> Result<goal::Request, ArgsError> {
         let default = goal::Request::new(self.goal.ok_or(ArgsError::Missing("--goal"))?);
         let request = goal::Request {
-            up: self.up.unwrap_or(default.up),
+            up: self.up.unwrap_or(Up::default_for(default.kind)),
             contact: self.contact.or(default.contact),
             spin_point: self.spin_point.or(default.spin_point),
             objective: self.objective.unwrap_or(default.objective),

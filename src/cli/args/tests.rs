@@ -99,8 +99,10 @@ fn missing_arguments_get_the_documented_defaults() {
     assert_eq!(job.model.scaling, Scaling::Unit(ModelUnit::Mm));
     assert_eq!(
         (job.goal.up, job.goal.contact, job.goal.spin_point),
-        (Up::Z, Some(Contact::Auto), None)
+        (Up::Natural, Some(Contact::Auto), None)
     );
+    let rotor = request(&PREPARE.replace("top", "balance")).job.goal;
+    assert_eq!(rotor.up, Up::Z);
     assert_eq!(
         (job.wall, job.pitch, job.printer.material),
         (None, None, None)

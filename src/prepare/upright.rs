@@ -1,0 +1,57 @@
+//! The natural up of a model, or the axis nearest to it on which the goal is possible.
+
+use super::advise;
+use crate::advice::{Case, name_direction, nearest_orientation};
+use crate::base::setting::{Key, Setting};
+use crate::base::watch::{Cancelled, Watch};
+use crate::error::Error;
+use crate::goal::{GoalError, GoalKind, Up, find_upright};
+use crate::job::Job;
+use crate::run::{AxisChoice, Model, NaturalUp, Shop};
+
+/// Chooses the axis of a job that asks for the natural up.
+///
+/// Stand and float take it as it is. Tops and yo-yos take the axis nearest to it on which they are
+/// possible. With ballast or a filling they take it as it is: the search knows of neither.
+pub fn choose(
+    job: &Job,
+    model: &Model,
+    shop: &Shop,
+    watch: &Watch,
+) -> Result<AxisChoice, Cancelled> {
+    let case = advise::case(model, shop, job.goal);
+    let natural = natural_up(&case, watch)?;
+    let spins = matches!(job.goal.kind, GoalKind::Top | GoalKind::Yoyo);
+    let is_plain = job.fill.is_none() && job.ballast.is_none();
+    let Some(up) = natural.up.direction().filter(|_| spins && is_plain) else {
+        return Ok(AxisChoice::Natural(natural));
+    };
+    Ok(match nearest_orientation(&case, &up, watch)? {
+        Some(nearby) if nearby.off_deg > 0.0 => AxisChoice::NearNatural { natural, nearby },
+        Some(_) => AxisChoice::Natural(natural),
+        None => AxisChoice::NonePossible { up: natural.up },
+    })
+}
+
+fn natural_up(case: &Case, watch: &Watch) -> Result<NaturalUp, Cancelled> {
+    let poses = find_upright(case.solid, watch)?;
+    Ok(NaturalUp::of(&poses, |pose| name_direction(case, &pose.up)))
+}
+
+/// Names the up that helps in the refusal of a model that stands on a point.
+pub fn advised(error: GoalError, case: &Case, watch: &Watch) -> Result<Error, Cancelled> {
+    let GoalError::NoSupport { up, vertices, .. } = error else {
+        return Ok(error.into());
+    };
+    let natural = natural_up(case, watch)?;
+    let instead = match natural.up {
+        better if better != up => Setting::new(Key::Up, better),
+        _ => Setting::new(Key::Up, Up::Auto),
+    };
+    Ok(GoalError::NoSupport {
+        up,
+        vertices,
+        instead,
+    }
+    .into())
+}
