@@ -8,15 +8,21 @@ use crate::base::watch::Watch;
 use crate::draw::part_color;
 use crate::error::Error;
 use crate::geom::{Aabb, Matrix, Vector};
-use crate::io::threemf::{Build, Object, Package, Transform};
+use crate::io::threemf::{Build, Object, Package, PrintSettings, Transform};
 use crate::io::{decode_model, stl};
 use crate::job::PartFormat;
 use crate::mesh::TriMesh;
-use crate::printer::{Plate, Spot};
+use crate::printer::{Plate, Printer, Quantity, Spot, Support};
 use crate::run::{Made, Placed, WrittenPart};
 
 /// The name of the assembly in a kit.
 const ASSEMBLY: &str = "assembly.3mf";
+
+/// The process whose slicers fill parts sparsely unless they are told not to.
+const FILAMENT: &str = "fdm";
+
+/// Lines along a wall: the slicers' own default, within which everything is filled.
+const PERIMETERS: usize = 2;
 
 /// A file of the kit by its path, and its bytes.
 pub type File = (String, Vec<u8>);
@@ -94,6 +100,17 @@ fn object(index: usize, part: &WrittenPart, printed: &TriMesh) -> Object {
     Object::new(&part.part.id.to_string(), part_color(index), printed)
 }
 
+/// Returns the settings that a slicer of filament printers takes from a package: without them it
+/// would print the parts with its own infill. Other processes print solid anyway.
+fn settings(printer: &Printer) -> Option<PrintSettings> {
+    let overhang_deg = printer.number(Quantity::OverhangDeg).map(|deg| deg.value);
+    (printer.process.as_deref() == Some(FILAMENT)).then_some(PrintSettings {
+        layer_mm: printer.layer_mm.value,
+        perimeters: PERIMETERS,
+        overhang_deg: overhang_deg.filter(|_| printer.support != Support::None),
+    })
+}
+
 fn package(
     placed: &Placed,
     objects: &[Object],
@@ -111,6 +128,7 @@ fn package(
         job: placed.name(),
         objects,
         build,
+        settings: settings(&placed.shop.printer),
     }
     .encode()?;
     Ok((file, bytes))

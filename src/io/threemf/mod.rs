@@ -2,7 +2,7 @@
 //!
 //! * Reading: `archive` unpacks the parts, `xml` scans their tags, `read` builds one model, and
 //!   `place` puts its objects where the build says.
-//! * Writing: [`Package`] in `write`.
+//! * Writing: [`Package`] in `write`, with [`PrintSettings`] for slicers in `settings`.
 //! * Both: [`Transform`], the `names` of the standard, and the faults in `error`.
 
 mod archive;
@@ -10,6 +10,7 @@ mod error;
 mod names;
 mod place;
 mod read;
+mod settings;
 #[cfg(test)]
 mod tests;
 mod transform;
@@ -18,6 +19,7 @@ mod xml;
 
 pub use error::{Limit, ThreeMfError};
 pub use place::PlacedObject;
+pub use settings::PrintSettings;
 pub use transform::Transform;
 pub use write::{Build, Object, Package, PackageError};
 

@@ -7,6 +7,7 @@ use quick_xml::escape::escape;
 use zip::{CompressionMethod, System, ZipWriter, write::SimpleFileOptions};
 
 use super::names::{CONTENT_TYPES, CORE_NAMESPACE, MODEL_PART, MODEL_TYPE, RELATIONSHIPS};
+use super::settings::{BAMBU_PART, PRUSA_PART, PrintSettings, Subject, bambu_xml, prusa_xml};
 use super::transform::Transform;
 use crate::base::setting::{Key, Setting};
 use crate::geom::Point;
@@ -26,6 +27,8 @@ pub struct Package<'a> {
     pub objects: &'a [Object],
     /// The places of the objects.
     pub build: Build,
+    /// The settings with which slicers print each object; `None` leaves them to the user.
+    pub settings: Option<PrintSettings>,
 }
 
 /// The places of a package's objects: pairs of an object's index and its map.
@@ -51,6 +54,7 @@ pub struct Object {
     name: String,
     color: [u8; 3],
     mesh_xml: String,
+    triangles: usize,
 }
 
 /// The reason that a package could not be put together.
@@ -82,10 +86,24 @@ impl Object {
     /// restore them. Merges corners that coincide then, and leaves out triangles that lose a
     /// corner. A binary STL file of the same mesh holds the same triangles in the same order.
     pub fn new(name: &str, color: [u8; 3], mesh: &TriMesh) -> Self {
+        let mesh = weld(&mesh.map_vertices(round_to_single));
+        let whole: Vec<&[u32; 3]> = mesh.triangles().iter().filter(|t| is_whole(t)).collect();
         Self {
             name: name.to_owned(),
             color,
-            mesh_xml: mesh_xml(mesh),
+            mesh_xml: mesh_xml(&mesh, &whole),
+            triangles: whole.len(),
+        }
+    }
+}
+
+impl Object {
+    /// Returns it as its settings name it.
+    fn subject(&self, id: usize) -> Subject<'_> {
+        Subject {
+            id,
+            name: &self.name,
+            triangles: self.triangles,
         }
     }
 }
@@ -93,28 +111,39 @@ impl Object {
 impl Package<'_> {
     /// Returns the bytes of the package: the same for the same input, on any machine.
     pub fn encode(&self) -> Result<Vec<u8>, PackageError> {
-        let model = self.model_xml();
-        let parts = [
-            ("[Content_Types].xml", content_types()),
+        let mut parts = vec![
+            (
+                "[Content_Types].xml",
+                content_types(self.settings.is_some()),
+            ),
             ("_rels/.rels", relationships()),
-            (MODEL_PART, model),
+            (MODEL_PART, self.model_xml()),
         ];
+        if let Some(settings) = &self.settings {
+            let objects = self.placed_objects().into_iter();
+            let objects: Vec<Subject> = objects.map(|(id, object)| object.subject(id)).collect();
+            parts.push((PRUSA_PART, prusa_xml(&objects, settings)));
+            parts.push((BAMBU_PART, bambu_xml(&objects, settings)));
+        }
         archive(&parts).map_err(|source| PackageError {
             title: self.title.clone(),
             source,
         })
     }
 
-    fn model_xml(&self) -> String {
+    /// Returns the objects that the build places, with their identifiers.
+    fn placed_objects(&self) -> Vec<(usize, &Object)> {
         let is_placed =
             |(index, _): &(usize, &Object)| self.build.places().iter().any(|(at, _)| at == index);
-        let objects: String = self
-            .objects
-            .iter()
-            .enumerate()
-            .filter(is_placed)
-            .map(|(index, object)| object_xml(index, object))
-            .collect();
+        let objects = self.objects.iter().enumerate().filter(is_placed);
+        objects
+            .map(|(index, object)| (object_id(index), object))
+            .collect()
+    }
+
+    fn model_xml(&self) -> String {
+        let objects = self.placed_objects().into_iter();
+        let objects: String = objects.map(|(id, object)| object_xml(id, object)).collect();
         let (joined, build) = self.build_xml();
         let colors: String = self.objects.iter().map(color_xml).collect();
         let head = format!(
@@ -176,8 +205,8 @@ fn color_xml(object: &Object) -> String {
     )
 }
 
-fn object_xml(index: usize, object: &Object) -> String {
-    let (id, name) = (object_id(index), escape(object.name.as_str()));
+fn object_xml(id: usize, object: &Object) -> String {
+    let (index, name) = (id - object_id(0), escape(object.name.as_str()));
     format!(
         "<object id=\"{id}\" type=\"model\" name=\"{name}\" pid=\"{COLORS_ID}\" pindex=\"{index}\">\n{}</object>\n",
         object.mesh_xml
@@ -196,9 +225,13 @@ fn places_xml(element: &str, places: &[(usize, Transform)]) -> String {
     places.iter().map(place).collect()
 }
 
-/// Writes the mesh in single precision.
-fn mesh_xml(mesh: &TriMesh) -> String {
-    let mesh = weld(&mesh.map_vertices(round_to_single));
+/// Returns whether a triangle has three corners.
+fn is_whole([a, b, c]: &[u32; 3]) -> bool {
+    a != b && b != c && c != a
+}
+
+/// Writes a mesh in single precision, with these of its triangles.
+fn mesh_xml(mesh: &TriMesh, triangles: &[&[u32; 3]]) -> String {
     let mut xml = String::from("<mesh><vertices>");
     for p in mesh.vertices() {
         // Writing into a string cannot fail.
@@ -209,11 +242,7 @@ fn mesh_xml(mesh: &TriMesh) -> String {
         );
     }
     xml.push_str("</vertices>\n<triangles>");
-    for [a, b, c] in mesh
-        .triangles()
-        .iter()
-        .filter(|[a, b, c]| a != b && b != c && c != a)
-    {
+    for [a, b, c] in triangles {
         let _ = write!(xml, "<triangle v1=\"{a}\" v2=\"{b}\" v3=\"{c}\"/>");
     }
     xml.push_str("</triangles></mesh>\n");
@@ -225,11 +254,16 @@ fn round_to_single(p: &Point) -> Point {
     p.map(|x| f64::from(x as f32) + 0.0)
 }
 
-fn content_types() -> String {
+fn content_types(has_settings: bool) -> String {
+    let settings = if has_settings {
+        "<Default Extension=\"config\" ContentType=\"application/xml\"/>"
+    } else {
+        ""
+    };
     format!(
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<Types xmlns=\"{CONTENT_TYPES}\"><Default Extension=\"rels\" \
          ContentType=\"application/vnd.openxmlformats-package.relationships+xml\"/><Default Extension=\"model\" \
-         ContentType=\"application/vnd.ms-package.3dmanufacturing-3dmodel+xml\"/></Types>\n"
+         ContentType=\"application/vnd.ms-package.3dmanufacturing-3dmodel+xml\"/>{settings}</Types>\n"
     )
 }
 

@@ -82,8 +82,39 @@ fn encode(objects: &[Object], build: Build) -> Vec<u8> {
         job: "j".into(),
         objects,
         build,
+        settings: None,
     };
     package.encode().unwrap()
+}
+
+#[test]
+fn a_package_with_settings_holds_the_same_objects_and_both_files_of_settings() {
+    let (_, object) = ball_object("P01");
+    let places = vec![(0, Transform::default())];
+    let plain = encode(std::slice::from_ref(&object), Build::Items(places.clone()));
+    let package = Package {
+        title: "a".into(),
+        description: "b".into(),
+        job: "j".into(),
+        objects: &[object],
+        build: Build::Items(places),
+        settings: Some(PrintSettings {
+            layer_mm: 0.2,
+            perimeters: 2,
+            overhang_deg: Some(45.0),
+        }),
+    };
+    let bytes = package.encode().unwrap();
+    let [plain, set] = [plain, bytes.clone()].map(|bytes| decode_objects(&bytes).unwrap());
+    assert_eq!(plain[0].mesh, set[0].mesh);
+    let mut zip = zip::ZipArchive::new(std::io::Cursor::new(bytes)).unwrap();
+    let last = format!("lastid=\"{}\"", set[0].mesh.triangles().len() - 1);
+    let mut text = String::new();
+    let mut part = zip.by_name("Metadata/Slic3r_PE_model.config").unwrap();
+    std::io::Read::read_to_string(&mut part, &mut text).unwrap();
+    assert!(text.contains(&last), "{text}");
+    drop(part);
+    assert!(zip.by_name("Metadata/model_settings.config").is_ok());
 }
 
 #[test]

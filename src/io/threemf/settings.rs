@@ -1,0 +1,171 @@
+//! The print settings of each object of a package, as PrusaSlicer, Bambu Studio and OrcaSlicer read
+//! them. Other programs pass over these parts of the package.
+
+use std::fmt::Write as _;
+
+use quick_xml::escape::escape;
+
+/// Path of PrusaSlicer's settings; SuperSlicer reads them too.
+pub const PRUSA_PART: &str = "Metadata/Slic3r_PE_model.config";
+/// Path of the settings of Bambu Studio and OrcaSlicer.
+pub const BAMBU_PART: &str = "Metadata/model_settings.config";
+
+/// The settings with which an object must be printed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PrintSettings {
+    /// Height of a layer, mm.
+    pub layer_mm: f64,
+    /// Number of lines along a wall.
+    pub perimeters: usize,
+    /// Angle to the horizontal from which surfaces print without support, degrees; `None` for no
+    /// support.
+    pub overhang_deg: Option<f64>,
+}
+
+/// An object of a package, as its settings name it.
+pub struct Subject<'a> {
+    /// Its identifier in the package.
+    pub id: usize,
+    /// Its name.
+    pub name: &'a str,
+    /// Number of its triangles.
+    pub triangles: usize,
+}
+
+/// A setting: its name and its value.
+type Pair = (&'static str, String);
+
+impl PrintSettings {
+    /// Returns the settings in PrusaSlicer's words.
+    fn for_prusa(&self) -> Vec<Pair> {
+        let mut pairs = vec![
+            ("fill_density", "100%".to_owned()),
+            ("fill_pattern", "rectilinear".to_owned()),
+            ("layer_height", self.layer_mm.to_string()),
+            ("perimeters", self.perimeters.to_string()),
+            ("support_material", on_or_off(self.overhang_deg.is_some())),
+        ];
+        if let Some(angle_deg) = self.overhang_deg {
+            pairs.push(("support_material_auto", on_or_off(true)));
+            pairs.push(("support_material_threshold", format!("{angle_deg:.0}")));
+        }
+        pairs
+    }
+
+    /// Returns the settings in the words of Bambu Studio and OrcaSlicer.
+    fn for_bambu(&self) -> Vec<Pair> {
+        let mut pairs = vec![
+            ("sparse_infill_density", "100%".to_owned()),
+            ("layer_height", self.layer_mm.to_string()),
+            ("wall_loops", self.perimeters.to_string()),
+            ("enable_support", on_or_off(self.overhang_deg.is_some())),
+        ];
+        if let Some(angle_deg) = self.overhang_deg {
+            pairs.push(("support_threshold_angle", format!("{angle_deg:.0}")));
+        }
+        pairs
+    }
+}
+
+fn on_or_off(is_on: bool) -> String {
+    u8::from(is_on).to_string()
+}
+
+/// Returns the objects' settings for PrusaSlicer.
+pub fn prusa_xml(objects: &[Subject], settings: &PrintSettings) -> String {
+    let mut xml = String::from("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<config>\n");
+    for Subject {
+        id,
+        name,
+        triangles,
+    } in objects
+    {
+        let (name, last) = (escape(*name), triangles.saturating_sub(1));
+        // Writing into a string cannot fail.
+        let _ = write!(
+            xml,
+            "<object id=\"{id}\" instances_count=\"1\">\n\
+             <metadata type=\"object\" key=\"name\" value=\"{name}\"/>\n"
+        );
+        for (key, value) in settings.for_prusa() {
+            let _ = writeln!(
+                xml,
+                "<metadata type=\"object\" key=\"{key}\" value=\"{value}\"/>"
+            );
+        }
+        let _ = write!(
+            xml,
+            "<volume firstid=\"0\" lastid=\"{last}\">\n\
+             <metadata type=\"volume\" key=\"name\" value=\"{name}\"/>\n\
+             <metadata type=\"volume\" key=\"volume_type\" value=\"ModelPart\"/>\n\
+             </volume>\n</object>\n"
+        );
+    }
+    xml + "</config>\n"
+}
+
+/// Returns the objects' settings for Bambu Studio and OrcaSlicer.
+pub fn bambu_xml(objects: &[Subject], settings: &PrintSettings) -> String {
+    let mut xml = String::from("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<config>\n");
+    for Subject { id, name, .. } in objects {
+        let name = escape(*name);
+        let _ = write!(
+            xml,
+            "<object id=\"{id}\">\n<metadata key=\"name\" value=\"{name}\"/>\n"
+        );
+        for (key, value) in settings.for_bambu() {
+            let _ = writeln!(xml, "<metadata key=\"{key}\" value=\"{value}\"/>");
+        }
+        xml.push_str("</object>\n");
+    }
+    xml + "</config>\n"
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SETTINGS: PrintSettings = PrintSettings {
+        layer_mm: 0.2,
+        perimeters: 2,
+        overhang_deg: Some(45.0),
+    };
+
+    fn box_and_lid() -> [Subject<'static>; 2] {
+        let subject = |id, name| Subject {
+            id,
+            name,
+            triangles: 12,
+        };
+        [subject(2, "box <&>"), subject(3, "lid")]
+    }
+
+    #[test]
+    fn every_object_is_printed_solid_with_support_in_both_dialects() {
+        let prusa = prusa_xml(&box_and_lid(), &SETTINGS);
+        let bambu = bambu_xml(&box_and_lid(), &SETTINGS);
+        for (xml, said) in [
+            (&prusa, "key=\"fill_density\" value=\"100%\""),
+            (&prusa, "key=\"support_material\" value=\"1\""),
+            (&prusa, "lastid=\"11\""),
+            (&bambu, "key=\"sparse_infill_density\" value=\"100%\""),
+            (&bambu, "key=\"enable_support\" value=\"1\""),
+        ] {
+            assert_eq!(xml.matches(said).count(), 2, "{said}: {xml}");
+        }
+        assert!(prusa.contains("box &lt;&amp;&gt;") && bambu.contains("<object id=\"3\">"));
+    }
+
+    #[test]
+    fn without_support_it_is_switched_off_and_no_angle_is_given() {
+        let settings = PrintSettings {
+            overhang_deg: None,
+            ..SETTINGS
+        };
+        let prusa = prusa_xml(&box_and_lid(), &settings);
+        assert!(prusa.contains("key=\"support_material\" value=\"0\""));
+        assert!(
+            !prusa.contains("threshold") && !bambu_xml(&box_and_lid(), &settings).contains("angle")
+        );
+    }
+}
