@@ -166,22 +166,29 @@ fn a_fault_on_one_rung_is_told_and_the_others_are_tried() {
     }
 }
 
-#[test]
-fn a_run_cancelled_on_a_rung_ends_and_is_no_fault() {
+/// Returns a watch that stops the run when it begins its plan of this number, from 0.
+fn watch_that_stops_at_plan(number: usize) -> Watch {
     let (stop, plans) = (Arc::new(AtomicBool::new(false)), AtomicUsize::new(0));
     let button = Arc::clone(&stop);
     let press = move |progress: Progress| {
         let begins = progress.phase == Phase::Plan && progress.phase_ratio == 0.0;
-        // The first plan is the usual one, the second that of a rung.
-        if begins && plans.fetch_add(1, Ordering::Relaxed) == 1 {
+        if begins && plans.fetch_add(1, Ordering::Relaxed) == number {
             button.store(true, Ordering::Relaxed);
         }
     };
-    let watch = Watch::observed_until(press, stop);
+    Watch::observed_until(press, stop)
+}
+
+#[test]
+fn a_run_cancelled_on_a_rung_ends_and_is_no_fault() {
     let placed = unequal_towers();
-    let climbed = climb(&placed, solve(&placed), &watch);
-    assert!(watch.is_cancelled(), "the rung was reached");
-    assert!(matches!(climbed, Err(Error::Cancelled)));
+    // The usual plan, that of wide joints, and the first of the last rung.
+    for number in 0..3 {
+        let watch = watch_that_stops_at_plan(number);
+        let climbed = climb(&placed, solve(&placed), &watch);
+        assert!(watch.is_cancelled(), "plan {number} was begun");
+        assert!(matches!(climbed, Err(Error::Cancelled)), "plan {number}");
+    }
 }
 
 /// Orders the interior between two heights and two x to stay solid, mm.
