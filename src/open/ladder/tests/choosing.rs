@@ -90,7 +90,7 @@ fn other_cuts_are_tried_until_a_way_solves_and_not_in_place_of_ordered_ones() {
 
 #[test]
 fn dear_bosses_are_tried_unless_another_way_solves_cheaply() {
-    let placed = dear_chimneys(0.35);
+    let placed = dear_chimneys(2, 0.35);
     let mut ladder = ladder_of(&placed);
     let usual = usual_of(&ladder);
     assert!(usual.bossed.has_dear());
