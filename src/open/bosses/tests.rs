@@ -1,8 +1,10 @@
 //! Bosses on towers and chimneys: who gets them, at which price, and what is told of the rest.
 
 use super::*;
-use crate::cut::Obstacle;
-use crate::open::scenes::{LEAN, LOW, chimneys, cut_towers, plan_walls, volume_mm3};
+use crate::cut::{Obstacle, PartId};
+use crate::open::scenes::{
+    LEAN, chimneys, cuboid, cut_towers, lopsided, plan_walls, thick_box, volume_mm3,
+};
 use crate::open::way::Way;
 use crate::run::Placed;
 
@@ -99,11 +101,11 @@ fn refused_patterns_are_remembered_until_the_joint_is_given_up() {
         // Two joints with two pins each.
         assert_eq!(failed.places.len(), 4 * patterns);
         assert_eq!(failed.given_up.len(), 2);
-        let apart = |a: &[f64; 3], b: &[f64; 3]| a != b;
-        let places = failed.places.iter().enumerate();
-        let mut pairs = places.flat_map(|(i, a)| failed.places[..i].iter().map(move |b| (a, b)));
+        let mut places = failed.places;
+        places.sort_by(|a, b| a.partial_cmp(b).unwrap());
+        let is_new = |pair: &[[f64; 3]]| pair[0] != pair[1];
         assert!(
-            pairs.all(|(a, b)| apart(a, b)),
+            places.windows(2).all(is_new),
             "a refused place is tried again"
         );
     }
@@ -142,47 +144,55 @@ fn a_refused_attempt_leaves_everything_as_it_was() {
 }
 
 #[test]
-fn bosses_that_would_unbalance_the_body_are_told_as_such() {
-    let mut placed = cut_towers(LOW);
-    // The bosses of a tower leave too narrow an opening, so that its tip stays solid.
-    placed.shop.printer.min_opening_mm.value = 11.5;
-    placed.policy.boss_patterns = 1;
-    let reasons = reasons(&with_bosses(&placed).bossed);
-    assert!(
-        reasons.contains(&Refusal::MakeGoalImpossible),
-        "{reasons:?}"
-    );
+fn a_boss_that_would_unbalance_the_body_is_told_as_such() {
+    let pin = plan_walls(&thick_box()).bossed.plan.pins[0].clone();
+    let boss = Boss {
+        pin,
+        parts: [PartId::of(0), PartId::of(1)],
+        // All of the tower whose void balances the body.
+        body: cuboid([13.0, -1.0, 3.0], [29.0, 15.0, 25.0]),
+        is_new: true,
+    };
+    let placed = lopsided();
+    let mut way = plan_walls(&placed);
+    let mut search = Search::new(&mut way.resolver, way.bossed, &way.request);
+    search.try_found(&[boss]).unwrap();
+    assert_eq!(reasons(&search.state), [Refusal::MakeGoalImpossible]);
 }
 
-/// Returns what bosses in the first chimney cost, by the reason against them.
-fn dear_loss_ratio() -> f64 {
-    let reasons = reasons(&with_bosses(&chimneys_with(0.0)).bossed);
-    let losses = reasons.into_iter().filter_map(Refusal::loss_ratio);
-    losses.fold(f64::INFINITY, f64::min)
+/// Looks for bosses at no more than this cost beside them.
+fn search_up_to(mut way: Way, cheap_loss_ratio: f64) -> Bossed {
+    let mut search = Search::new(&mut way.resolver, way.bossed, &way.request);
+    search.policy.cheap_loss_ratio = cheap_loss_ratio;
+    search.run().unwrap();
+    search.state
 }
 
 #[test]
 fn bosses_beside_which_more_is_solid_are_taken_up_to_the_cheap_limit_and_no_further() {
-    let loss_ratio = dear_loss_ratio();
+    let placed = chimneys(2);
+    let walls = plan_walls(&placed);
+    let dear = search_up_to(walls.clone(), 0.0);
+    let loss_ratio = cheapest(&dear);
     assert!((0.01..0.2).contains(&loss_ratio), "{loss_ratio}");
-    let cheap = chimneys_with(loss_ratio);
-    let taken = with_bosses(&cheap);
-    assert_eq!(taken.lacking()[1], 1, "one chimney stays open");
-    assert!(!taken.bossed.has_dear());
-    let dear = chimneys_with(loss_ratio - STEP);
-    let refused = with_bosses(&dear);
-    assert_eq!(refused.lacking()[1], 2);
-    assert!(refused.bossed.has_dear() && refused.bossed.rounds.is_empty());
+    let refused = search_up_to(walls.clone(), loss_ratio - STEP);
+    assert!(refused.has_dear() && refused.rounds.is_empty());
+    let taken = search_up_to(walls, loss_ratio);
+    assert_eq!(round_sizes(&taken), [1], "the other chimney stays open");
+    assert!(!taken.has_dear());
+}
+
+/// Returns the least cost for which bosses were refused.
+fn cheapest(bossed: &Bossed) -> f64 {
+    let losses = reasons(bossed).into_iter().filter_map(Refusal::loss_ratio);
+    losses.fold(f64::INFINITY, f64::min)
 }
 
 #[test]
 fn what_is_dear_is_paid_up_to_the_given_price_and_no_further() {
     let placed = chimneys_with(0.0);
     let way = with_bosses(&placed);
-    let losses = reasons(&way.bossed)
-        .into_iter()
-        .filter_map(Refusal::loss_ratio);
-    let loss_ratio = losses.fold(f64::INFINITY, f64::min);
+    let loss_ratio = cheapest(&way.bossed);
     let refused = pay(way.clone(), loss_ratio - STEP);
     assert!(refused.rounds.is_empty() && refused.has_dear());
     let paid = pay(way.clone(), loss_ratio);

@@ -137,7 +137,7 @@ fn after_the_rounds_of_shrinking_whole_voids_are_kept_solid() {
 #[test]
 fn rather_any_further_cut_than_a_goal_that_cannot_be_met() {
     let mut placed = lopsided();
-    need_jet(&mut placed, 7.0);
+    need_jet(&mut placed, 5.0);
     placed.policy.cut_worth_ratio = 1.0;
     placed.policy.shrinking_rounds = 0;
     let cleaned = clean_up(&placed);

@@ -99,5 +99,7 @@ fn a_joint_that_got_its_bosses_after_all_is_forgotten_alone() {
     failed.add(&[boss("C2", 0.0)], cost(0.3), 3);
     failed.forget(&boss("C1", 9.0).joint());
     assert_eq!(reasons(&failed), [cost(0.3)]);
+    // Its old price counts no more once its bosses are lost for another reason.
+    failed.add(&[boss("C1", 1.0)], Refusal::CloseVoid, 3);
     assert_eq!(failed.dear_ones(), [[boss("C2", 0.0)]]);
 }

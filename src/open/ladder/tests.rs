@@ -22,9 +22,9 @@ fn unequal_towers() -> Placed {
     placed
 }
 
-/// Returns three chimneys of which two can be pinned: the first at a price, the second at more.
-fn dear_chimneys(partial_loss_ratio: f64) -> Placed {
-    let mut placed = chimneys(3);
+/// Returns chimneys of which all but one can be pinned at a price, the more of them the dearer.
+fn dear_chimneys(count: usize, partial_loss_ratio: f64) -> Placed {
+    let mut placed = chimneys(count);
     placed.policy.cheap_loss_ratio = 0.02;
     placed.policy.partial_loss_ratio = partial_loss_ratio;
     placed
