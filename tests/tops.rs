@@ -8,7 +8,10 @@
 
 mod common;
 
-use common::{assert_exit, json, list, make_kit, number, prepare_quickly, printed, verify};
+use common::{
+    ELLIPSOID, QUICK, assert_exit, checklist, equipoise, json, list, make_kit, number, path,
+    prepare_quickly, printed, verify, words,
+};
 use serde_json::Value;
 
 /// The measured value of a check, and the verdict; `None` if there is no such check.
@@ -58,11 +61,17 @@ fn without_a_tip_no_lean_is_promised_and_the_sheet_says_so() {
 #[test]
 fn a_lean_that_is_not_reached_breaks_the_promise_and_names_the_tip_that_reaches_it() {
     let folder = tempfile::tempdir().unwrap();
+    let kit = folder.path().join("kit");
     let rod = "--contact center --tip 4mmx10mmx6mm --least-lean 30";
-    let options = format!("--goal top --wall 1mm --up y {rod}");
-    let output = prepare_quickly(&folder.path().join("kit"), &options);
+    let options = format!("{QUICK} --goal top --wall 1mm --up y {rod}");
+    let line = [
+        &["prepare", ELLIPSOID, "--out", path(&kit)],
+        &words(&options)[..],
+    ]
+    .concat();
+    let output = equipoise(&line);
     assert_exit(&output, 1);
-    let (lean_deg, kept) = check(&json(&output), "lean").unwrap();
+    let (lean_deg, kept) = check(&checklist(&kit), "lean").unwrap();
     assert!(!kept && lean_deg < 30.0, "{lean_deg}");
     let said = printed(&output);
     assert!(said.contains("take a longer tip (--tip="), "{said}");

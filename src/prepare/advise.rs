@@ -9,11 +9,13 @@ use crate::base::watch::{Cancelled, Phase, Watch};
 use crate::error::Error;
 use crate::goal::{PrintStock, Request, TipChoice, place_in_material};
 use crate::run::{Model, Placed, Shop};
-use crate::verify::{Check, CheckKind};
+use crate::verify::{Check, CheckKind, FigureName};
 
 /// Hint for models with hardware: remedies are searched for the bare model only.
 const BARE: &str =
     "leave the hardware out, to be told by how much the model as it is can or cannot";
+/// Steps of a degree in which a smaller promise is advised: it is rounded down to tenths.
+const PROMISES_PER_DEG: f64 = 10.0;
 /// The hint that helps most goals a little.
 const MORE_ROOM: &str = "make it larger with the same wall, or the wall thinner: either leaves the solver more to choose from";
 
@@ -77,6 +79,7 @@ pub fn on_failure(placed: &Placed, prepared: Prepared, watch: &Watch) -> Result<
         }
     }
     hints.extend(longer_tip(placed, &broken));
+    hints.extend(broken.iter().copied().find_map(smaller_promise));
     hints.push(MORE_ROOM.to_owned());
     let falls_over = broken.iter().any(|check| check.kind == CheckKind::Standing);
     let failure = Failure {
@@ -114,11 +117,35 @@ fn longer_tip(placed: &Placed, broken: &[&Check]) -> Option<String> {
     Some(format!("take a longer tip (`{setting}`)"))
 }
 
+/// Names the promise that a standing object, or a top on its foot, keeps as it is.
+fn smaller_promise(broken: &Check) -> Option<String> {
+    let key = match broken.kind {
+        CheckKind::Standing => Key::LeastAngle,
+        CheckKind::Lean => Key::LeastLean,
+        _ => return None,
+    };
+    let kept_deg = (broken.value? * PROMISES_PER_DEG).floor() / PROMISES_PER_DEG;
+    let setting = Setting::new(key, kept_deg);
+    (kept_deg > 0.0).then(|| format!("promise no more than it keeps (`{setting}`)"))
+}
+
 /// Explains what the goal could have reached, and what the parts keep of it.
 fn reason(prepared: &Prepared, broken: &[&Check]) -> String {
     let proof = &prepared.checklist.certificate;
     let names: Vec<String> = broken.iter().map(|check| check.kind.to_string()).collect();
     let unit = proof.figure.unit();
+    let shaky = broken.iter().find(|check| {
+        check.kind == CheckKind::Standing
+            && proof.figure == FigureName::TopplesDeg
+            && !check.comparison.holds(proof.bound, check.limit)
+    });
+    if let Some(check) = shaky {
+        return format!(
+            "it topples too early: no hollowing with this wall reaches more than {}, and {} are promised",
+            quantity(proof.bound, unit),
+            quantity(check.limit, unit)
+        );
+    }
     match proof.written_value {
         Some(written) => format!(
             "the kit breaks {}: the best void there is reaches a {} of {}, and of that the parts that can be made keep {}; what \

@@ -14,9 +14,8 @@ pub fn hint(kind: &CheckKind) -> Option<String> {
             Setting::new(Key::Tip, "none")
         ),
         CheckKind::Standing => format!(
-            "lay ballast into its foot (`{}`), or promise less (`{}`)",
-            Setting::new(Key::Ballast, "auto"),
-            open(Key::LeastAngle)
+            "lay ballast into its foot (`{}`)",
+            Setting::new(Key::Ballast, "auto")
         ),
         CheckKind::AxisOffset | CheckKind::AxisTilt => format!(
             "a finer pitch (`{}`) brings the written parts nearer to the optimum",
