@@ -4,19 +4,25 @@ use rayon::prelude::*;
 
 use super::case::Case;
 use super::directions::{is_new, round_direction};
-use super::orientation::{Place, candidates, place_on};
+use super::orientation::{Place, by_score, candidates, place_on, place_with};
 use super::prospects::name_axis;
 use super::reached::Reached;
 use super::sampled_model::{COARSE_SAMPLES, SampledModel};
 use crate::base::watch::{Cancelled, Watch};
 use crate::geom::Vector;
-use crate::goal::{GoalKind, PrintStock, Request, Up, place_in_material, support_edges};
+use crate::goal::{
+    Contact, GoalKind, MeasuredSolid, PrintStock, Request, Up, place_in_material, spins_on_lowest,
+    support_edges,
+};
 
 /// A direction this near to an axis of the file is that axis: cos 2°. The base of a scan is that
 /// uneven, and a word is easier to type than a vector.
 const SAME_AXIS_COSINE: f64 = 0.9994;
 /// An axis of the file may stand less firmly by this angle, degrees.
 const LESS_FIRM_DEG: f64 = 1.0;
+
+/// Times the best figure of all axes beyond which the goal does not work on an axis.
+const FAR_TIMES: f64 = 2.0;
 
 /// An axis near another one, on which the goal is possible.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -63,12 +69,13 @@ fn topples_at_deg(case: &Case, up: Up) -> Option<f64> {
     Some(least_mm.atan2(center.z).to_degrees())
 }
 
-/// Returns the axis nearest to a direction on which the goal is possible. `None` if it is possible
-/// on none of the axes tried.
+/// Returns the axis nearest to a direction on which the goal works. `None` if it is possible on
+/// none of the axes tried.
 ///
-/// The direction itself is tried first. Then come those of [`super::best_orientation`], nearest
-/// first. What is possible on sampled columns is confirmed by a solve on exact ones. A yo-yo's axis
-/// has no sense.
+/// The direction itself is tried first, and taken if the goal is possible on it. Then come those of
+/// [`super::best_orientation`], nearest first. At the edge of the possible a top spins only if it is
+/// very fast. So an axis counts if its figure is at most twice the best of all of them. What is
+/// possible on sampled columns is confirmed by a solve on exact ones. A yo-yo's axis has no sense.
 ///
 /// # Errors
 /// The watch was stopped.
@@ -87,21 +94,46 @@ pub fn nearest_orientation(
             angle_deg.min(180.0 - angle_deg)
         }
     };
-    let mut axes = candidates(case);
-    axes.sort_by(|a, b| off_deg(a).total_cmp(&off_deg(b)));
-    axes.insert(0, *up);
     let confirmed = |place: &Place| model.confirm(&place.request, case.wall_mm).is_some();
-    let try_on = |axis: &Vector| place_on(&model, axis).filter(confirmed);
-    let found = axes.par_iter().find_map_first(|axis| try_on(axis));
-    watch.check()?;
-    Ok(found.map(|place| NearbyAxis {
+    let near = |place: Place| NearbyAxis {
         request: Request {
             up: name_axis(&place.axis),
+            contact: case.request.contact,
             ..place.request
         },
         reached: place.reached,
         off_deg: off_deg(&place.axis),
-    }))
+    };
+    let measured = MeasuredSolid::new(case.solid);
+    let try_on = |axis: &Vector| place_by_rule(&model, &measured, axis);
+    if let Some(place) = try_on(up).filter(confirmed) {
+        return Ok(Some(near(place)));
+    }
+    watch.check()?;
+    let axes = candidates(case);
+    let mut places: Vec<Place> = axes.par_iter().filter_map(try_on).collect();
+    watch.check()?;
+    let Some(best) = places.iter().copied().min_by(by_score) else {
+        return Ok(None);
+    };
+    places.retain(|place| place.reached.score() <= FAR_TIMES * best.reached.score());
+    places.sort_by(|a, b| off_deg(&a.axis).total_cmp(&off_deg(&b.axis)));
+    let found = places.into_iter().find(confirmed);
+    watch.check()?;
+    Ok(found.map(near))
+}
+
+/// Tries a goal on an axis. A free contact is the lowest point if the top keeps its promise there,
+/// else the one below the centre of mass.
+fn place_by_rule(model: &SampledModel, measured: &MeasuredSolid, axis: &Vector) -> Option<Place> {
+    let case = &model.case;
+    if case.request.contact != Some(Contact::Auto) {
+        return place_on(model, axis);
+    }
+    let keeps =
+        |place: &Place| spins_on_lowest(measured, case.wall_mm, &place.request).unwrap_or(false);
+    let lowest = place_with(model, axis, Some(Contact::Lowest)).filter(keeps);
+    lowest.or_else(|| place_with(model, axis, Some(Contact::Center)))
 }
 
 #[cfg(test)]

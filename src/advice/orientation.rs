@@ -121,14 +121,26 @@ pub(super) struct Place {
     pub reached: Reached,
 }
 
-fn by_score(a: &Place, b: &Place) -> std::cmp::Ordering {
+pub(super) fn by_score(a: &Place, b: &Place) -> std::cmp::Ordering {
     a.reached.score().total_cmp(&b.reached.score())
 }
 
 /// Tries a goal on an axis. Returns `None` if it is impossible there.
 pub(super) fn place_on(model: &SampledModel, axis: &Vector) -> Option<Place> {
+    place_with(model, axis, model.case.request.contact)
+}
+
+/// Tries a goal on an axis with this contact. Returns `None` if it is impossible there.
+pub(super) fn place_with(
+    model: &SampledModel,
+    axis: &Vector,
+    contact: Option<Contact>,
+) -> Option<Place> {
     let axis = round_direction(axis);
-    let request = with_axis(&model.case.request, &axis);
+    let request = Request {
+        contact,
+        ..with_axis(&model.case.request, &axis)
+    };
     let trial = model
         .trial(&request, model.case.wall_mm)
         .filter(Trial::is_possible)?;

@@ -107,7 +107,7 @@ fn a_package_with_settings_holds_the_same_objects_and_both_files_of_settings() {
     let bytes = package.encode().unwrap();
     let [plain, set] = [plain, bytes.clone()].map(|bytes| decode_objects(&bytes).unwrap());
     assert_eq!(plain[0].mesh, set[0].mesh);
-    let mut zip = zip::ZipArchive::new(std::io::Cursor::new(bytes)).unwrap();
+    let mut zip = zip::ZipArchive::new(Cursor::new(bytes)).unwrap();
     let last = format!("lastid=\"{}\"", set[0].mesh.triangles().len() - 1);
     let mut text = String::new();
     let mut part = zip.by_name("Metadata/Slic3r_PE_model.config").unwrap();
