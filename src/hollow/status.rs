@@ -315,7 +315,7 @@ mod tests {
                 Status::CannotStand {
                     greatest_angle_rad: -0.0239,
                 },
-                "1.369°",
+                "1.4°",
             ),
             (
                 Status::Sinks {
@@ -356,7 +356,7 @@ mod tests {
                     least_miss: 0.0169,
                     separator: Quadric([0.0; 10]),
                 },
-                "1.69 %",
+                "1.7 %",
             ),
         ]
     }
