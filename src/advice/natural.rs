@@ -11,8 +11,8 @@ use super::sampled_model::{COARSE_SAMPLES, SampledModel};
 use crate::base::watch::{Cancelled, Watch};
 use crate::geom::Vector;
 use crate::goal::{
-    Contact, GoalKind, MeasuredSolid, PrintStock, Request, Up, place_in_material, spins_on_lowest,
-    support_edges,
+    Contact, GoalKind, MeasuredSolid, PrintStock, Request, Up, keeps_its_lean, place_in_material,
+    spins_on_lowest, support_edges,
 };
 
 /// A direction this near to an axis of the file is that axis: cos 2°. The base of a scan is that
@@ -132,8 +132,16 @@ fn place_by_rule(model: &SampledModel, measured: &MeasuredSolid, axis: &Vector) 
     }
     let keeps =
         |place: &Place| spins_on_lowest(measured, case.wall_mm, &place.request).unwrap_or(false);
+    let leans = |place: &Place| {
+        let request = Request {
+            tip: case.request.tip,
+            least_lean_deg: case.request.least_lean_deg,
+            ..place.request
+        };
+        keeps_its_lean(measured, case.wall_mm, &request).unwrap_or(false)
+    };
     let lowest = place_with(model, axis, Some(Contact::Lowest)).filter(keeps);
-    lowest.or_else(|| place_with(model, axis, Some(Contact::Center)))
+    lowest.or_else(|| place_with(model, axis, Some(Contact::Center)).filter(leans))
 }
 
 #[cfg(test)]

@@ -22,8 +22,7 @@ const STEP_NUMBERS: [&str; 4] = ["passes", "value", "bound", "residual"];
 /// Returns the kit in ten lines, and below them the broken promises in full.
 pub fn ten_lines(checklist: &Checklist, out: &Path, manner: Manner) -> String {
     let lines = [
-        Some(("what it does", promise(checklist))),
-        spins_on(checklist).map(|words| ("spins on", words)),
+        Some(("what it does", deed(checklist))),
         Some(("if solid", solid_words(checklist))),
         Some(("how good", bound_words(checklist))),
         balance(checklist).map(|words| ("balance", words)),
@@ -47,6 +46,12 @@ pub fn ten_lines(checklist: &Checklist, out: &Path, manner: Manner) -> String {
         .collect();
     // Non-breaking blanks are for pages; on a terminal they get in the way of a search.
     table(&rows).replace('\u{a0}', " ") + &broken(&checklist.checks, manner)
+}
+
+/// Returns what the object does, and for a top on what it spins.
+fn deed(checklist: &Checklist) -> String {
+    let on = spins_on(checklist).map_or(String::new(), |on| format!(" It spins on {on}."));
+    promise(checklist) + &on
 }
 
 /// Returns what the model would do if it were printed solid, and its mass.

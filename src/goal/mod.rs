@@ -39,7 +39,9 @@ pub use figures::{Figures, compute_figures};
 pub use hardware::{Hardware, HardwareError, Rod, STEEL_G_CM3};
 pub use kind::{GoalKind, Objective};
 pub use lean::Lean;
-pub use place::{PrintStock, place, place_in_material, place_measured, spins_on_lowest};
+pub use place::{
+    PrintStock, keeps_its_lean, place, place_in_material, place_measured, spins_on_lowest,
+};
 pub use placement::{Footing, Goal, Placement, Warning};
 pub use request::{LEAST_ANGLE_DEG, LEAST_LEAN_DEG, Request, RequestError};
 pub use resting::{FootStability, find_foot_stability};

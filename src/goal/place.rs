@@ -92,6 +92,22 @@ pub fn spins_on_lowest(
     top::spins_on_lowest(&site, wall_mm, top::Order::of(&request))
 }
 
+/// Returns whether a top keeps its promise of contact and lean on the contact of its request, with
+/// the tip that the request brings.
+///
+/// # Errors
+/// The request cannot be placed.
+pub fn keeps_its_lean(
+    weighed: &MeasuredSolid,
+    wall_mm: f64,
+    request: &Request,
+) -> Result<bool, GoalError> {
+    let request = request.validate()?;
+    let site = Site::new(weighed, &request)?;
+    let order = top::Order::of(&request);
+    Ok(order.is_kept_by(&top::place(&site, wall_mm, order)?))
+}
+
 #[cfg(test)]
 mod tests {
     use super::super::{Contact, Objective, RequestError, TipChoice, Up, Warning, testing::*};

@@ -51,7 +51,8 @@ impl Order {
         self.tip == TipChoice::None && self.least_lean_rad == 0.0
     }
 
-    fn is_kept_by(&self, placement: &Placement) -> bool {
+    /// Returns whether a placement touches the floor at its contact and leans far enough.
+    pub fn is_kept_by(&self, placement: &Placement) -> bool {
         let is_off = |warning: &Warning| warning.is_off_contact();
         let lean_rad = placement
             .footing
