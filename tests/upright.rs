@@ -4,6 +4,8 @@
     clippy::unwrap_used,
     reason = "a test whose input cannot be had has failed"
 )]
+#![allow(clippy::print_stderr, reason = "a skipped test says so")]
+#![allow(clippy::print_stdout, reason = "a long run reports its figures")]
 
 mod common;
 

@@ -27,7 +27,10 @@ pub fn choose(
         return Ok(AxisChoice::Natural(natural));
     };
     Ok(match nearest_orientation(&case, &up, watch)? {
-        Some(nearby) if nearby.off_deg > 0.0 => AxisChoice::NearNatural { natural, nearby },
+        Some(nearby) if nearby.off_deg > 0.0 => AxisChoice::NearNatural {
+            natural,
+            nearby: Box::new(nearby),
+        },
         Some(_) => AxisChoice::Natural(natural),
         None => AxisChoice::NonePossible { up: natural.up },
     })

@@ -180,7 +180,7 @@ pub enum AxisChoice {
         /// The natural up.
         natural: NaturalUp,
         /// The axis.
-        nearby: NearbyAxis,
+        nearby: Box<NearbyAxis>,
     },
     /// None of those tried allows the goal.
     NonePossible {
