@@ -25,7 +25,7 @@ fn check(sheet: &Value, kind: &str) -> Option<(f64, bool)> {
 #[test]
 fn an_ellipsoid_spins_on_its_own_round_end() {
     let folder = tempfile::tempdir().unwrap();
-    let sheet = make_kit(&folder.path().join("kit"), "--goal top --wall 1.5mm");
+    let sheet = make_kit(&folder.path().join("kit"), "--goal top --up z --wall 1.5mm");
     assert!(list(&sheet, "hardware").is_empty());
     let (lean_deg, kept) = check(&sheet, "lean").unwrap();
     assert!(kept && lean_deg > 20.0, "{lean_deg}");
