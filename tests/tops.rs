@@ -29,7 +29,7 @@ fn an_ellipsoid_spins_on_its_own_round_end() {
     assert!(list(&sheet, "hardware").is_empty());
     let (lean_deg, kept) = check(&sheet, "lean").unwrap();
     assert!(kept && lean_deg > 20.0, "{lean_deg}");
-    // Its lowest end has a radius of about 60 mm at 100 mm, as a prototype in Python found.
+    // The kit made at 100 mm states 47 mm, and this one at 60 mm states 28 mm.
     let radius_mm = number(&sheet, "/goal/spins_on/radius_mm");
     assert!((25.0..40.0).contains(&radius_mm), "{radius_mm}");
 }

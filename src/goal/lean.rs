@@ -34,7 +34,7 @@ const FLATTEST_RATIO: f64 = 1.0;
 /// The lean at which the radius of a foot is measured, rad: the facets of a mesh hardly show.
 const ROLL_RAD: f64 = 10.0 * TAU / 360.0;
 
-/// How far a top leans, and on what.
+/// The lean of a top, and the roundness of its foot.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Lean {
     /// The lean at which more than the tip or the foot touches the floor, rad; at most a quarter

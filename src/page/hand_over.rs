@@ -63,7 +63,7 @@ fn use_lines(sheet: &Checklist) -> Vec<String> {
             "Spin it upright on a hard, smooth table. It slows down and comes to rest standing.".to_owned()
         }
         GoalKind::Top => {
-            let turns = body.critical_speed_rpm.map(|rpm| measured(rpm / S_PER_MIN, "°").replace('°', ""));
+            let turns = body.critical_speed_rpm.map(|rpm| format!("{:.1}", rpm / S_PER_MIN));
             let turns = turns.map_or(String::new(), |turns| format!(", {turns} turns a second"));
             format!("Hold it upright on a hard, smooth table and spin it fast{turns} or more. It stays up until it slows down.")
         }

@@ -50,7 +50,7 @@ const UNLIKE_RATIO: f64 = 0.06;
 const VESSEL_RATIOS: [f64; 2] = [0.1, 0.25];
 /// The greatest skewness that counts: that of legs under a body.
 const SKEWNESS: f64 = 0.5;
-/// What carries a model may be uneven by this part of its length.
+/// The greatest unevenness of a foot, as a part of the model's length.
 const SLACK_RATIO: f64 = 0.005;
 /// The tilt of a model that hardly anything topples, degrees.
 const WIDE_DEG: f64 = 90.0;

@@ -1,4 +1,4 @@
-//! What is remembered of refused bosses.
+//! Tests of the memory of refused bosses.
 
 use super::*;
 use crate::cut::{PartId, PinSite};
