@@ -167,7 +167,11 @@ pub(super) fn weigh_whole(sheet: &Checklist) -> Markup {
                 "Weigh " (all_together(sheet)) ": target " strong { (whole_mass(sheet)) } ". Weighed, g " (blank())
                 @if !added.is_empty() {
                     br;
-                    "That is what the parts weighed, and with it (calculated): " (added.join(", ")) ". Reject it if it weighs over "
+                    "That is what the parts weighed, and with it (calculated): " (added.join(", ")) "."
+                }
+                // The spread of a filling is not known.
+                @if !added.is_empty() && sheet.fill.is_none() {
+                    " Reject it if it weighs over "
                     (measured(added_g + glue_g + SCALE_G, "g")) " more than the parts weighed: too much glue, or something is left inside."
                 }
             }

@@ -206,7 +206,7 @@ impl fmt::Display for AxisChoice {
             Self::NearNatural { natural, nearby } => write!(
                 f,
                 "`{}` was taken, {:.0}° off the natural up (`{}`), which does not allow the goal: \
-                 it is the nearest of the axes tried on which it is possible; there it {}",
+                 it is the nearest of the axes tried that come within twice the best; there it {}",
                 Setting::new(Key::Up, nearby.request.up),
                 nearby.off_deg,
                 natural.setting(),
