@@ -131,4 +131,6 @@ pub mod shell;
 #[cfg(test)]
 pub(crate) mod testing;
 #[doc(hidden)]
+pub mod thin;
+#[doc(hidden)]
 pub mod voids;

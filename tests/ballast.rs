@@ -32,7 +32,7 @@ fn write_block(folder: &Path) -> PathBuf {
 /// Prepares a rotor about an axis 3 mm above the middle of the block. Hollowing behind a wall of
 /// 3 mm cannot move the centre so far.
 fn prepare_rotor(model: &Path, out: &Path, ballast: &[&str]) -> Output {
-    let rotor = "--printer objet-connex350 --goal balance --up x --spin-point 20,8,18";
+    let rotor = "--printer objet-connex350 --goal balance --up x --spin-point 20,8,18 --bore 2mm";
     let usual = ["--json", "prepare", path(model), "--out", path(out)];
     let sizes = words("--wall 3mm --pitch 0.2mm");
     equipoise(&[&usual[..], &words(rotor), &sizes, ballast].concat())

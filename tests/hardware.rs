@@ -106,7 +106,7 @@ fn impossible_hardware_is_refused_with_a_remedy() {
         ("yoyo --tip 4mmx12mm", "go with the goal top"),
         ("yoyo --axle 6mm", "give both"),
         ("yoyo --axle 6mmx", "is not a rod"),
-        ("yoyo --string-gap 3mm --axle 70mm", "has no wall"),
+        ("yoyo --string-gap 3mm --axle 70mm", "would tear out"),
     ] {
         let output = prepare_quickly(
             &folder.path().join("none"),

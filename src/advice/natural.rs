@@ -5,7 +5,6 @@ use rayon::prelude::*;
 use super::case::Case;
 use super::directions::{is_new, round_direction};
 use super::orientation::{Place, by_score, candidates, place_on, place_with};
-use super::prospects::name_axis;
 use super::reached::Reached;
 use super::sampled_model::{COARSE_SAMPLES, SampledModel};
 use crate::base::watch::{Cancelled, Watch};
@@ -43,15 +42,15 @@ pub fn name_direction(case: &Case, direction: &Vector) -> Up {
     let exact = round_direction(direction);
     let axis = Vector::ith(exact.iamax(), exact[exact.iamax()].signum());
     if is_new(&[axis], &exact, SAME_AXIS_COSINE) {
-        return name_axis(&exact);
+        return Up::of(&exact);
     }
-    let topples_at = |up: &Vector| topples_at_deg(case, name_axis(up));
+    let topples_at = |up: &Vector| topples_at_deg(case, Up::of(up));
     let is_as_firm = match (topples_at(&axis), topples_at(&exact)) {
         (Some(axis_deg), Some(exact_deg)) => axis_deg >= exact_deg - LESS_FIRM_DEG,
         (axis_deg, _) => axis_deg.is_some(),
     };
     let is_as_good = case.request.kind != GoalKind::Stand || is_as_firm;
-    name_axis(if is_as_good { &axis } else { &exact })
+    Up::of(if is_as_good { &axis } else { &exact })
 }
 
 /// Returns the angle at which the solid topples with this up, degrees; `None` if it has no support.
@@ -97,7 +96,7 @@ pub fn nearest_orientation(
     let confirmed = |place: &Place| model.confirm(&place.request, case.wall_mm).is_some();
     let near = |place: Place| NearbyAxis {
         request: Request {
-            up: name_axis(&place.axis),
+            up: Up::of(&place.axis),
             contact: case.request.contact,
             ..place.request
         },

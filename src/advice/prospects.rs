@@ -62,20 +62,10 @@ fn requests(kind: GoalKind, axes: &[Vector]) -> Vec<Request> {
     let has_sense = kind != GoalKind::Yoyo;
     let axes = axes.iter().filter(|axis| has_sense || !points_down(axis));
     axes.map(|axis| Request {
-        up: name_axis(axis),
+        up: Up::of(axis),
         ..with_axis(&Request::new(kind), axis)
     })
     .collect()
-}
-
-/// Returns the word for a coordinate axis, or the vector.
-pub(super) fn name_axis(axis: &Vector) -> Up {
-    let words = [Up::X, Up::Y, Up::Z, Up::NegX, Up::NegY, Up::NegZ];
-    let is_it = |up: &Up| up.direction().is_some_and(|direction| direction == *axis);
-    words
-        .into_iter()
-        .find(is_it)
-        .unwrap_or(Up::Along((*axis).into()))
 }
 
 fn prospect(model: &SampledModel, request: &Request) -> Option<Prospect> {

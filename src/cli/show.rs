@@ -27,7 +27,7 @@ const REMEDY_MARK: &str = "; remedy: ";
 ///   remedy: check the path
 /// ```
 ///
-/// A remedy follows "; remedy: " in a message. In a message of several lines each line keeps its
+/// Every remedy follows "; remedy: " in a message. In a message of several lines each line keeps its
 /// own. A cause whose words stand in an error above it is left out.
 pub fn error_text(error: &(dyn Error + 'static), is_coloured: bool) -> String {
     let (mut lines, mut remedies, mut said) = (Vec::new(), Vec::new(), String::new());
@@ -49,18 +49,12 @@ pub fn error_text(error: &(dyn Error + 'static), is_coloured: bool) -> String {
             .filter(|line| !is_head(line))
             .map(str::trim_start)
         {
-            let split = if is_list {
-                None
-            } else {
-                line.split_once(REMEDY_MARK)
-            };
-            let (statement, remedy) = split.map_or((line, None), |(statement, remedy)| {
-                (statement, Some(remedy))
-            });
+            let mark = if is_list { "\n" } else { REMEDY_MARK };
+            let mut pieces = line.split(mark);
+            let statement = pieces.next().unwrap_or_default();
             lines.push(format!("{label}: {statement}"));
-            remedies.extend(
-                remedy.map(|remedy| format!("  {}: {remedy}", paint("remedy", GREEN, is_coloured))),
-            );
+            let label = paint("remedy", GREEN, is_coloured);
+            remedies.extend(pieces.map(|remedy| format!("  {label}: {remedy}")));
         }
         said.push_str(&message);
     }

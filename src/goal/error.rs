@@ -1,8 +1,9 @@
 //! The reasons why a goal cannot be placed in a model.
 
 use super::request::RequestError;
+use super::shafts::ShaftList;
 use super::sites::Up;
-use crate::base::setting::Setting;
+use crate::base::setting::{Key, Setting};
 
 /// The greatest distance of a point from the model, in lengths of the model. No tip reaches farther
 /// than one length; beyond some thousands rounding would decide.
@@ -61,6 +62,32 @@ pub enum GoalError {
          tip can be put in; give another contact"
     )]
     NoSeat,
+    /// A rotor without a bore, a shaft end or an order for a bore.
+    #[error(
+        "the model has no round bore and no shaft end to turn on; remedy: give the diameter of \
+         the bore that will be made along the axis, such as `{}`",
+        bore_to_make()
+    )]
+    NoShaft,
+    /// A rotor that can turn on several axes.
+    #[error(
+        "the model can turn on {} axes, and only one can be balanced{found}",
+        found.0.len()
+    )]
+    SeveralShafts {
+        /// The axes.
+        found: ShaftList,
+    },
+    /// No bore and no shaft end lies on the axis that was ordered.
+    #[error(
+        "no bore and no shaft end lies on the axis that was ordered{found}; remedy: `{}`, the \
+         diameter of a bore that will be made there",
+        bore_to_make()
+    )]
+    OffShaft {
+        /// The axes that have one.
+        found: ShaftList,
+    },
     /// A support without area.
     #[error(
         "with {up} up the {vertices} lowest vertices of the model support it on a point or a line \
@@ -88,4 +115,9 @@ pub enum GoalError {
     /// The density is zero, negative or not a number.
     #[error("a density of {0} g/cm³ is not a density; give a positive one")]
     NoDensity(f64),
+}
+
+/// Returns the setting that orders a bore where the model has none.
+fn bore_to_make() -> Setting {
+    Setting::new(Key::Bore, "6mm")
 }

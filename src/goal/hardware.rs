@@ -56,6 +56,12 @@ impl Rod {
         self.length_mm() - self.depth_mm()
     }
 
+    /// Returns the same rod of another diameter, mm, which must be positive.
+    pub fn of_diameter(&self, diameter_mm: f64) -> Self {
+        let diameter = Length::from_mm(diameter_mm).unwrap_or(self.diameter);
+        Self { diameter, ..*self }
+    }
+
     /// Returns the outer diameter of the fittings on this axle, mm.
     pub fn fitting_diameter_mm(&self) -> f64 {
         FITTING_DIAMETERS * self.diameter.mm()

@@ -5,7 +5,6 @@ use std::{fmt, str::FromStr};
 
 use serde::{Deserialize, Serialize};
 
-use super::kind::GoalKind;
 use crate::base::words::{ChoiceError, as_text, parse_numbers};
 use crate::geom::Vector;
 
@@ -66,12 +65,21 @@ impl Up {
         }
     }
 
-    /// Returns the direction of a job that names none: the natural one, but z for a rotor.
-    pub fn default_for(kind: GoalKind) -> Self {
-        match kind {
-            GoalKind::Balance => Self::Z,
-            _ => Self::Natural,
-        }
+    /// Returns the word for a coordinate axis, or the vector.
+    pub fn of(direction: &Vector) -> Self {
+        let words = [
+            Self::X,
+            Self::Y,
+            Self::Z,
+            Self::NegX,
+            Self::NegY,
+            Self::NegZ,
+        ];
+        let is_it = |up: &Self| up.direction().is_some_and(|known| known == *direction);
+        words
+            .into_iter()
+            .find(is_it)
+            .unwrap_or(Self::Along((*direction).into()))
     }
 }
 

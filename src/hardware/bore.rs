@@ -1,11 +1,13 @@
 //! A socket along the axis: its shape, and the check that the model holds it.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::PI;
 
 use super::fitted::Kind;
 use crate::base::setting::{Key, Setting};
 use crate::geom::{Frame, Point};
-use crate::mesh::{ClipError, Csg, TriMesh, primitives, winding_number};
+use crate::mesh::{
+    AxialLine, ClipError, Csg, NearAxis, TriMesh, primitives, walled_mm, winding_number,
+};
 
 /// The number of sides of a socket. With 48 the corners of a 20 mm bore stand 0.02 mm off the
 /// circle; more only make more triangles.
@@ -106,7 +108,8 @@ impl Bore {
     /// Checks that the model has a wall around the bore and behind its bottom. If the bore breaks
     /// out, the error gives the greatest depth that fits.
     pub fn check(&self, model: &TriMesh, frame: &Frame) -> Result<(), SeatError> {
-        self.check_walls(model, frame).map_err(|error| match error {
+        let walls = self.feel(model, frame);
+        self.check_walls(&walls).map_err(|error| match error {
             SeatError::BreaksOut {
                 rod,
                 depth_mm,
@@ -119,7 +122,7 @@ impl Bore {
                 };
                 let fits = (1..DEPTHS)
                     .rev()
-                    .find(|i| shorter(i).check_walls(model, frame).is_ok());
+                    .find(|i| shorter(i).check_walls(&walls).is_ok());
                 SeatError::BreaksOut {
                     rod,
                     depth_mm,
@@ -136,16 +139,24 @@ impl Bore {
         self.depth_mm() * i as f64 / DEPTHS as f64
     }
 
-    fn check_walls(&self, model: &TriMesh, frame: &Frame) -> Result<(), SeatError> {
+    /// Feels the model along the axis and around the bore.
+    fn feel(&self, model: &TriMesh, frame: &Frame) -> Walls {
+        let radius_mm = self.radius_mm + self.wall_mm;
+        let near = NearAxis::new(model, frame, radius_mm);
+        Walls {
+            around: near.ring(DIRECTIONS, radius_mm, TURN_RAD),
+            axis: near.line([0.0; 2]),
+        }
+    }
+
+    fn check_walls(&self, walls: &Walls) -> Result<(), SeatError> {
         let heights =
             (0..LOOKS).map(|i| self.at_depth(self.depth_mm() * (1.0 - i as f64 / LOOKS as f64)));
-        let around: Vec<bool> = heights
-            .map(|z| self.count_walled(model, frame, z) == DIRECTIONS)
-            .collect();
-        let behind = Point::new(0.0, 0.0, self.at_depth(self.depth_mm() + self.wall_mm));
+        let around: Vec<bool> = heights.map(|z| walls.count(z) == DIRECTIONS).collect();
+        let behind_mm = self.at_depth(self.depth_mm() + self.wall_mm);
         let Self { rod, wall_mm, .. } = *self;
         let depth_mm = self.depth_mm();
-        if !(around[0] && is_inside(model, &frame.to_model(&behind))) {
+        if !(around[0] && walls.axis.is_inside(behind_mm)) {
             return Err(SeatError::BreaksOut {
                 rod,
                 depth_mm,
@@ -171,25 +182,36 @@ impl Bore {
     /// Returns true if it goes right through the model: its bottom lies outside, and there is a
     /// wall behind its mouth.
     pub fn passes_through(&self, model: &TriMesh, frame: &Frame) -> bool {
-        self.count_walled(model, frame, self.bottom_mm) == 0
-            && self.count_walled(model, frame, self.at_depth(self.wall_mm)) == DIRECTIONS
+        let walls = self.feel(model, frame);
+        walls.count(self.bottom_mm) == 0 && walls.count(self.at_depth(self.wall_mm)) == DIRECTIONS
+    }
+
+    /// Returns the length over which the bore has its wall all around, mm.
+    pub fn held_mm(&self, model: &TriMesh, frame: &Frame) -> f64 {
+        let ends_mm = [
+            self.mouth_mm.min(self.bottom_mm),
+            self.mouth_mm.max(self.bottom_mm),
+        ];
+        walled_mm(&self.feel(model, frame).around, ends_mm)
     }
 
     /// Returns the height in the frame at a depth below the mouth, mm.
     fn at_depth(&self, depth_mm: f64) -> f64 {
         self.mouth_mm + depth_mm.copysign(self.bottom_mm - self.mouth_mm)
     }
+}
 
-    /// Counts the directions in which the wall around the bore lies in the model at this height.
-    fn count_walled(&self, model: &TriMesh, frame: &Frame, z: f64) -> usize {
-        let at = |i: usize| {
-            let (sin, cos) = (TAU * i as f64 / DIRECTIONS as f64 + TURN_RAD).sin_cos();
-            let radius_mm = self.radius_mm + self.wall_mm;
-            frame.to_model(&Point::new(radius_mm * cos, radius_mm * sin, z))
-        };
-        (0..DIRECTIONS)
-            .filter(|&i| is_inside(model, &at(i)))
-            .count()
+/// The body along a bore's axis and around it.
+struct Walls {
+    around: Vec<AxialLine>,
+    axis: AxialLine,
+}
+
+impl Walls {
+    /// Counts the directions in which the wall around the bore lies in the body at a height of the
+    /// frame.
+    fn count(&self, z: f64) -> usize {
+        self.around.iter().filter(|line| line.is_inside(z)).count()
     }
 }
 

@@ -1,6 +1,6 @@
 //! A yo-yo's halves on their axle.
 
-use super::bore::{Bore, SeatError, prism};
+use super::bore::{Bore, prism};
 use super::error::FitError;
 use super::fitted::{Fitted, Kind, Piece};
 use super::halves::{Halves, split_halves};
@@ -12,9 +12,15 @@ use crate::mass::RoundBar;
 use crate::mesh::{Csg, Solid};
 
 /// The depths in each half that an axle without a length is tried at, in its diameters. Beyond two
-/// diameters it only adds mass on the axis, where mass helps least. With less than half a diameter
-/// glue does not hold.
-const DEPTHS_DIAMETERS: [f64; 7] = [2.0, 1.75, 1.5, 1.25, 1.0, 0.75, 0.5];
+/// diameters it only adds mass on the axis, where mass helps least. With less than one it tears
+/// out at the first drop.
+const DEPTHS_DIAMETERS: [f64; 5] = [2.0, 1.75, 1.5, 1.25, 1.0];
+/// The least length over which each half must hold the axle, in its diameters.
+const LEAST_GRIP_DIAMETERS: f64 = 1.0;
+/// The diameters of stock rods that are tried in place of one that is not held, mm.
+const THINNER_MM: [f64; 7] = [6.0, 5.0, 4.0, 3.0, 2.5, 2.0, 1.5];
+/// A length that rounding alone may take from a grip, mm.
+const ROUNDING_MM: f64 = 1e-9;
 
 /// Cuts the model across the axis at the spin point, bores it for the axle and moves its halves
 /// `gap_mm` apart. `ring_g` is the mass of the fittings on the axle in the gap.
@@ -53,30 +59,51 @@ pub(super) fn fit(
 
 /// Returns the depth of the axle in each half, mm. It follows from the axle's length, or is the
 /// first depth at which both halves have a wall around it.
-fn depth_mm(workshop: &Workshop, axle: &Rod, gap_mm: f64) -> Result<f64, SeatError> {
+fn depth_mm(workshop: &Workshop, axle: &Rod, gap_mm: f64) -> Result<f64, FitError> {
     let (mesh, frame) = (workshop.solid.mesh(), &workshop.goal.frame);
-    let sockets =
-        |depth_mm: f64| [depth_mm, -depth_mm].map(|bottom_mm| socket(workshop, axle, bottom_mm));
-    let seats = |depth_mm| {
-        sockets(depth_mm)
-            .iter()
-            .try_for_each(|socket| socket.check(mesh, frame))
-    };
     if let Some(length) = axle.length {
         let depth_mm = 0.5 * (length.mm() - gap_mm);
-        let is_through = sockets(depth_mm)
+        let sockets = sockets(workshop, axle, depth_mm);
+        let is_through = sockets
             .iter()
             .all(|socket| socket.passes_through(mesh, frame));
-        return if is_through {
-            Ok(depth_mm)
-        } else {
-            seats(depth_mm).map(|()| depth_mm)
-        };
+        if !is_through {
+            sockets
+                .iter()
+                .try_for_each(|socket| socket.check(mesh, frame))?;
+        }
+        return Ok(depth_mm);
     }
-    let depths = DEPTHS_DIAMETERS.map(|depth| depth * axle.diameter.mm());
-    let deepest = depths.into_iter().find(|&depth_mm| seats(depth_mm).is_ok());
-    let [.., least_mm] = depths;
-    deepest.map_or_else(|| seats(least_mm).map(|()| least_mm), Ok)
+    let thinner = |diameter_mm: &f64| {
+        let thin = axle.of_diameter(*diameter_mm);
+        *diameter_mm < axle.diameter.mm() && held_depth_mm(workshop, &thin).is_some()
+    };
+    held_depth_mm(workshop, axle).ok_or_else(|| FitError::Grip {
+        axle: *axle,
+        thinner: THINNER_MM
+            .into_iter()
+            .find(thinner)
+            .map(|diameter_mm| axle.of_diameter(diameter_mm)),
+    })
+}
+
+/// Returns the first depth at which both halves hold an axle, mm; `None` if they do at none.
+fn held_depth_mm(workshop: &Workshop, axle: &Rod) -> Option<f64> {
+    let (mesh, frame) = (workshop.solid.mesh(), &workshop.goal.frame);
+    let diameter_mm = axle.diameter.mm();
+    let least_mm = LEAST_GRIP_DIAMETERS * diameter_mm - ROUNDING_MM;
+    let holds = |socket: &Bore| {
+        socket.check(mesh, frame).is_ok() && socket.held_mm(mesh, frame) >= least_mm
+    };
+    let depths = DEPTHS_DIAMETERS.map(|depth| depth * diameter_mm);
+    depths
+        .into_iter()
+        .find(|&depth_mm| sockets(workshop, axle, depth_mm).iter().all(holds))
+}
+
+/// Returns the axle's sockets in the upper and the lower half.
+fn sockets(workshop: &Workshop, axle: &Rod, depth_mm: f64) -> [Bore; 2] {
+    [depth_mm, -depth_mm].map(|bottom_mm| socket(workshop, axle, bottom_mm))
 }
 
 /// Returns the axle's socket from the cut to a height above or below it.

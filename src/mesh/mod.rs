@@ -4,12 +4,13 @@
 //!   volume). [`Defects`] lists everything that keeps a mesh from being a solid.
 //! * **Topology:** `edges`, `fans` around a vertex, connected `shells`, [`bodies()`], and
 //!   `union_find` under them all.
-//! * **Measurements:** [`MeshFacts`], self-intersections ([`Crossings`]), exact distances
+//! * **Measurements:** [`MeshFacts`], the body along an axis (`NearAxis`), self-intersections ([`Crossings`]), exact distances
 //!   ([`MeshDistance`]), and points spread evenly over a surface ([`spread_points`]).
 //! * **Operations:** booleans, plane cuts and simplification ([`Csg`]); `cut_planes` keeps cuts off
 //!   vertices and faces.
 //! * **Shapes:** [`primitives`] for tests and tools.
 
+mod axial;
 mod bodies;
 pub(crate) mod crossings;
 mod csg;
@@ -26,6 +27,7 @@ mod solid;
 mod tri_mesh;
 pub(crate) mod union_find;
 
+pub(crate) use axial::{AxialLine, NearAxis, walled_mm};
 pub use bodies::{bodies, shells, winding_number};
 pub use crossings::Crossings;
 pub use csg::{ClipError, Csg};

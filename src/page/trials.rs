@@ -6,7 +6,7 @@ use super::fields::blank;
 use super::figure::{Picture, Role};
 use crate::base::numbers::{measured, measured_extent, number, quantity};
 use crate::goal::GoalKind;
-use crate::sheet::{Checklist, FootRow};
+use crate::sheet::{Checklist, FootRow, ShaftKind, ShaftRow};
 
 /// Frames per second of slow motion, which most telephones can film. At 30 the turns of a fast top
 /// cannot be counted.
@@ -200,8 +200,32 @@ fn rotor_lines(sheet: &Checklist) -> Vec<String> {
             quantity(unbalance.end_plane_g_mm, "g·mm")
         )
     });
-    let level = "Put its shaft on two level knife edges: it stays in any position.".to_owned();
-    [level].into_iter().chain(residual).collect()
+    [level_line(&sheet.goal.turns_on)]
+        .into_iter()
+        .chain(residual)
+        .collect()
+}
+
+/// Words the test of a rotor on knife edges: any position must be one of rest.
+fn level_line(turns_on: &[ShaftRow]) -> String {
+    let on_edges = match turns_on.first() {
+        Some(ShaftRow {
+            kind: ShaftKind::ShaftEnd,
+            diameter_mm,
+        }) => {
+            let diameter = measured(*diameter_mm, "mm");
+            format!("Lay its shaft ({diameter}) on two level knife edges")
+        }
+        Some(ShaftRow { diameter_mm, .. }) => {
+            let diameter = measured(*diameter_mm, "mm");
+            format!(
+                "Push a straight shaft of {diameter} through its bore, and lay it on two level \
+                 knife edges"
+            )
+        }
+        None => "Lay its shaft on two level knife edges".to_owned(),
+    };
+    format!("{on_edges}: it stays in any position.")
 }
 
 /// Words the tip to add under a top whose contact point is in the air.

@@ -1,8 +1,8 @@
 //! Place: the goal in the model, with its axis, its waterline and its hardware.
 
-use super::{advise, hardware, upright, waterline};
+use super::{advise, hardware, rotor, upright, waterline};
 use crate::advice::{Case, best_orientation, is_possible};
-use crate::base::watch::{Cancelled, Watch};
+use crate::base::watch::Watch;
 use crate::error::Error;
 use crate::goal::{
     Contact, GoalKind, MeasuredSolid, PrintStock, Request, TipChoice, Up, place_in_material,
@@ -18,6 +18,7 @@ pub fn goal(job: &Job, model: Model, shop: Shop, watch: &Watch) -> Result<Placed
     let request = match &choice {
         Some(AxisChoice::Best { request, .. }) => **request,
         Some(AxisChoice::NearNatural { nearby, .. }) => nearby.request,
+        Some(AxisChoice::OnShaft(shaft)) => rotor::request_on(&job.goal, shaft),
         Some(AxisChoice::NonePossible { up } | AxisChoice::Natural(NaturalUp { up, .. })) => {
             Request {
                 up: *up,
@@ -63,10 +64,13 @@ fn choose_axis(
     model: &Model,
     shop: &Shop,
     watch: &Watch,
-) -> Result<Option<AxisChoice>, Cancelled> {
+) -> Result<Option<AxisChoice>, Error> {
     let request = &job.goal;
+    if rotor::turns_on_model(request) {
+        return rotor::choose(job, model, shop, watch).map(Some);
+    }
     if request.up == Up::Natural {
-        return upright::choose(job, model, shop, watch).map(Some);
+        return Ok(Some(upright::choose(job, model, shop, watch)?));
     }
     if request.up != Up::Auto {
         return Ok(None);

@@ -8,7 +8,7 @@ use crate::advice::{NearbyAxis, Reached};
 use crate::base::setting::{Key, Setting};
 use crate::base::units::format_count;
 use crate::cut::{PartId, UncleanCause};
-use crate::goal::{Request, Up};
+use crate::goal::{Request, ShaftAxis, Up};
 
 /// A note for the job sheet.
 #[derive(Debug, Clone, PartialEq)]
@@ -182,6 +182,8 @@ pub enum AxisChoice {
         /// The axis.
         nearby: Box<NearbyAxis>,
     },
+    /// A bore or a shaft of the model, which the job leaves open or names.
+    OnShaft(ShaftAxis),
     /// None of those tried allows the goal.
     NonePossible {
         /// The axis that the answer is for.
@@ -212,6 +214,11 @@ impl fmt::Display for AxisChoice {
                 natural.setting(),
                 nearby.reached
             ),
+            Self::OnShaft(shaft) => {
+                let [up, point] = shaft.settings();
+                let surfaces = shaft.describe_surfaces();
+                write!(f, "it turns on the axis `{up}` `{point}`: {surfaces}")
+            }
             Self::NonePossible { up } => {
                 write!(
                     f,

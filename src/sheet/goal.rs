@@ -23,9 +23,34 @@ pub struct GoalRow {
     /// Top: the part that touches the floor; `None` for other goals, and in kits of older versions.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub spins_on: Option<SpinFacts>,
+    /// Rotor: the round surfaces that it turns on, the largest first; empty for other goals, and in
+    /// kits of older versions.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub turns_on: Vec<ShaftRow>,
     /// Reason for the choice of the axis, if the job left it open.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub choice: Option<String>,
+}
+
+/// A round surface that a rotor turns on.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct ShaftRow {
+    /// Kind.
+    pub kind: ShaftKind,
+    /// Diameter, mm.
+    pub diameter_mm: f64,
+}
+
+/// The kind of a round surface.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum ShaftKind {
+    /// A bore of the model.
+    Bore,
+    /// An end of the model that is a shaft.
+    ShaftEnd,
+    /// A bore that will be made along the axis.
+    BoreToMake,
 }
 
 /// An [`Objective`] without its weights.

@@ -114,6 +114,7 @@ fn checklist(evidence: &Evidence, found: &Judgement) -> Checklist {
             objective: ObjectiveName::CriticalSpeed,
             spin_it_weights: None,
             contact_gap_mm: 10.0,
+            turns_on: Vec::new(),
             spins_on: found.spin,
             choice: None,
         },

@@ -1,10 +1,12 @@
 //! The list of checks of a kit.
 
 use super::goal_checks::{figure_check, goal_checks};
+use super::hardware::HardwareKind;
 use super::joints::FilmError;
 use super::limits::{
-    FILM_LIMIT_RATIO, GAP_TOLERANCE_MM, PIN_LIMIT_MM, POSE_LIMIT_RATIO, RESTING_LIMIT_MM,
-    STRING_GAP_TOLERANCE_MM, VOLUME_SUM_LIMIT_RATIO, WALL_TOLERANCE_MM,
+    FILM_LIMIT_RATIO, GAP_TOLERANCE_MM, GRIP_TOLERANCE_MM, LEAST_GRIP_DIAMETERS, PIN_LIMIT_MM,
+    POSE_LIMIT_RATIO, RESTING_LIMIT_MM, STRING_GAP_TOLERANCE_MM, VOLUME_SUM_LIMIT_RATIO,
+    WALL_TOLERANCE_MM,
 };
 use super::void_checks::void_checks;
 use super::{Check, CheckKind, Judgement, Limit, PartFacts, Peg, PegFacts, Promise, PromisedPart};
@@ -72,7 +74,20 @@ fn fit_checks(promise: &Promise, found: &Judgement) -> Vec<Check> {
         fit.room_mm,
         Limit::at_least(0.0, "mm"),
     );
-    std::iter::once(room).chain(gap).collect()
+    let axle = promise
+        .hardware
+        .iter()
+        .find(|piece| piece.kind == HardwareKind::Axle);
+    let grip = axle.map(|axle| {
+        let least_mm = LEAST_GRIP_DIAMETERS * axle.diameter_mm - GRIP_TOLERANCE_MM;
+        Check::new(
+            CheckKind::Grip,
+            "each half holds the axle, by its diameter or more, along at least",
+            fit.grip_mm,
+            Limit::at_least(least_mm, "mm"),
+        )
+    });
+    std::iter::once(room).chain(gap).chain(grip).collect()
 }
 
 /// Checks that every part of ballast has room in its declared place.

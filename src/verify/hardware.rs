@@ -7,12 +7,14 @@ use serde::{Deserialize, Serialize};
 use crate::base::units::MM3_PER_CM3;
 use crate::geom::{Frame, Point, Vector};
 use crate::mass::{Moments, RoundBar};
-use crate::mesh::{TriMesh, winding_number};
+use crate::mesh::{NearAxis, TriMesh, walled_mm, winding_number};
 
 /// Length left out at each end of a rod, mm, since the ends touch the bottoms of their sockets.
 const END_MM: f64 = 1e-3;
 /// Number of lines along the axis on which the string gap is measured.
 const GAP_LINES: usize = 16;
+/// Angle of the first line on which the grip is measured, rad: off a model's planes of symmetry.
+const GRIP_TURN_RAD: f64 = 0.1;
 /// Distance of these lines from the socket as a share of the ordered wall: the middle of the hub.
 const GAP_WALL_RATIO: f64 = 0.5;
 
@@ -92,6 +94,9 @@ pub struct Fit {
     pub room_mm: Option<f64>,
     /// The gap between a yo-yo's halves around their axle, mm; `None` if there is one body.
     pub gap_mm: Option<f64>,
+    /// The length over which each half of a yo-yo holds the axle, mm: the shorter of the two.
+    /// `None` if there is no axle.
+    pub grip_mm: Option<f64>,
 }
 
 impl Hardware {
@@ -134,9 +139,11 @@ pub fn measure_fit(
         .find(|piece| piece.kind == HardwareKind::Axle);
     let radius_mm = |axle: &Hardware| 0.5 * axle.socket_mm + GAP_WALL_RATIO * wall_mm;
     let gap_mm = axle.and_then(|axle| gap_mm(outer, goal, radius_mm(axle)));
+    let grip_mm = axle.map(|axle| grip_mm(axle, goal, outer, radius_mm(axle)));
     Some(Fit {
         room_mm: Some(room_mm),
         gap_mm,
+        grip_mm,
     })
 }
 
@@ -200,6 +207,16 @@ fn distance_from_axis(polygon: &[Vector]) -> Option<f64> {
         (start + along * share).norm()
     };
     sides().map(to_side).min_by(f64::total_cmp)
+}
+
+/// Returns the length of an axle that each half surrounds, mm: of the shorter one. The halves are
+/// felt on lines at this radius.
+fn grip_mm(axle: &Hardware, goal: &Frame, outer: &TriMesh, radius_mm: f64) -> f64 {
+    let lines = NearAxis::new(outer, goal, radius_mm).ring(GAP_LINES, radius_mm, GRIP_TURN_RAD);
+    let ends = [axle.from_mm, axle.to_mm].map(|end| goal.to_local(&Point::from(end)).z);
+    let sides = [[0.0, ends[0].max(ends[1])], [ends[0].min(ends[1]), 0.0]];
+    let grips = sides.map(|side| walled_mm(&lines, side));
+    grips[0].min(grips[1])
 }
 
 /// Returns the least distance between the halves along the axis, mm, on lines at this radius around

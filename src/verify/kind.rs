@@ -49,6 +49,8 @@ pub enum CheckKind {
     Hardware,
     /// Gap between the halves of a yo-yo.
     StringGap,
+    /// Length over which each half of a yo-yo holds the axle.
+    Grip,
     /// Gap around the ballast.
     BallastRoom,
     /// Files that do not bound a solid.
@@ -125,6 +127,7 @@ impl fmt::Display for CheckKind {
             Self::Wall => "wall",
             Self::Hardware => "hardware",
             Self::StringGap => "string gap",
+            Self::Grip => "grip",
             Self::BallastRoom => "ballast room",
             Self::BrokenSurfaces => "broken surfaces",
             Self::SelfIntersections => "self-intersections",
@@ -155,7 +158,7 @@ mod tests {
     use serde_json::json;
 
     /// The keys and names of all kinds without data.
-    const KEYS: [(CheckKind, &str, &str); 32] = [
+    const KEYS: [(CheckKind, &str, &str); 33] = [
         (CheckKind::AxisOffset, "axis-offset", "axis offset"),
         (CheckKind::AxisTilt, "axis-tilt", "axis tilt"),
         (CheckKind::Dominance, "dominance", "dominance"),
@@ -174,6 +177,7 @@ mod tests {
         (CheckKind::Wall, "wall", "wall"),
         (CheckKind::Hardware, "hardware", "hardware"),
         (CheckKind::StringGap, "string-gap", "string gap"),
+        (CheckKind::Grip, "grip", "grip"),
         (CheckKind::BallastRoom, "ballast-room", "ballast room"),
         (
             CheckKind::BrokenSurfaces,

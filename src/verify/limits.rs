@@ -23,6 +23,11 @@ pub const RIGHTING_LIMIT_DEG: f64 = 5.0;
 /// The wall may be this much thinner than ordered, mm, for the chords of a curved surface. Above it
 /// a printed wall loses a pixel.
 pub const WALL_TOLERANCE_MM: f64 = 0.01;
+/// Each half of a yo-yo holds its axle over this many diameters. With less the axle tears out at
+/// the first drop.
+pub const LEAST_GRIP_DIAMETERS: f64 = 1.0;
+/// The grip may be this much shorter, mm, for the rounding of a file.
+pub const GRIP_TOLERANCE_MM: f64 = 1e-3;
 /// The string gap of a yo-yo may be this far from the ordered one, mm, for the rounding of a file.
 /// It is far below a layer.
 pub const STRING_GAP_TOLERANCE_MM: f64 = 1e-3;

@@ -35,6 +35,7 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("repair", &["base", "geom", "mesh"]),
     ("io", &["repair", "geom", "mesh", "base"]),
     ("shell", &["geom", "mesh", "base"]),
+    ("thin", &["geom", "mesh", "base"]),
     ("mass", &["geom", "mesh", "base"]),
     ("goal", &["geom", "mass", "mesh", "shell", "base"]),
     ("hardware", &["geom", "goal", "mass", "mesh", "base"]),

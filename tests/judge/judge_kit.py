@@ -279,6 +279,14 @@ def judge_hardware(table, sheet, outer):
         gaps = [h[h > 0].min() - h[h < 0].max() for h in lines_through(corners, np.array(points), axis)]
         table.same("string gap at its narrowest, mm", gap, min(gaps), 1e-4)
         table.same("string gap at its widest, mm", gap, max(gaps), 1e-4)
+        # Each half must surround the axle over at least its diameter: counted on levels 10 µm apart.
+        z = (np.array([axles[0]["from_mm"], axles[0]["to_mm"]], float) - origin) @ axis
+        met = [np.sort(h) for h in lines_through(corners, np.array(points), axis)]
+        for half, ends in (("A", (0, z.max())), ("B", (z.min(), 0))):
+            levels = np.arange(ends[0] + 0.005, ends[1], 0.01)
+            walled = np.all([np.searchsorted(h, levels) % 2 == 1 for h in met], axis=0)
+            grip = 0.01 * walled.sum()
+            table.line(f"half {half} holds the axle over, mm", f">= {axles[0]['diameter_mm']:.3f}", f"{grip:.3f}", grip >= axles[0]["diameter_mm"] - 0.02)
         table.line("parts by halves", "A, B", ", ".join(sorted({str(p.get("half")) for p in sheet["parts"]})), {p.get("half") for p in sheet["parts"]} == {"A", "B"})
 
 

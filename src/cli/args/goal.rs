@@ -18,8 +18,8 @@ pub struct RotorArgs {
     /// 2.5]
     #[arg(long, value_name = "MM/S", value_parser = factor, allow_hyphen_values = true)]
     pub grade: Option<f64>,
-    /// Keep a hub solid around a bore of this diameter on the axis [default: none; a bore in the
-    /// model has its wall]
+    /// The diameter of a bore that is made along the axis after printing; a hub stays solid around
+    /// it [default: none; the model has a bore or a shaft, which is found]
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
     pub bore: Option<Length>,
 }

@@ -54,7 +54,8 @@ pub struct PrepareArgs {
     pub goal: Option<GoalKind>,
     /// The spin axis or the direction up: x, y, z, -x, -y, -z or a vector X,Y,Z. Or principal (the
     /// axis easiest to spin about), or auto (the best of all). Or natural: the way the model stands
-    /// by itself; tops and yo-yos take the nearest that works [default: natural; z for balance]
+    /// by itself; tops and yo-yos take the nearest that works; rotors turn on their bore or shaft
+    /// [default: natural]
     #[arg(
         long,
         value_name = "AXIS",
@@ -71,7 +72,8 @@ pub struct PrepareArgs {
         help_heading = "Goal"
     )]
     pub contact: Option<Contact>,
-    /// A point on the axis of a yo-yo or rotor: center (of mass) or X,Y,Z in mm [default: center]
+    /// A point on the axis of a yo-yo or rotor: center (of mass) or X,Y,Z in mm [default: center;
+    /// for a rotor its bore or shaft]
     #[arg(
         long,
         value_name = "POINT",
@@ -231,7 +233,7 @@ impl PrepareArgs {
     fn goal(&self) -> Result<goal::Request, ArgsError> {
         let default = goal::Request::new(self.goal.ok_or(ArgsError::Missing("--goal"))?);
         let request = goal::Request {
-            up: self.up.unwrap_or(Up::default_for(default.kind)),
+            up: self.up.unwrap_or(Up::Natural),
             contact: self.contact.or(default.contact),
             spin_point: self.spin_point.or(default.spin_point),
             objective: self.objective.unwrap_or(default.objective),

@@ -102,7 +102,7 @@ fn missing_arguments_get_the_documented_defaults() {
         (Up::Natural, Some(Contact::Auto), None)
     );
     let rotor = request(&PREPARE.replace("top", "balance")).job.goal;
-    assert_eq!(rotor.up, Up::Z);
+    assert_eq!(rotor.up, Up::Natural);
     assert_eq!(
         (job.wall, job.pitch, job.printer.material),
         (None, None, None)

@@ -15,11 +15,12 @@ use super::promise::{aim, ballast_orders, fill_order};
 use super::remarks::{notes, warnings};
 use super::voids::{cut_rows, void_rows};
 use crate::ballast::PlacedPart;
-use crate::goal::{Objective, Warning};
+use crate::goal::{Objective, RoundKind, RoundSurface, Warning};
 use crate::mass::moments_of_mesh;
-use crate::run::Placed;
+use crate::run::{AxisChoice, Placed};
 use crate::sheet::{
-    BallastRow, Checklist, GoalRow, ModelRow, Tool, Verdict, WallRow, finished_size_mm,
+    BallastRow, Checklist, GoalRow, ModelRow, ShaftKind, ShaftRow, Tool, Verdict, WallRow,
+    finished_size_mm,
 };
 
 /// Fills the checklist, but for the hashes of the kit's files and the timings.
@@ -108,8 +109,33 @@ fn goal_row(facts: &Facts) -> GoalRow {
         spin_it_weights,
         contact_gap_mm: gap.unwrap_or(0.0),
         spins_on: facts.judgement.spin,
+        turns_on: turns_on(placed),
         choice: placed.choice.as_ref().map(ToString::to_string),
     }
+}
+
+/// Returns the round surfaces that a rotor turns on; empty for other goals.
+fn turns_on(placed: &Placed) -> Vec<ShaftRow> {
+    let ordered = placed.request.rotor.and_then(|rotor| rotor.bore);
+    let to_make = ordered.map(|bore| ShaftRow {
+        kind: ShaftKind::BoreToMake,
+        diameter_mm: bore.mm(),
+    });
+    let surfaces = match &placed.choice {
+        Some(AxisChoice::OnShaft(shaft)) => shaft.surfaces.as_slice(),
+        _ => &[],
+    };
+    let row = |surface: &RoundSurface| ShaftRow {
+        kind: match surface.kind {
+            RoundKind::Bore => ShaftKind::Bore,
+            RoundKind::ShaftEnd => ShaftKind::ShaftEnd,
+        },
+        diameter_mm: surface.diameter_mm,
+    };
+    to_make
+        .into_iter()
+        .chain(surfaces.iter().map(row))
+        .collect()
 }
 
 fn ballast_rows(facts: &Facts) -> Vec<BallastRow> {

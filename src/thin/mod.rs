@@ -1,0 +1,73 @@
+//! Thin features: what of a model is thinner than a printer can print.
+//!
+//! The model is opened by a ball as wide as the least wall: only what some such ball inside the
+//! model covers will print. Points spread over the surface stand for it. The greatest ball that
+//! touches the surface from inside at a point is found by shrinking (J. Ma, S. W. Bae, S. Choi,
+//! "3D medial axis point approximation using nearest neighbors and the normal field", The Visual
+//! Computer 28, 2012). A point whose ball is narrower than the wall is thin. Near edges and corners
+//! every body is thin; a feature is thin as a whole if it stands away from all that is not.
+//!
+//! * `medial`: the points, and their balls
+//!
+//! * `places`: the features and necks that the thin points form
+
+mod medial;
+mod places;
+#[cfg(test)]
+mod tests;
+
+use crate::base::watch::{Cancelled, Watch};
+use crate::geom::Point;
+use crate::mesh::TriMesh;
+use medial::Touched;
+
+/// A feature that sticks out by more than this many walls is lost when it does not print.
+pub const LEAST_LENGTH_WALLS: f64 = 3.0;
+/// A thin end that is longer than this many walls is told.
+const LEAST_TOLD_WALLS: f64 = 1.0;
+
+/// The thin features of a model.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ThinFeatures {
+    /// The width below which a feature is thin, mm.
+    pub wall_mm: f64,
+    /// The features that are lost: longer than three walls, the longest first.
+    pub lost: Vec<ThinPlace>,
+    /// The ends that come out shorter: longer than one wall, the longest first.
+    pub ends: Vec<ThinPlace>,
+    /// The pieces that only thin necks join to the rest, the largest first.
+    pub necks: Vec<ThinPlace>,
+}
+
+/// A thin feature.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ThinPlace {
+    /// Its farthest point; of a neck its middle. Model frame, mm.
+    pub at: Point,
+    /// The length by which it sticks out of what is thick enough, mm; of a neck the length of the
+    /// piece behind it.
+    pub length_mm: f64,
+}
+
+/// Finds what of a closed mesh is thinner than a wall.
+///
+/// A feature's length is right to about a wall. Necks shorter than two walls may be missed. Takes
+/// about a second. The answer is the same for any number of threads.
+///
+/// # Errors
+/// The watch was stopped.
+pub fn find_thin(mesh: &TriMesh, wall_mm: f64, watch: &Watch) -> Result<ThinFeatures, Cancelled> {
+    let touched = Touched::of(mesh, wall_mm, watch)?;
+    watch.check()?;
+    let places = places::features(&touched, wall_mm);
+    let necks = places::necks(&touched, wall_mm);
+    let told = |place: &ThinPlace| place.length_mm > LEAST_TOLD_WALLS * wall_mm;
+    let is_lost = |place: &ThinPlace| place.length_mm > LEAST_LENGTH_WALLS * wall_mm;
+    let (lost, ends) = places.into_iter().filter(told).partition(is_lost);
+    Ok(ThinFeatures {
+        wall_mm,
+        lost,
+        ends,
+        necks,
+    })
+}
