@@ -33,6 +33,7 @@ impl PlanRequest {
                 // plate.
                 chamfer_mm: printer.chamfer_mm.value.max(elephant_foot_mm),
                 bottom_relief_mm: printer.socket_extra_depth_mm.value,
+                max_step_mm: printer.number(Quantity::SeamStepMm).map(|step| step.value),
             },
             axis,
             pixel_mm,

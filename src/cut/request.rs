@@ -71,6 +71,8 @@ pub struct PinSettings {
     pub chamfer_mm: f64,
     /// Depth of a socket beyond the length of its pin, mm.
     pub bottom_relief_mm: f64,
+    /// The largest step at the rim of a joint that its pins may leave, mm; `None` for any.
+    pub max_step_mm: Option<f64>,
 }
 
 /// The preferred pose of a part in the printer.

@@ -6,6 +6,7 @@ use super::limits::{
     FILM_LIMIT_RATIO, GAP_TOLERANCE_MM, PIN_LIMIT_MM, POSE_LIMIT_RATIO, RESTING_LIMIT_MM,
     STRING_GAP_TOLERANCE_MM, VOLUME_SUM_LIMIT_RATIO, WALL_TOLERANCE_MM,
 };
+use super::play::worst_joint;
 use super::void_checks::void_checks;
 use super::{Check, CheckKind, Judgement, Limit, PartFacts, Peg, PegFacts, Promise, PromisedPart};
 
@@ -36,6 +37,7 @@ pub fn checks(promise: &Promise, found: &Judgement) -> Vec<Check> {
     checks.extend(void_checks(promise, &found.voids));
     checks.push(volume_check(promise, found));
     checks.extend(joint_checks(promise, found));
+    checks.extend(step_check(promise, found));
     checks.extend(found.film_error.as_ref().map(film_check));
     checks.extend(found.lost_strokes.map(marks_check));
     checks
@@ -226,6 +228,17 @@ fn socket_wall_check(promise: &Promise, wall_mm: Option<f64>) -> Check {
         wall_mm,
         limit,
     )
+}
+
+/// Checks that pins leave no large step at the rim of their joint. `None` if no joint is held by
+/// pins, or the process has no limit.
+fn step_check(promise: &Promise, found: &Judgement) -> Option<Check> {
+    let limit_mm = promise.printer.seam_step_mm?;
+    let worst = worst_joint(promise, &found.joints)?;
+    let words = "the parts of every joint meet at its rim, however its pins are pushed, within";
+    let limit = Limit::at_most(limit_mm, "mm");
+    let check = Check::new(CheckKind::JointStep, words, Some(worst.step_mm()), limit);
+    Some(check.at(Some(worst.id.clone())))
 }
 
 /// Checks that all strokes of the engraved ids are there.

@@ -9,6 +9,7 @@ use super::hardware::{mass_moments, measure_fit};
 use super::joints::{count_lost_strokes, film_error, film_moments};
 use super::part_probe::PartProbe;
 use super::pegs::{count_overlaps, measure_pegs};
+use super::play::measure_joints;
 use super::{
     Evidence, Figures, Judgement, PartEvidence, PartFacts, Setting, Shells, SpinFacts,
     SurfaceFacts, assembly_moments,
@@ -62,6 +63,7 @@ pub fn judge(evidence: &Evidence, watch: &Watch) -> Result<Judgement, Cancelled>
         spin: SpinFacts::of_top(&promise.goal, &promise.hardware, &outer),
         ballast_room_mm: least_room_mm(&promise.ballast, &welded, &outer),
         pegs: measure_pegs(promise, &probes, &evidence.hollowed, watch)?,
+        joints: measure_joints(promise, &evidence.parts),
         overlaps: count_overlaps(&probes, watch)?,
         voids: inspect_voids(promise, &shells.inward, &probes, watch)?,
         film_error: film_error(promise, &evidence.parts),

@@ -59,6 +59,7 @@ fn promise(poses: &[Pose]) -> Promise {
             minimum_wall_mm: 1.0,
             minimum_opening_mm: None,
             cleaning: None,
+            seam_step_mm: None,
         },
         material: Density { density_g_cm3: 1.2 },
         goal: Aim::new(GoalKind::Top, [0.0; 3], [0.0, 0.0, 1.0]),

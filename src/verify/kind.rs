@@ -83,6 +83,8 @@ pub enum CheckKind {
     Clearance,
     /// Walls around the sockets.
     SocketWall,
+    /// Steps at the rims of the joints, as far as their pins let the parts move.
+    JointStep,
     /// Parts that reach into each other.
     Overlap,
     /// Films of glue against the faces they join.
@@ -139,6 +141,7 @@ impl fmt::Display for CheckKind {
             Self::Pins => "pins",
             Self::Clearance => "clearance",
             Self::SocketWall => "socket wall",
+            Self::JointStep => "joint step",
             Self::Overlap => "overlap",
             Self::Glue => "glue",
             Self::EngravedIds => "ids",
@@ -155,7 +158,7 @@ mod tests {
     use serde_json::json;
 
     /// The keys and names of all kinds without data.
-    const KEYS: [(CheckKind, &str, &str); 32] = [
+    const KEYS: [(CheckKind, &str, &str); 33] = [
         (CheckKind::AxisOffset, "axis-offset", "axis offset"),
         (CheckKind::AxisTilt, "axis-tilt", "axis tilt"),
         (CheckKind::Dominance, "dominance", "dominance"),
@@ -202,6 +205,7 @@ mod tests {
         (CheckKind::Pins, "pins", "pins"),
         (CheckKind::Clearance, "clearance", "clearance"),
         (CheckKind::SocketWall, "socket-wall", "socket wall"),
+        (CheckKind::JointStep, "joint-step", "joint step"),
         (CheckKind::Overlap, "overlap", "overlap"),
         (CheckKind::Glue, "glue", "glue"),
         (CheckKind::EngravedIds, "engraved-ids", "ids"),

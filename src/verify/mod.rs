@@ -29,6 +29,7 @@ mod measure;
 mod mouths;
 mod part_probe;
 mod pegs;
+mod play;
 mod shells;
 // The checks and the verdict.
 mod check;
@@ -73,7 +74,7 @@ pub use fingerprint::{Fingerprint, Likeness};
 pub use hardware::{Hardware, HardwareKind};
 pub use pose::Pose;
 pub use promise::{
-    Aim, Density, FigureName, GlueFilm, Mark, Peg, PrinterLimits, Promise, PromisedCut,
+    Aim, Density, FigureName, GlueFilm, HeldBy, Mark, Peg, PrinterLimits, Promise, PromisedCut,
     PromisedFigure, PromisedJoint, PromisedPart, PromisedVoid, SCHEMA, WallOrder,
 };
 pub use rotor::RotorOrder;
@@ -86,6 +87,7 @@ pub use hardware::{Fit, mass_moments};
 pub use joints::FilmError;
 pub use measure::{PartFacts, SurfaceFacts};
 pub use pegs::PegFacts;
+pub use play::JointFacts;
 pub use rotor::Unbalance;
 pub use shells::Shells;
 pub use spin::SpinFacts;

@@ -80,6 +80,9 @@ pub struct PrinterLimits {
     /// The rule by which a void counts as clean; `None` if that is not judged.
     #[serde(default)]
     pub cleaning: Option<Cleaning>,
+    /// The largest step at the rim of a seam, mm; `None` if that is not judged.
+    #[serde(default)]
+    pub seam_step_mm: Option<f64>,
 }
 
 /// The density the masses rest on.
@@ -289,11 +292,27 @@ pub struct Peg {
 pub struct PromisedJoint {
     /// The name on the sheet, such as `J1`.
     pub id: String,
+    /// The ids of the parts below and above it; empty in kits of older versions.
+    #[serde(default)]
+    pub parts: [String; 2],
     /// The gap between pin and socket on each side, mm.
     pub clearance_mm: f64,
+    /// The way in which its parts are aligned; `None` in kits of older versions.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub held_by: Option<HeldBy>,
     /// The film of glue in it; `None` if it is not known.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub glue: Option<GlueFilm>,
+}
+
+/// The way in which the parts of a joint are aligned while the glue sets.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum HeldBy {
+    /// Pins or dowels that fit one way only and leave no large step.
+    Pins,
+    /// The eye of whoever glues it.
+    Eye,
 }
 
 /// The film of glue in a joint.

@@ -566,6 +566,83 @@ def judge_pins(table, sheet, parts):
             table.at_least(f"{pin['id']} gap, mm", gaps[pin["joint"]] - GAP_TOLERANCE_MM, (bores - radii).min())
 
 
+def seats_of(sheet, joint):
+    """For each pin or dowel of a joint: its middle, its axis, and how far the parts move to each side of it, mm."""
+    rows = lambda key: [peg for part in sheet["parts"] for peg in part[key] if peg["joint"] == joint]
+    sockets = {peg["id"]: peg for peg in rows("sockets")}
+    sizes = [(pin["id"], pin["diameter_mm"], 1) for pin in rows("pins")]
+    sizes += [(rod["id"], rod["diameter_mm"], 2) for rod in sheet.get("dowels", [])]
+    found = [(sockets[name], diameter, gaps) for name, diameter, gaps in sizes if name in sockets]
+    return [(np.array(s["center_mm"]), np.array(s["axis"]), gaps * (s["diameter_mm"] - d) / 2) for s, d, gaps in found]
+
+
+def worst_motion(pins, rooms, rim):
+    """The largest turn of a plate held by round pins, radians, and the farthest that a corner of its rim moves, mm: turn by
+    turn the shifts are the common part of discs, whose corners and whose farthest points from each corner are tried."""
+    middle, quarter = pins.mean(axis=0), np.array([[0.0, -1.0], [1.0, 0.0]])
+    pins, rim = pins - middle, rim - middle
+    pairs = [(i, j) for i in range(len(pins)) for j in range(i)]
+    most = min((rooms[i] + rooms[j]) / np.linalg.norm(pins[i] - pins[j]) for i, j in pairs)
+    largest, step = 0.0, 0.0
+    for turn in np.linspace(-most, most, 801):
+        centers, moved = -turn * pins @ quarter.T, turn * rim @ quarter.T
+        shifts = []
+        for i, j in pairs:
+            along = centers[j] - centers[i]
+            apart = np.linalg.norm(along)
+            if 0 < apart <= (rooms[i] + rooms[j]) * (1 + 1e-12):
+                share = (apart**2 + rooms[i] ** 2 - rooms[j] ** 2) / (2 * apart)
+                aside = math.sqrt(max(rooms[i] ** 2 - share**2, 0.0)) * quarter @ along / apart
+                shifts += [centers[i] + along * share / apart + side * aside for side in (-1, 1)]
+        for center, room in zip(centers, rooms):
+            away = center + moved
+            length = np.linalg.norm(away, axis=1)
+            shifts += list((center + room * away / np.where(length > 0, length, 1)[:, None])[length > 0])
+        shifts = np.array(shifts)
+        inside = (np.linalg.norm(shifts[:, None] - centers[None], axis=2) <= rooms[None] + 1e-9).all(axis=1)
+        if inside.any():
+            largest = max(largest, abs(turn))
+            step = max(step, np.linalg.norm(shifts[inside][:, None] + moved[None], axis=2).max())
+    return largest, step
+
+
+def shared_rim(parts, point, axes):
+    """The corners of the faces in which two parts touch, in the coordinates of their plane."""
+    from shapely import Polygon, unary_union
+
+    regions = []
+    for corners in parts:
+        local = (corners - point) @ axes.T
+        flat = local[(np.abs(local[:, :, 2]) <= 1e-3).all(axis=1)][:, :, :2]
+        regions.append(unary_union([Polygon(t).buffer(1e-6) for t in flat]))
+    shared = regions[0].intersection(regions[1]).buffer(-1e-4)
+    return np.array(shared.convex_hull.exterior.coords) if not shared.is_empty else np.zeros((0, 2))
+
+
+def judge_play(table, sheet, parts):
+    """Whether the pins of every joint that they hold are thick enough, and leave the play and the step at the rim as stated."""
+    limit, least = sheet["printer"].get("seam_step_mm"), sheet["printer"].get("least_pin_mm", 0.0)
+    by_id = {part["id"]: corners for part, corners in zip(sheet["parts"], parts)}
+    for pin in (pin for part in sheet["parts"] for pin in part["pins"]):
+        table.at_least(f"{pin['id']} diameter, mm", least - 1e-9, pin["diameter_mm"])
+    for joint in sheet["joints"]:
+        seats = seats_of(sheet, joint["id"])
+        if joint.get("held_by") != "pins" or len(seats) < 2:
+            table.line(f"{joint['id']} aligned", "by something", joint.get("held_by"), joint.get("held_by") in (None, "eye"))
+            continue
+        _, axes = frame({"axis": seats[0][1], "origin_mm": [0, 0, 0]})
+        rim = shared_rim([by_id[part] for part in joint["parts"]], seats[0][0], axes)
+        pins = np.array([(middle - seats[0][0]) @ axes[:2].T for middle, _, _ in seats])
+        turn, step = worst_motion(pins, np.array([room for _, _, room in seats]), rim)
+        # The program stands a polygon of 48 sides around each circle, 0.2 % outside.
+        table.same(f"{joint['id']} turn, °", joint["play"]["turn_deg"], math.degrees(turn), 5e-3)
+        table.same(f"{joint['id']} step at the rim, mm", joint["play"]["step_mm"], step, 5e-3)
+        widest = lambda points: max((np.linalg.norm(a - b) for a in points for b in points), default=0.0)
+        table.at_least(f"{joint['id']} pins apart, of its width", 0.333, widest(pins) / widest(rim))
+        if limit is not None:
+            table.at_most(f"{joint['id']} step at the rim, mm", limit, step)
+
+
 def rings_of(mesh, heights, flat):
     """The closed lines in which a plane meets a welded mesh, a corner on the plane counting as above it."""
     edge_after, above = {}, heights >= 0
@@ -923,6 +1000,7 @@ def judge(kit):
     for part in ballast:
         table.at_least(f"{part['id']} ({part['part']}) room, mm", 0.0, ballast_room(part, whole, voids))
     judge_pins(table, sheet, parts)
+    judge_play(table, sheet, parts)
     judge_voids(table, sheet, voids, parts)
     judge_dowels(table, sheet, parts)
     judge_films(table, sheet, parts)

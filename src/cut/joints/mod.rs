@@ -7,6 +7,7 @@ pub(crate) mod boss_view;
 pub(crate) mod bosses;
 pub(crate) mod contact;
 pub(crate) mod face;
+pub(crate) mod hold;
 pub(crate) mod label;
 pub(crate) mod pattern;
 pub(crate) mod pin_shape;

@@ -5,10 +5,11 @@ use crate::{
     base::watch::Cancelled,
     cut::{
         error::{CutError, Obstacle},
-        geometry::chart::Chart,
+        geometry::chart::{Chart, Point2},
         ids::{CutId, PinId},
         joints::{
             face::{Face, face_points},
+            hold::{Hold, Rim},
             pattern::Peg,
             pin_shape::PinSite,
             pin_size::{short_pairs, size_pairs},
@@ -84,8 +85,7 @@ fn place(scene: &PinScene, joint: &Joint, placed: &[&Placement]) -> Result<Place
         return Ok(upward);
     }
     let downward = along(false)?;
-    let rank = |p: &Placement| (p.is_sound(), p.sites.len());
-    Ok(if rank(&downward) > rank(&upward) {
+    Ok(if downward.rank() > upward.rank() {
         downward
     } else {
         upward
@@ -124,14 +124,24 @@ pub(crate) fn seat_ordered(
             .collect();
         let is_one_way = pegs.len() >= 2 && !is_confused(&pegs, &placed.iter().collect::<Vec<_>>());
         let widest_mm = face_points(scene, joint).1;
+        let sites: Vec<PinSite> = pins.into_iter().cloned().collect();
         placed.push(Placement {
-            sites: pins.into_iter().cloned().collect(),
+            hold: hold(scene, joint, &sites),
+            sites,
             pegs,
             is_one_way,
             widest_mm,
         });
     }
     Ok(placed)
+}
+
+/// Measures the hold of pins on their joint.
+fn hold(scene: &PinScene, joint: &Joint, pins: &[PinSite]) -> Hold {
+    let chart = Chart::of_plane(&scene.tree.planes[joint.cut]);
+    let flat = |pin: &PinSite| chart.flat(&Point::from(pin.center_mm));
+    let places: Vec<Point2> = pins.iter().map(flat).collect();
+    Rim::of(joint, scene.request.pins.max_step_mm).measure(&places, pins)
 }
 
 /// Places the pins of a joint in one direction.
@@ -153,10 +163,11 @@ fn place_along(scene: &PinScene, joint: &Joint, facing: Facing) -> Result<Placem
         }
         let pattern = face.pattern(&places, &sizes, placed);
         let is_one_way = pattern.len() >= 2 && !is_confused(&face.end_views(&pattern), placed);
-        if is_one_way || pattern.len() > fallback.pegs.len() {
-            fallback = face.placement(&pattern, is_one_way);
+        let placement = face.placement(&pattern, is_one_way);
+        if placement.rank() > fallback.rank() {
+            fallback = placement;
         }
-        if is_one_way {
+        if fallback.is_sound() {
             break;
         }
     }

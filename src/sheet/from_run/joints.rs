@@ -8,7 +8,7 @@ use crate::base::units::MM3_PER_CM3;
 use crate::cut::{self, CutPlan, Dowel, JointId, JointNote, RodSource};
 use crate::run::{BossRound, KeptBoss, Made, Placed, Remark};
 use crate::sheet::{BossRow, CutListRow, JointRow, RoundRow};
-use crate::verify::PromisedJoint;
+use crate::verify::{HeldBy, PromisedJoint};
 
 /// Returns the dowels to cut, equal ones together, in the order of their pins.
 pub fn cut_list(facts: &Facts) -> Vec<CutListRow> {
@@ -65,7 +65,9 @@ pub fn promised_joints(placed: &Placed, plan: &CutPlan) -> Vec<PromisedJoint> {
     joints
         .map(|(index, joint)| PromisedJoint {
             id: joint_id(index),
+            parts: joint.parts.map(|id| id.to_string()),
             clearance_mm,
+            held_by: Some(held_by(joint)),
             glue: placed.glue_film(joint),
         })
         .collect()
@@ -87,6 +89,8 @@ pub fn joint_rows(facts: &Facts) -> Vec<JointRow> {
             area_mm2: joint.area_mm2,
             pins: joint.pins.len(),
             clearance_mm: facts.placed.shop.printer.clearance_per_side_mm.value,
+            held_by: held_by(joint),
+            play: facts.judgement.joints[index].play,
             glue: facts.placed.glue_film(joint),
             note: joint_warning(joint)
                 .map(|warning| [why_no_bosses(facts.made, joint), warning.to_owned()].concat()),
@@ -102,7 +106,19 @@ fn joint_warning(joint: &JointNote) -> Option<&'static str> {
         _ if !joint.one_way => {
             Some("the pins fit in more than one way: mind the turn, align the outlines")
         }
+        _ if !joint.held => Some(
+            "the pins leave too large a step at the rim: align the outlines by eye and touch",
+        ),
         _ => None,
+    }
+}
+
+/// Returns the way in which the parts of a joint are aligned.
+fn held_by(joint: &JointNote) -> HeldBy {
+    if joint.is_aligned() {
+        HeldBy::Pins
+    } else {
+        HeldBy::Eye
     }
 }
 

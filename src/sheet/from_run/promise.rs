@@ -26,6 +26,7 @@ pub fn promise(placed: &Placed, made: &Made) -> Promise {
             minimum_wall_mm: placed.minimum_wall_mm(),
             minimum_opening_mm: Some(printer.min_opening_mm.value),
             cleaning: Some(printer.cleaning_rule()),
+            seam_step_mm: placed.seam_step_mm(),
         },
         material: Density {
             density_g_cm3: placed.density_g_cm3(),

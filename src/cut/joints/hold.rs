@@ -1,0 +1,78 @@
+//! The hold of pins on a joint: their play, and the step that it leaves at the rim.
+
+use crate::{
+    cut::{
+        geometry::chart::Point2,
+        joints::{pin_shape::PinSite, pin_size::Size},
+        pieces::split::Joint,
+    },
+    geom::play::{Play, Stop, corners_of, extent_mm, step_bound_mm},
+};
+
+/// Least distance of a joint's farthest pins, as a share of the joint's longest diagonal. A person
+/// who puts the parts together must feel the turn.
+pub(crate) const SPREAD_RATIO: f64 = 1.0 / 3.0;
+
+/// Share of the accepted step that is kept in reserve. A judge stands a polygon around a pin's
+/// circle in another turn, which differs by 0.2 %, and sees a rim that is rounded to a file.
+const RESERVE_RATIO: f64 = 0.005;
+
+/// The rim of a joint, in the coordinates of its plane.
+pub(crate) struct Rim {
+    /// The corners of its convex hull.
+    corners: Vec<Point2>,
+    extent_mm: f64,
+    /// The largest step that is accepted, less a reserve, mm.
+    max_step_mm: f64,
+}
+
+impl Rim {
+    /// Returns the rim of a joint whose step may have this size, or any.
+    pub(crate) fn of(joint: &Joint, max_step_mm: Option<f64>) -> Self {
+        let faces = joint.faces.iter();
+        let corners = corners_of(faces.flat_map(|face| face.outline.corners()));
+        Self {
+            extent_mm: extent_mm(&corners),
+            corners,
+            max_step_mm: max_step_mm.unwrap_or(f64::INFINITY) * (1.0 - RESERVE_RATIO),
+        }
+    }
+
+    /// Returns true if pins of these sizes are far enough apart and leave no larger step than is
+    /// accepted. Never true for pins that leave a larger one.
+    pub(crate) fn is_held_by(&self, pattern: &[(Point2, Size)]) -> bool {
+        let places: Vec<Point2> = pattern.iter().map(|(at, _)| *at).collect();
+        let rooms = pattern.iter().map(|(_, size)| size.room_to_move_mm());
+        let step_mm = || step_bound_mm(&places, rooms.fold(0.0, f64::max), &self.corners);
+        self.is_spread(&places) && step_mm() <= self.max_step_mm
+    }
+
+    /// Returns true if some two pins are far enough apart.
+    fn is_spread(&self, places: &[Point2]) -> bool {
+        places.len() >= 2 && extent_mm(places) >= SPREAD_RATIO * self.extent_mm
+    }
+
+    /// Measures what placed pins leave. `places` are theirs in the plane.
+    pub(crate) fn measure(&self, places: &[Point2], pins: &[PinSite]) -> Hold {
+        let rooms = pins.iter().map(PinSite::room_to_move_mm);
+        let stops = places.iter().zip(rooms);
+        let stops: Vec<Stop> = stops
+            .flat_map(|(at, room_mm)| Stop::around(*at, room_mm))
+            .collect();
+        let play = Play::of(&stops, &self.corners);
+        let keeps = |play: Play| play.step_mm <= self.max_step_mm;
+        Hold {
+            play,
+            is_enough: play.is_some_and(keeps) && self.is_spread(places),
+        }
+    }
+}
+
+/// The hold of a joint's pins.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Hold {
+    /// Their play; `None` if they leave a turn free.
+    pub(crate) play: Option<Play>,
+    /// True if the step is accepted and the pins are far enough apart.
+    pub(crate) is_enough: bool,
+}
