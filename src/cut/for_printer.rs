@@ -33,6 +33,7 @@ impl PlanRequest {
                 // plate.
                 chamfer_mm: printer.chamfer_mm.value.max(elephant_foot_mm),
                 bottom_relief_mm: printer.socket_extra_depth_mm.value,
+                snug_gap_mm: snug_gap_mm(printer),
                 max_step_mm: printer.number(Quantity::SeamStepMm).map(|step| step.value),
             },
             axis,
@@ -52,6 +53,13 @@ impl PlanRequest {
             watch: Watch::silent(),
         }
     }
+}
+
+/// Returns the gap between a jig and the parts in it, mm: that of a pressed joint. If the profile
+/// does not know it, half of that of a glued one.
+fn snug_gap_mm(printer: &Printer) -> f64 {
+    let press = printer.number(Quantity::ClearancePressPerSideMm);
+    press.map_or(0.5 * printer.clearance_per_side_mm.value, |gap| gap.value)
 }
 
 impl LabelStyle {

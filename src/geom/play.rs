@@ -25,6 +25,9 @@ const FARTHEST_MM: f64 = 20.0;
 /// The largest turn that counts as stopped, radians: a joint that turns farther is not aligned.
 const LARGEST_TURN_RAD: f64 = 0.2;
 
+/// Number of directions in which two bodies move apart: their step is right to 0.1 %.
+const WAYS: usize = 72;
+
 /// Number of turns that are looked at in either sense.
 const TURNS: usize = 16;
 
@@ -73,7 +76,7 @@ impl Play {
     ///
     /// Some milliseconds for a hundred stops; the step is right to 0.3 %.
     pub fn of(stops: &[Stop], rim: &[Spot]) -> Option<Self> {
-        let body = Between::new(stops, rim);
+        let body = Between::new(stops, rim, middle_of(stops));
         let ends = [body.farthest_turn(-1.0)?, body.farthest_turn(1.0)?];
         let shift_mm = largest(body.shifts(0.0)?.iter().map(|shift| shift.norm()));
         let turn = ends[1].max(-ends[0]);
@@ -90,8 +93,9 @@ impl Play {
 /// for two. Infinite for fewer.
 ///
 /// In closed form. With two pins at ±L/2 on the x-axis, the motion is greatest if both touch and
-/// turn the body. A point (x, y) is then displaced by the square root of the largest eigenvalue of
-/// [[1, −2y/L], [−2y/L, 4(x² + y²)/L²]] times the room. Of more pins each pair bounds it.
+/// turn the body. A point (x, y) then moves by √λ of the room. Here λ is the larger eigenvalue of
+/// the matrix with the rows (1, −2y/L) and (−2y/L, 4(x² + y²)/L²). Of more pins each pair bounds
+/// it.
 pub fn step_bound_mm(pins: &[Spot], room_mm: f64, rim: &[Spot]) -> f64 {
     let pairs = || (0..pins.len()).flat_map(|i| (0..i).map(move |j| [pins[i], pins[j]]));
     if pairs().next().is_none() {
@@ -123,16 +127,125 @@ pub fn extent_mm(corners: &[Spot]) -> f64 {
     largest(corners.iter().map(from))
 }
 
-/// Stops and rim about the middle of the stops.
+/// A body pressed into a cradle: all motions in which it touches the cradle, about a middle.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Seat {
+    motions: Vec<Motion>,
+}
+
+/// A small motion.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Motion {
+    shift: Way,
+    /// In radians.
+    turn: f64,
+}
+
+impl Motion {
+    fn of(&self, spot: &Spot) -> Way {
+        self.shift + Way::new(-spot.y, spot.x) * self.turn
+    }
+}
+
+impl Seat {
+    /// Returns the motions of a body between stops that is pressed at a point along a direction. It
+    /// comes within the room of `press` of the end of that way. `None` if the stops leave it free
+    /// to slide or turn even so. `middle` is that of all seats that are compared.
+    pub fn pressed(stops: &[Stop], press: &Stop, middle: Spot) -> Option<Self> {
+        let mut body = Between::new(stops, &[], middle.coords);
+        let at = press.at - middle.coords;
+        let depth = |turn: f64| {
+            let moved = press.normal.dot(&Way::new(-at.y, at.x)) * turn;
+            let shifts = body.clipped(turn);
+            let depths = shifts.iter().map(|shift| press.normal.dot(shift) + moved);
+            depths.fold(f64::NEG_INFINITY, f64::max)
+        };
+        let ends = [-1.0, 1.0].map(|sense| body.last_turn(sense, 0.0));
+        let (rest, deepest) = peak(depth, ends);
+        if deepest >= 0.5 * FARTHEST_MM {
+            return None;
+        }
+        body.stops.push(Stop {
+            at,
+            normal: -press.normal,
+            room_mm: press.room_mm - deepest,
+        });
+        let ends = [-1.0, 1.0].map(|sense| body.last_turn(sense, rest));
+        let is_free = |end: &f64| end.abs() >= LARGEST_TURN_RAD * (1.0 - f64::EPSILON.sqrt());
+        if ends.iter().any(is_free) {
+            return None;
+        }
+        let mut motions = Vec::new();
+        for index in 0..=TURNS {
+            let turn = ends[0] + (ends[1] - ends[0]) * index as f64 / TURNS as f64;
+            // Rounding may leave nothing at the very ends.
+            if !body.clipped(turn).is_empty() {
+                let shifts = body.shifts(turn)?;
+                motions.extend(shifts.into_iter().map(|shift| Motion { shift, turn }));
+            }
+        }
+        (!motions.is_empty()).then_some(Self { motions })
+    }
+
+    /// Returns the play between two seated bodies about one middle. The step is right to 0.1 %.
+    pub fn play_between(&self, other: &Self, middle: Spot, rim: &[Spot]) -> Play {
+        let apart = |spot: &Spot| {
+            let along = |side: usize| {
+                let (sin, cos) = (std::f64::consts::TAU * side as f64 / WAYS as f64).sin_cos();
+                let way = Way::new(cos, sin);
+                let most = |seat: &Self, way: Way| {
+                    let moved = seat.motions.iter().map(|motion| motion.of(spot).dot(&way));
+                    moved.fold(f64::NEG_INFINITY, f64::max)
+                };
+                most(self, way) + most(other, -way)
+            };
+            largest((0..WAYS).map(along))
+        };
+        let turns = |seat: &Self| {
+            let turns = seat.motions.iter().map(|motion| motion.turn);
+            turns.fold([0.0; 2], |[low, high]: [f64; 2], turn| {
+                [low.min(turn), high.max(turn)]
+            })
+        };
+        let ([low, high], [other_low, other_high]) = (turns(self), turns(other));
+        let rim = corners_of(rim.iter().map(|spot| spot - middle.coords));
+        Play {
+            shift_mm: apart(&Spot::origin()),
+            turn_deg: (high - other_low).max(other_high - low).to_degrees(),
+            step_mm: largest(rim.iter().map(apart)),
+        }
+    }
+}
+
+/// Returns the place of the peak of a concave function between two ends, and its height.
+fn peak(height: impl Fn(f64) -> f64, [mut low, mut high]: [f64; 2]) -> (f64, f64) {
+    let share = 0.5 * (5f64.sqrt() - 1.0);
+    for _ in 0..2 * STEPS {
+        let [left, right] = [high - share * (high - low), low + share * (high - low)];
+        if height(left) < height(right) {
+            low = left;
+        } else {
+            high = right;
+        }
+    }
+    let middle = 0.5 * (low + high);
+    (middle, height(middle))
+}
+
+/// Returns the mean place of stops; the origin without any.
+fn middle_of(stops: &[Stop]) -> Way {
+    let count = stops.len().max(1) as f64;
+    stops.iter().map(|stop| stop.at.coords).sum::<Way>() / count
+}
+
+/// Stops and rim about a middle.
 struct Between {
     stops: Vec<Stop>,
     rim: Vec<Spot>,
 }
 
 impl Between {
-    fn new(stops: &[Stop], rim: &[Spot]) -> Self {
-        let count = stops.len().max(1) as f64;
-        let middle = stops.iter().map(|stop| stop.at.coords).sum::<Way>() / count;
+    fn new(stops: &[Stop], rim: &[Spot], middle: Way) -> Self {
         let about = |stop: &Stop| Stop {
             at: stop.at - middle,
             ..*stop
@@ -166,19 +279,26 @@ impl Between {
 
     /// Returns the largest turn in one sense, radians; `None` if nothing stops it.
     fn farthest_turn(&self, sense: f64) -> Option<f64> {
-        let (mut low, mut high) = (0.0, LARGEST_TURN_RAD);
-        if !self.clipped(sense * high).is_empty() {
-            return None;
+        let end = self.last_turn(sense, 0.0);
+        (end.abs() < LARGEST_TURN_RAD).then_some(end)
+    }
+
+    /// Returns the last turn in one sense, from one that is possible, radians; the largest turn
+    /// that is looked at if nothing stops it before.
+    fn last_turn(&self, sense: f64, from: f64) -> f64 {
+        let (mut low, mut high) = (from, sense * LARGEST_TURN_RAD);
+        if !self.clipped(high).is_empty() {
+            return high;
         }
         for _ in 0..STEPS {
             let middle = 0.5 * (low + high);
-            if self.clipped(sense * middle).is_empty() {
+            if self.clipped(middle).is_empty() {
                 high = middle;
             } else {
                 low = middle;
             }
         }
-        Some(sense * low)
+        low
     }
 
     /// Returns the largest step of the rim with a turn, mm; `None` if a shift has no end.
@@ -257,11 +377,20 @@ mod tests {
 
     #[test]
     fn two_pins_turn_by_twice_their_room_over_their_distance() {
-        let play = Play::of(&pins(&[(-10.0, 0.0), (10.0, 0.0)], 0.2), &rectangle(30.0, 5.0));
+        let play = Play::of(
+            &pins(&[(-10.0, 0.0), (10.0, 0.0)], 0.2),
+            &rectangle(30.0, 5.0),
+        );
         let play = play.unwrap();
-        assert!((play.shift_mm / 0.2 - 1.0).abs() < OUTSIDE_RATIO, "{play:?}");
+        assert!(
+            (play.shift_mm / 0.2 - 1.0).abs() < OUTSIDE_RATIO,
+            "{play:?}"
+        );
         let turn = (2.0 * 0.2 / 20.0f64).to_degrees();
-        assert!((play.turn_deg / turn - 1.0).abs() < OUTSIDE_RATIO, "{play:?}");
+        assert!(
+            (play.turn_deg / turn - 1.0).abs() < OUTSIDE_RATIO,
+            "{play:?}"
+        );
     }
 
     #[test]
@@ -272,7 +401,10 @@ mod tests {
             let ends = [Spot::new(-half, 0.0), Spot::new(half, 0.0)];
             let closed = step_bound_mm(&ends, 0.2, &rim);
             let ratio = found.step_mm / closed;
-            assert!((1.0 - 1e-4..1.0 + OUTSIDE_RATIO).contains(&ratio), "{ratio}");
+            assert!(
+                (1.0 - 1e-4..1.0 + OUTSIDE_RATIO).contains(&ratio),
+                "{ratio}"
+            );
         }
         // On the line of the pins, a point at a distance R moves by 2R/L of the room.
         let ends = [Spot::new(-5.0, 1.0), Spot::new(5.0, 1.0)];
@@ -296,18 +428,27 @@ mod tests {
                 most = rim.iter().map(|p| moved(p.x, p.y)).fold(most, f64::max);
             }
         }
-        assert!(most <= play.step_mm && most > 0.85 * play.step_mm, "{most} {play:?}");
+        assert!(
+            most <= play.step_mm && most > 0.85 * play.step_mm,
+            "{most} {play:?}"
+        );
     }
 
     #[test]
     fn a_third_pin_never_adds_play() {
-        let (two, three) = ([(-9.0, 0.0), (9.0, 0.0)], [(-9.0, 0.0), (9.0, 0.0), (0.0, 7.0)]);
+        let (two, three) = (
+            [(-9.0, 0.0), (9.0, 0.0)],
+            [(-9.0, 0.0), (9.0, 0.0), (0.0, 7.0)],
+        );
         let rim = rectangle(12.0, 12.0);
         let step = |spots: &[(f64, f64)]| Play::of(&pins(spots, 0.2), &rim).unwrap().step_mm;
         assert!(step(&three) <= step(&two) + 1e-9);
         let spots = three.map(|(x, y)| Spot::new(x, y));
         let bounds = [&spots[..2], &spots].map(|pins| step_bound_mm(pins, 0.2, &rim));
-        assert!(step(&three) <= bounds[1] && bounds[1] < bounds[0], "{bounds:?}");
+        assert!(
+            step(&three) <= bounds[1] && bounds[1] <= bounds[0],
+            "{bounds:?}"
+        );
         assert_eq!(step_bound_mm(&spots[..1], 0.2, &rim), f64::INFINITY);
     }
 
@@ -322,6 +463,45 @@ mod tests {
             room_mm: 0.1,
         });
         assert_eq!(Play::of(&slot, &rim), None);
+    }
+
+    /// Returns the stops of a groove with sides at 45°, with this room. The body's own sides are as
+    /// steep, and touch it at both ends.
+    fn groove(room_mm: f64) -> Vec<Stop> {
+        let side = |x: f64, y: f64| Stop {
+            at: Spot::new(x, y),
+            normal: Way::new(x.signum(), -1.0) / 2f64.sqrt(),
+            room_mm,
+        };
+        [(-10.0, 10.0), (-2.0, 2.0), (2.0, 2.0), (10.0, 10.0)]
+            .map(|(x, y)| side(x, y))
+            .into()
+    }
+
+    #[test]
+    fn bodies_pressed_into_a_groove_meet_whatever_its_room() {
+        let press = |room_mm: f64| Stop {
+            at: Spot::new(0.0, 8.0),
+            normal: Way::new(0.0, -1.0),
+            room_mm,
+        };
+        let (middle, rim) = (Spot::new(0.0, 5.0), rectangle(12.0, 12.0));
+        let step = |slack: f64, rooms: [f64; 2]| {
+            let seats = rooms.map(|room| Seat::pressed(&groove(room), &press(slack), middle));
+            let [a, b] = seats.map(Option::unwrap);
+            a.play_between(&b, middle, &rim).step_mm
+        };
+        assert!(step(1e-9, [0.2, 0.2]) < 1e-6);
+        // The wider groove lets its body down by the difference times √2.
+        assert!((step(1e-9, [0.3, 0.2]) / (0.1 * 2f64.sqrt()) - 1.0).abs() < 2e-3);
+        assert!(step(0.03, [0.2, 0.2]) > 0.03);
+        // A flat floor lets it slide.
+        let floor = [-5.0, 5.0].map(|x| Stop {
+            at: Spot::new(x, 0.0),
+            normal: Way::new(0.0, -1.0),
+            room_mm: 0.1,
+        });
+        assert_eq!(Seat::pressed(&floor, &press(0.03), middle), None);
     }
 
     #[test]

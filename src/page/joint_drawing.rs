@@ -137,6 +137,14 @@ impl<'a> Book<'a> {
             )
         };
         let pins: Vec<String> = pins.map(words).collect();
+        let jig = self
+            .sheet
+            .jigs
+            .iter()
+            .find(|jig| jig.order.joint == self.joint.id);
+        if let Some(jig) = jig.filter(|_| pins.is_empty()) {
+            return format!("It has no printed pins; {} holds it.", jig.order.id);
+        }
         if pins.is_empty() {
             return "It has no printed pins.".to_owned();
         }

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::geom::play::Play;
-use crate::verify::{BallastOrder, GlueFilm, HeldBy};
+use crate::verify::{BallastOrder, GlueFilm, HeldBy, PromisedJig};
 
 /// A glue joint.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -38,6 +38,20 @@ pub struct JointRow {
 /// Returns the way in which nothing printed aligns a joint.
 fn by_eye() -> HeldBy {
     HeldBy::Eye
+}
+
+/// A jig: a printed cradle that holds the parts of a joint while the glue sets. A tool, no part.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct JigRow {
+    /// Name on the sheet, joint, file and place.
+    #[serde(flatten)]
+    pub order: PromisedJig,
+    /// Extent on the plate, mm.
+    pub size_mm: [f64; 3],
+    /// Volume, mm³.
+    pub volume_mm3: f64,
+    /// Mass, g, which the assembly does not count.
+    pub mass_g: f64,
 }
 
 /// A round in which material was kept solid around pins and everything was solved again.

@@ -8,8 +8,8 @@ use crate::sheet::part_picture_file;
 use crate::sheet::*;
 use crate::verify::judge_tests::{judge, sound_kit};
 use crate::verify::{
-    Cleaning, Evidence, FigureName, HeldBy, Judgement, PartFacts, Promise, PromisedCut, PromisedFigure,
-    PromisedPart, PromisedVoid, Shells,
+    Cleaning, Evidence, FigureName, HeldBy, Judgement, PartFacts, Promise, PromisedCut,
+    PromisedFigure, PromisedPart, PromisedVoid, Shells,
 };
 
 /// The cleaning rule of a water jet.
@@ -64,6 +64,8 @@ pub fn sample_pictures(sheet: &Checklist, evidence: &Evidence) -> (Vec<Picture>,
         ..
     } = &evidence.promise;
     let subject = Subject {
+        jigs: &evidence.jigs,
+        promised_jigs: &evidence.promise.jigs,
         shells: &shells,
         parts: &evidence.parts,
         promised,
@@ -134,6 +136,7 @@ fn checklist(evidence: &Evidence, found: &Judgement) -> Checklist {
         cuts: vec![cut()],
         parts: parts(evidence, found),
         joints: vec![joint()],
+        jigs: Vec::new(),
         grid: vec![grid_row()],
         hardware: vec![],
         dowels: vec![],

@@ -37,6 +37,7 @@ pub(crate) fn sound_kit() -> Evidence {
         promise: promise(&poses),
         hollowed,
         parts: vec![part(0), part(1)],
+        jigs: Vec::new(),
     }
 }
 
@@ -74,6 +75,7 @@ fn promise(poses: &[Pose]) -> Promise {
         ballast: Vec::new(),
         fill: None,
         joints: vec![],
+        jigs: Vec::new(),
         files: Default::default(),
     }
 }

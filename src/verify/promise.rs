@@ -58,6 +58,9 @@ pub struct Promise {
     /// The joints between them.
     #[serde(default)]
     pub joints: Vec<PromisedJoint>,
+    /// The jigs that hold parts while their glue sets.
+    #[serde(default)]
+    pub jigs: Vec<PromisedJig>,
     /// The SHA-256 of every other file of the kit, by path relative to its folder.
     #[serde(default)]
     pub files: BTreeMap<String, String>,
@@ -311,8 +314,35 @@ pub struct PromisedJoint {
 pub enum HeldBy {
     /// Pins or dowels that fit one way only and leave no large step.
     Pins,
+    /// A jig: a printed cradle of the outside.
+    Jig,
     /// The eye of whoever glues it.
     Eye,
+}
+
+/// A jig as the kit names it: a printed cradle that holds the parts of a joint.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct PromisedJig {
+    /// The name on the sheet, such as `jig-J1`.
+    pub id: String,
+    /// The joint.
+    pub joint: String,
+    /// Its file, relative to the kit.
+    pub file: String,
+    /// Model coordinates to print coordinates.
+    pub print_from_model: Pose,
+    /// The unit direction in which the object comes out of it, model frame.
+    pub out: [f64; 3],
+    /// A point of the joint's plane, model frame, mm.
+    pub point_mm: [f64; 3],
+    /// The unit normal of that plane.
+    pub normal: [f64; 3],
+    /// The gap between the jig and the outside, mm.
+    pub gap_mm: f64,
+    /// The distances of its ribs' faces from the plane on either side, mm.
+    pub ribs_mm: [f64; 2],
+    /// The depth to which a part is pressed into it, but for this, mm.
+    pub pressed_mm: f64,
 }
 
 /// The film of glue in a joint.

@@ -5,8 +5,8 @@ use serde_json::{Map, Value, json};
 
 use super::limits::SHEET_LIMIT_RATIO;
 use super::{
-    Check, CheckKind, Evidence, FigureName, Fingerprint, JointFacts, Judgement, Limit, PartFacts, Promise,
-    PromisedJoint, PromisedVoid, Shells,
+    Check, CheckKind, Evidence, FigureName, Fingerprint, JointFacts, Judgement, Limit, PartFacts,
+    Promise, PromisedJoint, PromisedVoid, Shells,
 };
 use crate::base::units::MM3_PER_CM3;
 use crate::mass::moments_of_mesh;

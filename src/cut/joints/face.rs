@@ -234,9 +234,8 @@ impl<'a> Face<'a> {
 
     pub(crate) fn placement(&self, pattern: &[(Point2, Size)], is_one_way: bool) -> Placement {
         let sites: Vec<PinSite> = pattern.iter().map(|(p, size)| self.site(p, size)).collect();
-        let places: Vec<Point2> = pattern.iter().map(|(p, _)| *p).collect();
         Placement {
-            hold: self.rim.measure(&places, &sites),
+            hold: self.rim.measure(&self.plane, &sites),
             sites,
             pegs: self.end_views(pattern),
             is_one_way,

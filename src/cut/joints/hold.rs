@@ -2,19 +2,22 @@
 
 use crate::{
     cut::{
-        geometry::chart::Point2,
+        geometry::chart::{Chart, Point2},
         joints::{pin_shape::PinSite, pin_size::Size},
         pieces::split::Joint,
     },
-    geom::play::{Play, Stop, corners_of, extent_mm, step_bound_mm},
+    geom::{
+        Plane, Point,
+        play::{Play, Stop, corners_of, extent_mm, step_bound_mm},
+    },
 };
 
 /// Least distance of a joint's farthest pins, as a share of the joint's longest diagonal. A person
 /// who puts the parts together must feel the turn.
 pub(crate) const SPREAD_RATIO: f64 = 1.0 / 3.0;
 
-/// Share of the accepted step that is kept in reserve. A judge stands a polygon around a pin's
-/// circle in another turn, which differs by 0.2 %, and sees a rim that is rounded to a file.
+/// Share of the accepted step that is kept in reserve. A judge turns the polygon around a pin's
+/// circle, which makes 0.2 %, and sees a rim that is rounded to a file.
 const RESERVE_RATIO: f64 = 0.005;
 
 /// The rim of a joint, in the coordinates of its plane.
@@ -52,8 +55,11 @@ impl Rim {
         places.len() >= 2 && extent_mm(places) >= SPREAD_RATIO * self.extent_mm
     }
 
-    /// Measures what placed pins leave. `places` are theirs in the plane.
-    pub(crate) fn measure(&self, places: &[Point2], pins: &[PinSite]) -> Hold {
+    /// Measures what pins leave that stand in the joint's plane.
+    pub(crate) fn measure(&self, plane: &Plane, pins: &[PinSite]) -> Hold {
+        let chart = Chart::of_plane(plane);
+        let flat = |pin: &PinSite| chart.flat(&Point::from(pin.center_mm));
+        let places: Vec<Point2> = pins.iter().map(flat).collect();
         let rooms = pins.iter().map(PinSite::room_to_move_mm);
         let stops = places.iter().zip(rooms);
         let stops: Vec<Stop> = stops
@@ -63,7 +69,7 @@ impl Rim {
         let keeps = |play: Play| play.step_mm <= self.max_step_mm;
         Hold {
             play,
-            is_enough: play.is_some_and(keeps) && self.is_spread(places),
+            is_enough: play.is_some_and(keeps) && self.is_spread(&places),
         }
     }
 }

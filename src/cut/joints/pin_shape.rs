@@ -124,7 +124,11 @@ impl PinSite {
 
     /// Returns the distance by which the parts move against each other to each side of the pin, mm.
     pub fn room_to_move_mm(&self) -> f64 {
-        Self::gap_mm(self.diameter_mm, self.socket_diameter_mm, self.dowel.is_some())
+        Self::gap_mm(
+            self.diameter_mm,
+            self.socket_diameter_mm,
+            self.dowel.is_some(),
+        )
     }
 
     /// Returns the gap around a pin in its socket, mm; of a dowel, the gaps in both.

@@ -5,11 +5,11 @@ use crate::{
     base::watch::Cancelled,
     cut::{
         error::{CutError, Obstacle},
-        geometry::chart::{Chart, Point2},
+        geometry::chart::Chart,
         ids::{CutId, PinId},
         joints::{
             face::{Face, face_points},
-            hold::{Hold, Rim},
+            hold::Rim,
             pattern::Peg,
             pin_shape::PinSite,
             pin_size::{short_pairs, size_pairs},
@@ -126,7 +126,8 @@ pub(crate) fn seat_ordered(
         let widest_mm = face_points(scene, joint).1;
         let sites: Vec<PinSite> = pins.into_iter().cloned().collect();
         placed.push(Placement {
-            hold: hold(scene, joint, &sites),
+            hold: Rim::of(joint, scene.request.pins.max_step_mm)
+                .measure(&scene.tree.planes[joint.cut], &sites),
             sites,
             pegs,
             is_one_way,
@@ -134,14 +135,6 @@ pub(crate) fn seat_ordered(
         });
     }
     Ok(placed)
-}
-
-/// Measures the hold of pins on their joint.
-fn hold(scene: &PinScene, joint: &Joint, pins: &[PinSite]) -> Hold {
-    let chart = Chart::of_plane(&scene.tree.planes[joint.cut]);
-    let flat = |pin: &PinSite| chart.flat(&Point::from(pin.center_mm));
-    let places: Vec<Point2> = pins.iter().map(flat).collect();
-    Rim::of(joint, scene.request.pins.max_step_mm).measure(&places, pins)
 }
 
 /// Places the pins of a joint in one direction.

@@ -31,8 +31,7 @@ impl Support {
         let (u, v) = orthonormal_basis(up);
         let low = shape.hull.iter().map(|corner| corner.coords);
         let low = low.filter(|corner| corner.dot(up) <= floor_mm + slack_mm);
-        let hull =
-            convex_hull(low.map(|corner| [corner.dot(&u), corner.dot(&v)]).collect());
+        let hull = convex_hull(low.map(|corner| [corner.dot(&u), corner.dot(&v)]).collect());
         let center = shape.center.coords;
         let at = [center.dot(&u), center.dot(&v)];
         let inside =
