@@ -445,10 +445,8 @@ mod tests {
         assert!(step(&three) <= step(&two) + 1e-9);
         let spots = three.map(|(x, y)| Spot::new(x, y));
         let bounds = [&spots[..2], &spots].map(|pins| step_bound_mm(pins, 0.2, &rim));
-        assert!(
-            step(&three) <= bounds[1] && bounds[1] <= bounds[0],
-            "{bounds:?}"
-        );
+        let most = bounds[1] * (1.0 + OUTSIDE_RATIO);
+        assert!(step(&three) <= most && bounds[1] <= bounds[0], "{bounds:?}");
         assert_eq!(step_bound_mm(&spots[..1], 0.2, &rim), f64::INFINITY);
     }
 

@@ -68,6 +68,8 @@ pub struct Policy {
     /// Greatest loss for pins that a person ordered. Beyond it the kit has lost what it was made
     /// for.
     pub ordered_loss_ratio: f64,
+    /// Least distance of a joint's farthest pins, as a share of the joint's longest diagonal.
+    pub pin_spread_ratio: f64,
     /// Greatest share of the voids that may become solid for pins. Some figures hardly tell: a
     /// toppling angle barely changes when all voids are lost.
     pub max_void_loss_ratio: f64,
@@ -130,6 +132,7 @@ impl Policy {
         partial_loss_ratio: 0.15,
         dear_loss_ratio: 0.15,
         ordered_loss_ratio: 0.65,
+        pin_spread_ratio: PlanRequest::SPREAD_RATIO,
         max_void_loss_ratio: 0.5,
         ends_margin_openings: 0.25,
         max_ends: 3,

@@ -15,8 +15,11 @@ const STEP_MM: f64 = 0.02;
 /// Depth by which the outline may lie deeper than needed, so that it has fewer corners, mm.
 const SPARE_MM: f64 = 0.01;
 
+/// Distance of the points of a body that a cradle may stop, mm.
+const SPACING_MM: f64 = 0.5;
+
 /// Sectors of direction and of place in each of which only the nearest stop counts.
-const SECTORS: f64 = 24.0;
+const SECTORS: f64 = 36.0;
 
 /// A view along the normal of a joint: x across, y along the normal, z along the way out.
 #[derive(Clone, Copy)]
@@ -122,7 +125,20 @@ impl Slab {
         thin(&outline)
     }
 
-    /// Returns the stops of a body in a cradle: its corners near the outline, each with the nearest
+    /// Returns points along the sides of its pieces, [`SPACING_MM`] apart at most.
+    fn points(&self) -> impl Iterator<Item = Spot> + '_ {
+        let sides = self.pieces.iter().flat_map(|piece| {
+            let next = piece.iter().cycle().skip(1);
+            piece.iter().zip(next)
+        });
+        sides.flat_map(|(a, b)| {
+            let (from, way) = (*a, b - a);
+            let count = (way.norm() / SPACING_MM).ceil().max(1.0);
+            (0..count as usize).map(move |step| from + way * (step as f64 / count))
+        })
+    }
+
+    /// Returns the stops of a body in a cradle: its points near the outline, each with the nearest
     /// floor, left wall and right wall.
     pub(crate) fn stops(&self, outline: &[Spot], reach_mm: f64) -> Vec<Stop> {
         let mut nearest: BTreeMap<[i64; 2], Stop> = BTreeMap::new();
@@ -130,12 +146,7 @@ impl Slab {
             return Vec::new();
         };
         let width = (last.x - first.x).max(f64::MIN_POSITIVE);
-        for stop in self
-            .pieces
-            .iter()
-            .flatten()
-            .flat_map(|at| touches(at, outline, reach_mm))
-        {
+        for stop in self.points().flat_map(|at| touches(&at, outline, reach_mm)) {
             let turn = stop.normal.y.atan2(stop.normal.x) / std::f64::consts::TAU;
             let place = (stop.at.x - first.x) / width;
             let sector = [turn, place].map(|share| (share * SECTORS).floor() as i64);
@@ -148,7 +159,7 @@ impl Slab {
     }
 }
 
-/// Returns the stops of one corner of a body: at the nearest floor and walls of an outline.
+/// Returns the stops of one point of a body: at the nearest floor and walls of an outline.
 fn touches(at: &Spot, outline: &[Spot], reach_mm: f64) -> Vec<Stop> {
     let from = outline
         .partition_point(|corner| corner.x < at.x - reach_mm)

@@ -111,7 +111,7 @@ impl<'a> Face<'a> {
             sign,
             surface,
             occupied,
-            rim: Rim::of(joint, scene.request.pins.max_step_mm),
+            rim: Rim::of(joint, &scene.request.pins),
             points: Vec::new(),
             widest_mm: 0.0,
         }

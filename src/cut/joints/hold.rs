@@ -5,16 +5,13 @@ use crate::{
         geometry::chart::{Chart, Point2},
         joints::{pin_shape::PinSite, pin_size::Size},
         pieces::split::Joint,
+        request::PinSettings,
     },
     geom::{
         Plane, Point,
         play::{Play, Stop, corners_of, extent_mm, step_bound_mm},
     },
 };
-
-/// Least distance of a joint's farthest pins, as a share of the joint's longest diagonal. A person
-/// who puts the parts together must feel the turn.
-pub(crate) const SPREAD_RATIO: f64 = 1.0 / 3.0;
 
 /// Share of the accepted step that is kept in reserve. A judge turns the polygon around a pin's
 /// circle, which makes 0.2 %, and sees a rim that is rounded to a file.
@@ -24,20 +21,21 @@ const RESERVE_RATIO: f64 = 0.005;
 pub(crate) struct Rim {
     /// The corners of its convex hull.
     corners: Vec<Point2>,
-    extent_mm: f64,
+    /// The least distance of the farthest pins, mm.
+    least_spread_mm: f64,
     /// The largest step that is accepted, less a reserve, mm.
     max_step_mm: f64,
 }
 
 impl Rim {
-    /// Returns the rim of a joint whose step may have this size, or any.
-    pub(crate) fn of(joint: &Joint, max_step_mm: Option<f64>) -> Self {
+    /// Returns the rim of a joint, to be held by these rules.
+    pub(crate) fn of(joint: &Joint, rules: &PinSettings) -> Self {
         let faces = joint.faces.iter();
         let corners = corners_of(faces.flat_map(|face| face.outline.corners()));
         Self {
-            extent_mm: extent_mm(&corners),
+            least_spread_mm: rules.spread_ratio * extent_mm(&corners),
             corners,
-            max_step_mm: max_step_mm.unwrap_or(f64::INFINITY) * (1.0 - RESERVE_RATIO),
+            max_step_mm: rules.max_step_mm.unwrap_or(f64::INFINITY) * (1.0 - RESERVE_RATIO),
         }
     }
 
@@ -52,7 +50,7 @@ impl Rim {
 
     /// Returns true if some two pins are far enough apart.
     fn is_spread(&self, places: &[Point2]) -> bool {
-        places.len() >= 2 && extent_mm(places) >= SPREAD_RATIO * self.extent_mm
+        places.len() >= 2 && extent_mm(places) >= self.least_spread_mm
     }
 
     /// Measures what pins leave that stand in the joint's plane.

@@ -199,6 +199,7 @@ impl<'a> Bench<'a> {
             [near - gap_mm, far + gap_mm],
         ]
         .map(|heights| Slab::of(&surface, heights));
+        let held = [[-far, -near], [near, far]].map(|heights| Slab::of(&surface, heights));
         let under_seam_mm = Slab::of(&surface, [-near, near]).lowest_mm(window);
         let sketch = |share: &f64| {
             let top_mm = low + share * (high - low);
@@ -212,7 +213,7 @@ impl<'a> Bench<'a> {
             };
             let middle = Spot::new(press.at.x, 0.5 * (low + high));
             let seat = |side: usize| {
-                let stops = slabs[side].stops(&ribs[side], REACH_MM);
+                let stops = held[side].stops(&ribs[side], REACH_MM);
                 Seat::pressed(&stops, &press, middle)
             };
             let play = seat(0)?.play_between(&seat(1)?, middle, &rim);

@@ -126,7 +126,7 @@ pub(crate) fn seat_ordered(
         let widest_mm = face_points(scene, joint).1;
         let sites: Vec<PinSite> = pins.into_iter().cloned().collect();
         placed.push(Placement {
-            hold: Rim::of(joint, scene.request.pins.max_step_mm)
+            hold: Rim::of(joint, &scene.request.pins)
                 .measure(&scene.tree.planes[joint.cut], &sites),
             sites,
             pegs,
