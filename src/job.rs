@@ -49,6 +49,9 @@ pub struct Job {
     /// The marking of parts with their ids; engraved into cut faces if the key is missing.
     #[serde(default = "default_ids", skip_serializing_if = "IdStyle::is_engraved")]
     pub ids: IdStyle,
+    /// The greatest share of the goal's figure that joints may cost; the policy's own if `None`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub joint_price_ratio: Option<f64>,
     /// The file format of the parts.
     pub format: PartFormat,
     /// The ballast asked for; none if the key is missing.
@@ -190,6 +193,7 @@ impl Job {
             cut: CutMode::Auto,
             pins: PinStyle::Printed,
             ids: IdStyle::Engraved,
+            joint_price_ratio: None,
             format: PartFormat::Both,
             ballast: Order::None,
             fill: None,

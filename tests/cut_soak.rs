@@ -132,6 +132,9 @@ fn request(dice: &mut Dice) -> PlanRequest {
             clearance_mm: dice.between(0.03, 0.3),
             chamfer_mm: dice.between(0.0, 0.5),
             bottom_relief_mm: dice.between(0.0, 0.6),
+            spread_ratio: dice.between(0.0, 0.5),
+            snug_gap_mm: dice.between(0.02, 0.2),
+            max_step_mm: Some(dice.between(0.1, 0.8)),
         },
         axis: GoalAxis {
             point: Point::origin(),

@@ -34,6 +34,9 @@ fn request() -> PlanRequest {
             clearance_mm: 0.1,
             chamfer_mm: 0.2,
             bottom_relief_mm: 0.5,
+            spread_ratio: PlanRequest::SPREAD_RATIO,
+            snug_gap_mm: 0.05,
+            max_step_mm: Some(0.3),
         },
         axis: GoalAxis {
             point: Point::new(0.0, 0.0, -60.0),

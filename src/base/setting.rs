@@ -27,6 +27,8 @@ choice! {
         Pins = "pins",
         /// The marking of parts with their ids.
         Ids = "ids",
+        /// The greatest share of the goal's figure that joints may cost.
+        JointPrice = "joint_price_ratio",
         /// The file format of the parts.
         Format = "format",
         /// The ballast.

@@ -66,6 +66,7 @@ fn name(key: Key) -> String {
         Key::Speed => "speed".to_owned(),
         Key::Grade => "grade".to_owned(),
         Key::HardwareMass => "hardware-mass".to_owned(),
+        Key::JointPrice => "joint-price".to_owned(),
         Key::LeastLean => "least-lean".to_owned(),
         Key::LeastAngle => "least-angle".to_owned(),
         _ => key.word().replace('_', "-"),

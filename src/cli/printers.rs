@@ -300,7 +300,7 @@ mod tests {
         let said = text(Some(PrintersAction::Check { file }), false);
         assert_eq!(
             said,
-            "shop-mk4: a profile that can be used; 25 numbers, 19 of them process defaults, 8 recalled or own choices\n"
+            "shop-mk4: a profile that can be used; 26 numbers, 20 of them process defaults, 9 recalled or own choices\n"
         );
         let mut out = Vec::new();
         let error = run(

@@ -9,6 +9,10 @@ impl PlanRequest {
     /// it a kit gets extra joints and tiny parts for no gain.
     pub const WORTH_RATIO: f64 = 0.02;
 
+    /// Least distance of a joint's farthest pins, as a share of its longest diagonal. Whoever puts
+    /// the parts together must feel the turn.
+    pub const SPREAD_RATIO: f64 = 1.0 / 3.0;
+
     /// Returns the request for a model whose longest side is `size_mm`, with the printer's walls,
     /// openings, pins and grid.
     ///
@@ -33,6 +37,9 @@ impl PlanRequest {
                 // plate.
                 chamfer_mm: printer.chamfer_mm.value.max(elephant_foot_mm),
                 bottom_relief_mm: printer.socket_extra_depth_mm.value,
+                spread_ratio: Self::SPREAD_RATIO,
+                snug_gap_mm: snug_gap_mm(printer),
+                max_step_mm: printer.number(Quantity::SeamStepMm).map(|step| step.value),
             },
             axis,
             pixel_mm,
@@ -51,6 +58,13 @@ impl PlanRequest {
             watch: Watch::silent(),
         }
     }
+}
+
+/// Returns the gap between a jig and the parts in it, mm: that of a pressed joint. If the profile
+/// does not know it, half of that of a glued one.
+fn snug_gap_mm(printer: &Printer) -> f64 {
+    let press = printer.number(Quantity::ClearancePressPerSideMm);
+    press.map_or(0.5 * printer.clearance_per_side_mm.value, |gap| gap.value)
 }
 
 impl LabelStyle {

@@ -58,6 +58,7 @@ pub use side::{CutSide, Side};
 // The parts and their joints.
 pub use joints::boss::{Boss, BossRequest, JointName, MaterialPrice};
 pub use joints::bosses::bosses;
+pub use joints::jig::{Jig, PRESSED_MM, WIPING_ROOM_MM, jigs};
 pub use joints::label::Label;
 pub use joints::pin_shape::PinSite;
 pub use joints::rod::{Dowel, Rod, RodSource, rods};

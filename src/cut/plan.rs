@@ -14,7 +14,7 @@ use crate::{
         remark::Remark,
         side::{CutSide, Side},
     },
-    geom::{Aabb, Parting, Plane, Point, Vector},
+    geom::{Aabb, Parting, Plane, Point, Vector, play::Play},
     mass::FlatFace,
     mesh::TriMesh,
 };
@@ -88,6 +88,12 @@ pub struct JointNote {
     pub pins: Vec<PinId>,
     /// `true` if the pins let the parts together in one way only.
     pub one_way: bool,
+    /// The play of its pins; `None` without two pins.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub play: Option<Play>,
+    /// `true` if the pins are far enough apart and the step that they leave is accepted.
+    #[serde(default)]
+    pub held: bool,
     /// The face in which the parts touch: the section less the mouths of the sockets.
     pub face: FlatFace,
 }
@@ -125,9 +131,10 @@ pub(crate) struct Bridge {
 }
 
 impl JointNote {
-    /// Returns whether at least two pins let the parts together in one way only.
+    /// Returns whether at least two pins let the parts together in one way only, and hold them well
+    /// enough.
     pub fn is_aligned(&self) -> bool {
-        self.pins.len() >= 2 && self.one_way
+        self.pins.len() >= 2 && self.one_way && self.held
     }
 }
 

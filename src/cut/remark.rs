@@ -273,6 +273,8 @@ pub enum PinLack {
     OnePin,
     /// The pins fit in more than one way.
     Ambiguous,
+    /// The pins are too close together, or leave too large a step at the rim.
+    Loose,
 }
 
 impl fmt::Display for PinLack {
@@ -292,6 +294,7 @@ impl fmt::Display for PinLack {
             Self::Ambiguous => {
                 f.write_str("the pins fit in more than one way; mind the turn when gluing")
             }
+            Self::Loose => f.write_str("the pins leave too large a step at the rim"),
         }
     }
 }

@@ -71,6 +71,13 @@ pub struct PinSettings {
     pub chamfer_mm: f64,
     /// Depth of a socket beyond the length of its pin, mm.
     pub bottom_relief_mm: f64,
+    /// Least distance of a joint's farthest pins, as a share of the joint's longest diagonal.
+    pub spread_ratio: f64,
+    /// Gap between a jig and the parts that lie in it, mm. A cradle is open, so it may be snugger
+    /// than a socket.
+    pub snug_gap_mm: f64,
+    /// The largest step at the rim of a joint that its pins may leave, mm; `None` for any.
+    pub max_step_mm: Option<f64>,
 }
 
 /// The preferred pose of a part in the printer.

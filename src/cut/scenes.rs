@@ -99,6 +99,9 @@ pub(crate) fn request() -> PlanRequest {
             clearance_mm: 0.1,
             chamfer_mm: 0.3,
             bottom_relief_mm: 0.5,
+            spread_ratio: PlanRequest::SPREAD_RATIO,
+            snug_gap_mm: 0.05,
+            max_step_mm: Some(0.3),
         },
         axis: GoalAxis {
             point: Point::new(0.0, 0.0, -100.0),

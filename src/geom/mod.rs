@@ -2,15 +2,18 @@
 //!
 //! * **Shapes:** [`Plane`], [`Parting`] (a plane that acts within half-spaces), [`Aabb`],
 //!   [`Quadric`].
-//! * **In a plane:** [`rings`], the outlines and holes of a section.
+//! * **In a plane:** [`rings`], the outlines and holes of a section; [`hull`], convex hulls;
+//!   [`play`], how far a body moves between stops.
 //! * **Placement:** [`Frame`], a right-handed orthonormal frame in the model's frame.
 //! * **Distances:** [`triangle`] in closed form, [`Bvh`] over many triangles.
 
 mod aabb;
 mod bvh;
 mod frame;
+pub mod hull;
 mod parting;
 mod plane;
+pub mod play;
 mod quadric;
 pub mod rings;
 pub mod triangle;

@@ -7,6 +7,7 @@ use super::sites::Up;
 use super::support;
 use crate::base::setting::{Key, Setting};
 use crate::geom::Point;
+use crate::geom::hull::convex_hull;
 
 /// Vertices within this part of the height of the lowest carry the object. A scanned foot is never
 /// flat. Below 0.05 % the object would stand on three vertices; above 1 % on vertices that do not
@@ -24,7 +25,7 @@ pub(super) fn place(site: &Site) -> Result<Placement, GoalError> {
         .map(|vertex| [vertex.x, vertex.y])
         .collect();
     let vertices = feet.len();
-    let hull = support::convex_hull(feet);
+    let hull = convex_hull(feet);
     if support::area(&hull) <= LEAST_AREA_RATIO * site.height_mm().powi(2) {
         return Err(GoalError::NoSupport {
             up: site.up,

@@ -10,6 +10,7 @@ use super::sites::Contact;
 use super::support;
 use super::tip_choice::TipChoice;
 use super::tips::TipPlace;
+use crate::geom::hull::convex_hull;
 use crate::geom::{Point, Vector};
 use crate::shell::Keep;
 
@@ -216,7 +217,7 @@ fn lowest_feature_middle(site: &Site) -> [f64; 2] {
     let lowest = site
         .upright_vertices()
         .filter(|vertex| vertex.z <= site.lowest_mm + tie_mm);
-    support::middle(&support::convex_hull(
+    support::middle(&convex_hull(
         lowest.map(|vertex| [vertex.x, vertex.y]).collect(),
     ))
 }

@@ -5,7 +5,7 @@ use std::path::Path;
 use rayon::prelude::*;
 
 use crate::base::watch::Watch;
-use crate::draw::part_color;
+use crate::draw::{Color, part_color};
 use crate::error::Error;
 use crate::geom::{Aabb, Matrix, Vector};
 use crate::io::threemf::{Build, Object, Package, PrintSettings, Transform};
@@ -13,7 +13,7 @@ use crate::io::{decode_model, stl};
 use crate::job::PartFormat;
 use crate::mesh::TriMesh;
 use crate::printer::{Plate, Printer, Quantity, Spot, Support};
-use crate::run::{Made, Placed, WrittenPart};
+use crate::run::{Made, Placed, WrittenJig, WrittenPart};
 
 /// The name of the assembly in a kit.
 const ASSEMBLY: &str = "assembly.3mf";
@@ -23,6 +23,9 @@ const FILAMENT: &str = "fdm";
 
 /// Lines along a wall: the slicers' own default, within which everything is filled.
 const PERIMETERS: usize = 2;
+
+/// The colour of jigs: the grey of a tool.
+const JIG_COLOR: Color = [150, 150, 150];
 
 /// A file of the kit by its path, and its bytes.
 pub type File = (String, Vec<u8>);
@@ -48,7 +51,30 @@ pub fn repack(placed: &Placed, mut made: Made, watch: &Watch) -> Result<Made, Er
         })
     });
     made.parts = parts.collect::<Result<_, Error>>()?;
+    let jigs = std::mem::take(&mut made.jigs).into_iter();
+    let jigs = jigs.map(|jig| {
+        let (file, bytes) = pack_jig(placed, &jig)?;
+        let read_back = decode_model(&bytes)?;
+        Ok(WrittenJig {
+            file,
+            bytes,
+            read_back: read_back.map_vertices(|p| p.coords.component_div(&scale).into()),
+            ..jig
+        })
+    });
+    made.jigs = jigs.collect::<Result<_, Error>>()?;
     Ok(made)
+}
+
+/// A jig's own package, as it lies in print pose.
+fn pack_jig(placed: &Placed, jig: &WrittenJig) -> Result<File, Error> {
+    let printed = decode_model(&jig.bytes)?;
+    let object = [Object::new(&jig.id(), JIG_COLOR, &printed)];
+    let file = Path::new(&jig.file).with_extension("3mf");
+    let description = format!("{}, a tool, in print pose.", jig.id());
+    let build = Build::Items(vec![(0, Transform::default())]);
+    let file = file.to_string_lossy().into_owned();
+    package(placed, &object, file, (description, build))
 }
 
 /// The packages beside the judged files: twins of STL parts where both formats are asked for, the
@@ -79,7 +105,12 @@ pub fn packages(placed: &Placed, made: &Made, watch: &Watch) -> Result<Vec<File>
         watch.check()?;
         pack(placed, &parts[i], &objects[i..=i])
     });
-    twins.chain(shared).collect()
+    let jigs = made.jigs.iter();
+    let jigs = jigs.filter(|_| placed.job.format == PartFormat::Both);
+    let jigs = jigs.map(|jig| pack_jig(placed, jig));
+    let jigs = jigs.collect::<Result<Vec<File>, Error>>()?;
+    let files: Vec<File> = twins.chain(shared).collect::<Result<_, Error>>()?;
+    Ok([files, jigs].concat())
 }
 
 /// The description of a package, and the places of its objects.

@@ -2,10 +2,10 @@
 
 use rayon::prelude::*;
 
-use super::write::write;
+use super::write::{write, write_jig};
 use crate::base::verdict::Verdict;
 use crate::base::watch::{Phase, Watch};
-use crate::cut::{self, CutError, CutPlan, Obstacle, PlanRequest, parts_and_faces};
+use crate::cut::{self, CutError, CutPlan, Obstacle, PlanRequest, jigs, parts_and_faces};
 use crate::error::Error;
 use crate::mass::{Moments, moments_of_mesh};
 use crate::open::{Candidate, Resolver, defect_ratio, finish, plan_once};
@@ -33,6 +33,9 @@ pub fn make(placed: &Placed, candidate: Candidate, watch: &Watch) -> Result<Made
     };
     let best = corrector.best(opened.voids, opened.plan, more)?;
     let plan = cut::measure_voids_again(&best.voids.hollowed, best.plan, &opened.request)?;
+    let jigs = jigs(&best.voids.hollowed, &plan, &opened.request)?;
+    let jigs = jigs.into_iter().map(|jig| write_jig(placed, jig, watch));
+    let jigs = jigs.collect::<Result<_, Error>>()?;
     let Voids {
         solution,
         hollowed,
@@ -49,6 +52,7 @@ pub fn make(placed: &Placed, candidate: Candidate, watch: &Watch) -> Result<Made
         refused_mm3,
         plan,
         remarks: opened.remarks,
+        jigs,
         parts: best.parts,
         rounds,
         value_before_cleaning,

@@ -1,13 +1,13 @@
 //! Writing a part: its STL file in memory, read back, free of folds.
 
 use crate::base::watch::Watch;
-use crate::cut::Part;
+use crate::cut::{Jig, JointId, Part};
 use crate::error::Error;
 use crate::geom::Vector;
 use crate::io::stl;
 use crate::mesh::Crossings;
 use crate::repair::{unfold, weld};
-use crate::run::WrittenPart;
+use crate::run::{Placed, WrittenJig, WrittenPart};
 use crate::verify::Pose;
 
 /// Writings that are tried until a part's file is free of folds. The first is the part as it is,
@@ -45,6 +45,32 @@ pub fn write(
         written = writer.write(part.clone(), writing)?;
     }
     Ok(written)
+}
+
+/// Writes a jig and reads it back, in the size in which the printer makes it right.
+///
+/// # Errors
+/// The file does not read back, or the watch was stopped.
+pub fn write_jig(placed: &Placed, jig: Jig, watch: &Watch) -> Result<WrittenJig, Error> {
+    let scale = Vector::from(placed.shop.printer.print_scale_ratio());
+    let pose = Pose {
+        rows: jig.print_from_model,
+    };
+    let mesh = jig.solid.mesh();
+    let laid = mesh.map_vertices(|p| pose.to_print(p).coords.component_mul(&scale).into());
+    let name = format!("{}_jig-{}", placed.name(), JointId::of(jig.joint));
+    let mut bytes = stl::encode(&laid, &name);
+    let mut read_back = stl::decode(&bytes)?;
+    if Crossings::of_watched(&weld(&read_back), watch)?.pairs > 0 {
+        bytes = stl::encode(&unfold(&laid, watch)?, &name);
+        read_back = stl::decode(&bytes)?;
+    }
+    Ok(WrittenJig {
+        jig,
+        file: format!("jigs/{name}.stl"),
+        bytes,
+        read_back: read_back.map_vertices(|p| p.coords.component_div(&scale).into()),
+    })
 }
 
 /// Writes a part again and again.

@@ -107,8 +107,8 @@ pub fn add_bosses(
     let mut search = Search::new(resolver, state, request);
     search.run()?;
     if search.ordered.is_some() {
-        let dear_loss_ratio = search.policy.dear_loss_ratio;
-        search.pay(dear_loss_ratio)?;
+        let ordered_loss_ratio = search.policy.ordered_loss_ratio;
+        search.pay(ordered_loss_ratio)?;
     }
     let mut state = search.state;
     let ordered = ordered_pins(resolver);
@@ -273,6 +273,8 @@ impl<'r, 'a> Search<'r, 'a> {
             request: self.request,
             rounds: price.rounds,
             max_loss_ratio: price.max_loss_ratio,
+            start: state.baseline,
+            max_price_ratio: self.max_price_ratio(price),
             must_be_clean: are_clean(&state.plan, self.request),
             before: price.baseline.unwrap_or(Achieved::of(&state.voids)),
         };
@@ -287,6 +289,15 @@ impl<'r, 'a> Search<'r, 'a> {
         self.take(found, held, settled, kept_mm3);
         *self.resolver = trial;
         Ok(Verdict::Found(()))
+    }
+
+    /// Returns the greatest loss that all bosses together may cost.
+    fn max_price_ratio(&self, price: Price) -> f64 {
+        let most = match self.ordered {
+            Some(_) => self.policy.ordered_loss_ratio,
+            None => self.policy.dear_loss_ratio,
+        };
+        most.max(price.max_loss_ratio)
     }
 
     /// Returns the bosses held so far, with new ones in place of those of their joints.

@@ -39,6 +39,8 @@ pub fn climb<'a>(
             }),
         }
     }
+    // What a rung costs is counted from the walls, as the usual plan costs something too.
+    ways.retain(|way| way.loss_ratio(&walls) <= ladder.policy.dear_loss_ratio);
     let best = ladder.best(&usual, ways);
     Ok(ladder.candidates(best, usual, walls, faults))
 }

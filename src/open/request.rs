@@ -1,7 +1,7 @@
 //! The request for cuts and pins of a placed goal.
 
 use crate::base::watch::Watch;
-use crate::cut::{GoalAxis, PlanRequest};
+use crate::cut::{GoalAxis, PinSettings, PlanRequest};
 use crate::run::Placed;
 
 /// Returns what cuts, pins and parts must keep to for this job on its printer.
@@ -14,6 +14,10 @@ pub fn request(placed: &Placed, watch: &Watch) -> PlanRequest {
     let size_mm = placed.solid().mesh().longest_side_mm();
     let usual = PlanRequest::for_printer(&placed.shop.printer, size_mm, axis);
     PlanRequest {
+        pins: PinSettings {
+            spread_ratio: placed.policy.pin_spread_ratio,
+            ..usual.pins
+        },
         worth_ratio: placed.policy.cut_worth_ratio,
         rods: placed.shop.rods.clone(),
         labels: usual.labels.filter(|_| placed.job.ids.is_engraved()),

@@ -100,7 +100,8 @@ pub(super) fn chimneys(count: usize) -> Placed {
 /// Returns the union of bodies that is to stand.
 ///
 /// The printer needs openings of 3 mm and nothing else to clean a void. Its pins are 1 mm thick and
-/// long, and parts bear no ids.
+/// long, however near each other, and parts bear no ids. Joints may cost more than usual, so that
+/// small bodies reach every rung.
 pub(super) fn standing(bodies: &[TriMesh], wall_mm: f64, objective: Objective) -> Placed {
     let goal = Request {
         objective,
@@ -139,7 +140,12 @@ pub(super) fn standing(bodies: &[TriMesh], wall_mm: f64, objective: Objective) -
         choice: None,
         fitted: None,
         fill: Fill::AIR,
-        policy: Policy::STANDARD,
+        policy: Policy {
+            partial_loss_ratio: 0.35,
+            dear_loss_ratio: 0.65,
+            pin_spread_ratio: 0.0,
+            ..Policy::STANDARD
+        },
     }
 }
 
@@ -164,7 +170,9 @@ fn coarse_printer() -> Printer {
     printer.pixel_x_mm.value = PIXEL_MM;
     printer.pixel_y_mm.value = PIXEL_MM;
     printer.layer_mm.value = PIXEL_MM;
+    printer.pin_min_diameter_mm.value = 1.0;
     printer.pin_length_ratio.value = 1.0;
+    printer.optional_numbers.remove(&Quantity::SeamStepMm);
     printer.support = Support::Soluble;
     printer
 }

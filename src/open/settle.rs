@@ -28,6 +28,10 @@ pub struct Terms<'a> {
     pub before: Achieved,
     /// Greatest loss of the figure once more than the bosses is kept solid.
     pub max_loss_ratio: f64,
+    /// The figure and the voids before any boss.
+    pub start: Achieved,
+    /// Greatest loss of the figure from that.
+    pub max_price_ratio: f64,
 }
 
 /// Voids with bosses in them, and the plan that opens them.
@@ -61,6 +65,11 @@ pub fn settle(
         let ratio = terms.before.filled_ratio(&now);
         if ratio > policy.max_void_loss_ratio {
             return Ok(Verdict::No(Refusal::FillVoids { ratio }));
+        }
+        let price_ratio = terms.start.loss_ratio(&now);
+        if price_ratio > terms.max_price_ratio {
+            let loss_ratio = price_ratio;
+            return Ok(Verdict::No(Refusal::CostTooMuch { loss_ratio }));
         }
         let loss_ratio = terms.before.loss_ratio(&now);
         if round > 0 && loss_ratio > terms.max_loss_ratio {

@@ -17,10 +17,11 @@ use crate::draw::{
     BALLAST, BODY, HARDWARE, Hatch, Item, Key, Label, PictureError, Scene, Shot, TEXT_PX, VOID,
     convex_section, part_color,
 };
-use crate::geom::{Parting, Point};
+use crate::geom::{Frame, Parting, Point, Vector};
 use crate::goal::GoalKind;
 use crate::mesh::TriMesh;
 use crate::sheet::Checklist;
+use crate::verify::PromisedJig;
 
 /// Height of the words on the cover, whose pictures are smaller, pixels: 7 points at 48 mm of
 /// height.
@@ -83,6 +84,9 @@ pub fn render_pictures(subject: &Subject, watch: &Watch) -> Result<Vec<Picture>,
     drafts.extend(halves(subject, &in_place, &inserts.hardware));
     let parts = subject.parts.iter().zip(&plates).enumerate();
     drafts.extend(parts.map(|(index, (part, plate))| plate::draft(part, plate, part_color(index))));
+    let jigs = parts_in_model(subject.jigs);
+    let beds = subject.promised_jigs.iter().zip(&jigs);
+    drafts.extend(beds.map(|(promised, jig)| in_jig(promised, [&outer, jig])));
     let draw = |draft: &Draft| {
         watch.check()?;
         draft.draw()
@@ -154,6 +158,29 @@ fn model<'a>(outer: &'a TriMesh, view: &Viewpoint, caption: &str) -> Draft<'a> {
         shot: Shot {
             scene: Scene {
                 items: vec![Item::new(outer, BODY)],
+                cut: None,
+            },
+            camera: view.camera,
+            text_px: TEXT_PX,
+            labels: Vec::new(),
+            keys: Vec::new(),
+        },
+    }
+}
+
+/// Draws the object in a jig, with the way out upward.
+fn in_jig<'a>(promised: &PromisedJig, [outer, jig]: [&'a TriMesh; 2]) -> Draft<'a> {
+    let out = Vector::from(promised.out);
+    let view = Viewpoint::of(jig, &Frame::with_axis(jig.aabb().center(), &out));
+    let (id, joint) = (&promised.id, &promised.joint);
+    Draft {
+        file: format!("pictures/{id}.png"),
+        role: Role::Jig,
+        caption: format!("{id} holds the parts of {joint}: press them down and together."),
+        alt: format!("The object lies in {id}, a grey cradle under both sides of joint {joint}."),
+        shot: Shot {
+            scene: Scene {
+                items: vec![Item::new(outer, BODY), Item::new(jig, HARDWARE)],
                 cut: None,
             },
             camera: view.camera,

@@ -17,6 +17,8 @@ pub enum Role {
     Part,
     /// Join: both faces of a joint, opened like a book.
     Joint,
+    /// Join: the object in a jig.
+    Jig,
     /// Certificate: a cut with its dimensions.
     Cut,
     /// Hardware: the halves of a yo-yo on their axle.

@@ -2,11 +2,11 @@
 
 use maud::{Markup, html};
 
-use super::fields::blank;
+use super::fields::{blank, file_name};
 use crate::base::numbers::{measured, quantity};
 use crate::base::units::format_count;
 use crate::goal::GoalKind;
-use crate::sheet::{Checklist, GlueRow, JointRow};
+use crate::sheet::{Checklist, GlueRow, JigRow, JointRow};
 
 /// Number of pins that align a joint fully, if it has no note.
 const ONE_WAY_PINS: usize = 2;
@@ -100,7 +100,7 @@ impl Closing<'_> {
     }
 
     /// Returns how the joints are aligned: their pins, and their notes.
-    fn alignment(&self) -> Markup {
+    fn alignment(&self, sheet: &Checklist) -> Markup {
         let is_one = self.joints.len() == 1;
         html! {
             @for joint in &self.joints {
@@ -110,7 +110,12 @@ impl Closing<'_> {
                         (format_count(joint.pins, "pin"))
                         ", " (quantity(joint.clearance_mm, "mm")) " of room on each side"
                     }
-                    @else if joint.note.is_none() { "no pins: match the outlines by eye" }
+                    @if let Some(jig) = jig_of(sheet, joint) {
+                        @if joint.pins > 0 { "; " }
+                        (jig_words(jig))
+                    }
+                    @else if joint.pins == 0 && joint.note.is_none() { "no pins: match the outlines by eye" }
+                    @if let Some(play) = joint.play { "; step at the rim at most " (measured(play.step_mm, "mm")) }
                     @if let Some(note) = &joint.note { @if joint.pins > 0 { "; " } strong { (note) } }
                     @if let Some(other) = self.guide_of(joint) { "; the pins of " (other.id) " align it, as both close together" }
                 }
@@ -130,7 +135,35 @@ pub(super) fn dry_fit(sheet: &Checklist) -> Markup {
                     strong { (closing.name()) } ": " (closing.movement())
                     @if closing.joints.iter().any(|joint| joint.pins > 0) { ", every pin all the way in" }
                     ". "
-                    (closing.alignment())
+                    (closing.alignment(sheet))
+                }
+            }
+        }
+    }
+}
+
+/// Returns the jig that holds a joint; `None` if it has none.
+fn jig_of<'a>(sheet: &'a Checklist, joint: &JointRow) -> Option<&'a JigRow> {
+    sheet.jigs.iter().find(|jig| jig.order.joint == joint.id)
+}
+
+/// Words how a jig holds a joint.
+fn jig_words(jig: &JigRow) -> Markup {
+    html! { "held by " strong { (jig.order.id) } ": press both parts down into it and together" }
+}
+
+/// Returns how jigs are used: one step for each; empty without jigs.
+fn jig_steps(sheet: &Checklist) -> Markup {
+    html! {
+        @if !sheet.jigs.is_empty() {
+            p { "Jigs are tools, no parts of the object. A jig cradles the outside on both sides of the seam and leaves the seam free." }
+            ul class="ticks" {
+                @for jig in &sheet.jigs {
+                    li {
+                        strong { (jig.order.id) } " (" (file_name(&jig.order.file)) "): lay both parts of "
+                        (jig.order.joint) " in the jig, glue them, press them down and together, wipe the seam, "
+                        "let the glue set, and pull the jig off straight."
+                    }
                 }
             }
         }
@@ -147,6 +180,7 @@ pub(super) fn glue(sheet: &Checklist) -> Markup {
                 p { "Let each row harden before the next. Joints in the same row: put glue on all of them, then close them together." }
             }
         }
+        (jig_steps(sheet))
         table class="stack" {
             thead {
                 tr {
@@ -303,7 +337,11 @@ mod tests {
             crossed.joints[index].pins = pins;
             crossed.joints[index].note = (pins == 0).then(|| "no room for pins".to_owned());
         }
-        let words = |closing: usize| closings(&crossed)[closing].alignment().into_string();
+        let words = |closing: usize| {
+            closings(&crossed)[closing]
+                .alignment(&crossed)
+                .into_string()
+        };
         // J1 closes alone; J2 closes with J4.
         assert!(!words(0).contains("align it"), "{}", words(0));
         assert!(

@@ -4,7 +4,7 @@
 use super::cut_drawing::CutFace;
 use super::figure::{Picture, Role};
 use super::plane_map::{PlaneMap, Window, bounds, doubled_area_mm2, flat, is_inside};
-use crate::base::numbers::{measured, number};
+use crate::base::numbers::{measured, number, quantity};
 use crate::draw::{Anchor, Color, Drawing, Drawn, PAPER, PIN, Paint, Spot, Stroke, part_color};
 use crate::geom::Vector;
 use crate::sheet::{Checklist, JointRow};
@@ -90,7 +90,7 @@ impl<'a> Book<'a> {
 
     fn picture(&self) -> Picture {
         let [below, above] = self.parts;
-        let sizes = self.sizes();
+        let sizes = [self.sizes(), self.play()].concat();
         Picture {
             file: format!("pictures/joint-{}.svg", self.joint.id),
             role: Role::Joint,
@@ -104,6 +104,22 @@ impl<'a> Book<'a> {
             ),
             drawn: Drawn::Svg(self.draw()),
         }
+    }
+
+    /// Words the play of the pins and the step that it leaves; empty without.
+    fn play(&self) -> String {
+        let Some(play) = self.joint.play else {
+            return String::new();
+        };
+        let limit = self.sheet.printer.seam_step_mm;
+        let limit = limit.map(|mm| format!(" (accepted: {})", quantity(mm, "mm")));
+        format!(
+            " Play: {} and {}; step at the rim at most {}{}.",
+            measured(play.shift_mm, "mm"),
+            measured(play.turn_deg, "°"),
+            measured(play.step_mm, "mm"),
+            limit.unwrap_or_default(),
+        )
     }
 
     /// Words the sizes of the pins; without pins says so.
@@ -121,6 +137,14 @@ impl<'a> Book<'a> {
             )
         };
         let pins: Vec<String> = pins.map(words).collect();
+        let jig = self
+            .sheet
+            .jigs
+            .iter()
+            .find(|jig| jig.order.joint == self.joint.id);
+        if let Some(jig) = jig.filter(|_| pins.is_empty()) {
+            return format!("It has no printed pins; {} holds it.", jig.order.id);
+        }
         if pins.is_empty() {
             return "It has no printed pins.".to_owned();
         }

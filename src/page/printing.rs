@@ -6,7 +6,7 @@ use super::fields::{file_name, half_name};
 use super::figure::Picture;
 use super::hardware::bar;
 use super::support;
-use crate::base::numbers::quantity;
+use crate::base::numbers::{measured_extent, quantity};
 use crate::base::units::MM3_PER_CM3;
 use crate::sheet::{Checklist, PartRow, Process};
 
@@ -29,7 +29,25 @@ pub(super) fn print_step(sheet: &Checklist, pictures: &[Picture]) -> Markup {
             }
         }
         div class="cards" { @for part in &sheet.parts { (card(part, pictures)) } }
+        (jigs(sheet))
         (bought(sheet))
+    }
+}
+
+/// Lists the jigs, which are printed as tools; empty if there are none.
+fn jigs(sheet: &Checklist) -> Markup {
+    html! {
+        @if !sheet.jigs.is_empty() {
+            p { "Tools to print as well, of any material. Each lies as in its file and needs no support; it is not weighed:" }
+            ul class="ticks" {
+                @for jig in &sheet.jigs {
+                    li {
+                        strong { (jig.order.id) } ", for joint " (jig.order.joint) ", "
+                        (measured_extent(&jig.size_mm)) ": " (file_name(&jig.order.file))
+                    }
+                }
+            }
+        }
     }
 }
 

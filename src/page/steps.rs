@@ -45,7 +45,11 @@ fn all_steps(sheet: &Checklist, pictures: &[Picture]) -> Vec<Step> {
     let step = |name, body| Some(Step { name, body });
     let clean = html! { (clean(sheet, pictures)) (weigh_parts(sheet)) };
     let fit = html! { (dry_fit(sheet)) (figures(pictures, Role::Joint)) };
-    let glued = html! { (glue(sheet)) (figures(pictures, Role::Exploded)) };
+    let glued = html! {
+        (glue(sheet))
+        (figures(pictures, Role::Jig))
+        (figures(pictures, Role::Exploded))
+    };
     // What goes into the voids goes in between the dry fit and the glue.
     let between = [
         sheet

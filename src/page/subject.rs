@@ -3,7 +3,7 @@
 use crate::geom::{Parting, Plane};
 use crate::mesh::TriMesh;
 use crate::verify::{
-    Aim, BallastOrder, Hardware, HardwareKind, PartEvidence, Peg, PromisedPart, Shells,
+    Aim, BallastOrder, Hardware, HardwareKind, PartEvidence, Peg, PromisedJig, PromisedPart, Shells,
 };
 
 /// The subject of the pictures.
@@ -17,6 +17,10 @@ pub struct Subject<'a> {
     pub promised: &'a [PromisedPart],
     /// Cuts between them, model frame.
     pub cuts: &'a [Parting],
+    /// Jigs, print frame.
+    pub jigs: &'a [PartEvidence],
+    /// Promises of these jigs, in the same order.
+    pub promised_jigs: &'a [PromisedJig],
     /// Goal; its axis points up in the pictures.
     pub aim: Aim,
     /// Hardware, model frame.

@@ -7,7 +7,7 @@ use crate::io::stl;
 use crate::make::{File, packages, repack};
 use crate::page::{Picture, Subject, View, render_pictures};
 use crate::repair::weld;
-use crate::run::{Made, Placed};
+use crate::run::{Made, Placed, WrittenJig};
 use crate::sheet::Verdict;
 use crate::sheet::from_run::{promise, promised_figure};
 use crate::verify::{Evidence, Judgement, PromisedFigure, Shells, checks, judge};
@@ -56,6 +56,7 @@ pub fn draft(placed: &Placed, made: Made, watch: &Watch) -> Result<Draft, Error>
         promise: promise(placed, &made),
         hollowed: stl::decode(&hollowed)?,
         parts: made.evidence(),
+        jigs: made.jigs.iter().map(WrittenJig::evidence).collect(),
     };
     let shells = Shells::of_mesh(&weld(&evidence.hollowed));
     let cuts = made.plan.partings()?;
@@ -95,6 +96,8 @@ fn subject<'a>(evidence: &'a Evidence, shells: &'a Shells, cuts: &'a [Parting]) 
         shells,
         parts: &evidence.parts,
         promised: &promise.parts,
+        jigs: &evidence.jigs,
+        promised_jigs: &promise.jigs,
         cuts,
         aim: promise.goal,
         hardware: &promise.hardware,

@@ -65,6 +65,9 @@ fn files(placed: &Placed, draft: &Draft) -> Result<Kit, Error> {
     for part in &draft.made.parts {
         kit.add(&part.file, part.bytes.clone());
     }
+    for jig in &draft.made.jigs {
+        kit.add(&jig.file, jig.bytes.clone());
+    }
     for (file, bytes) in &draft.packages {
         kit.add(file, bytes.clone());
     }

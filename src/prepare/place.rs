@@ -46,6 +46,7 @@ pub fn goal(job: &Job, model: Model, shop: Shop, watch: &Watch) -> Result<Placed
     bound.model.sha256 = Some(model.sha256.clone());
     let placed = Placed {
         fill: fill(job, stock.density_g_cm3)?,
+        policy: Policy::with_joint_price(bound.joint_price_ratio),
         job: bound,
         model,
         shop,
@@ -53,7 +54,6 @@ pub fn goal(job: &Job, model: Model, shop: Shop, watch: &Watch) -> Result<Placed
         choice,
         placement,
         fitted: None,
-        policy: Policy::STANDARD,
     };
     hardware::fit(waterline::choose(placed, watch)?, watch)
 }

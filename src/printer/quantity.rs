@@ -68,6 +68,8 @@ pub enum Quantity {
     PinMinDiameterMm,
     /// Length of a pin over its diameter.
     PinLengthRatio,
+    /// The largest step at the rim of a seam that is accepted.
+    SeamStepMm,
     /// Gap between pin and socket on each side, for a joint that is glued.
     ClearancePerSideMm,
     /// Gap on each side for a joint that is pressed together and holds.
@@ -103,7 +105,7 @@ pub enum Quantity {
 
 impl Quantity {
     /// Every quantity, in order.
-    pub const ALL: [Self; 31] = [
+    pub const ALL: [Self; 32] = [
         Self::PixelXMm,
         Self::PixelYMm,
         Self::LayerMm,
@@ -120,6 +122,7 @@ impl Quantity {
         Self::OverhangDeg,
         Self::PinMinDiameterMm,
         Self::PinLengthRatio,
+        Self::SeamStepMm,
         Self::ClearancePerSideMm,
         Self::ClearancePressPerSideMm,
         Self::ClearanceLoosePerSideMm,
@@ -156,6 +159,7 @@ impl Quantity {
             Self::OverhangDeg => "overhang_deg",
             Self::PinMinDiameterMm => "pin_min_diameter_mm",
             Self::PinLengthRatio => "pin_length_ratio",
+            Self::SeamStepMm => "seam_step_mm",
             Self::ClearancePerSideMm => "clearance_per_side_mm",
             Self::ClearancePressPerSideMm => "clearance_press_per_side_mm",
             Self::ClearanceLoosePerSideMm => "clearance_loose_per_side_mm",
@@ -187,6 +191,7 @@ impl Quantity {
                 | Self::PairOpeningMm
                 | Self::CleaningReachMm
                 | Self::OverhangDeg
+                | Self::SeamStepMm
                 | Self::ClearancePressPerSideMm
                 | Self::ClearanceLoosePerSideMm
                 | Self::ElephantFootMm
@@ -220,7 +225,8 @@ impl Quantity {
             Self::OverhangDeg => OVERHANG_DEG,
             Self::PinMinDiameterMm => FINEST_MM..=50.0,
             Self::PinLengthRatio => 0.1..=10.0,
-            Self::ClearancePerSideMm
+            Self::SeamStepMm
+            | Self::ClearancePerSideMm
             | Self::ClearancePressPerSideMm
             | Self::ClearanceLoosePerSideMm
             | Self::ElephantFootMm

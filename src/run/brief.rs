@@ -9,7 +9,7 @@ use crate::hollow::Fill;
 use crate::job::Job;
 use crate::mass::{Moments, moments_of_mesh};
 use crate::mesh::Solid;
-use crate::printer::{Material, Printer, WallChoice};
+use crate::printer::{Material, Printer, Quantity, WallChoice};
 use crate::repair::Repairs;
 
 /// A model that bounds one solid body, in mm.
@@ -97,6 +97,12 @@ impl Placed {
     pub fn minimum_wall_mm(&self) -> f64 {
         let size_mm = self.solid().mesh().longest_side_mm();
         self.shop.printer.least_wall_mm(size_mm).value
+    }
+
+    /// Returns the largest step at the rim of a seam, mm; `None` if the profile names none.
+    pub fn seam_step_mm(&self) -> Option<f64> {
+        let step = self.shop.printer.number(Quantity::SeamStepMm);
+        step.map(|step| step.value)
     }
 
     /// Returns the moments of the hardware in volumes of the printed material, model frame; zero

@@ -2,7 +2,7 @@
 
 use super::{BossRound, CleaningRound, HeightProof, Remark};
 use crate::ballast::Load;
-use crate::cut::{CutPlan, Hollowed, Part};
+use crate::cut::{CutPlan, Hollowed, Jig, JointId, Part};
 use crate::hollow::{Solution, TopCourse};
 use crate::mass::Moments;
 use crate::mesh::TriMesh;
@@ -29,6 +29,8 @@ pub struct Made {
     pub remarks: Vec<Remark>,
     /// The parts.
     pub parts: Vec<WrittenPart>,
+    /// The jigs for joints that nothing else aligns: tools, no part of the object.
+    pub jigs: Vec<WrittenJig>,
     /// Number of times that it was solved again.
     pub rounds: usize,
     /// Figure of the certificate before anything was kept solid.
@@ -46,9 +48,45 @@ impl Made {
         assembly_moments(&self.evidence())
     }
 
+    /// Returns the jig of the joint with this index; `None` if it needs or has none.
+    pub fn jig_of(&self, joint: usize) -> Option<&WrittenJig> {
+        self.jigs.iter().find(|jig| jig.jig.joint == joint)
+    }
+
     /// Returns the parts as the judge reads them.
     pub fn evidence(&self) -> Vec<PartEvidence> {
         self.parts.iter().map(WrittenPart::evidence).collect()
+    }
+}
+
+/// A jig as it is written.
+#[derive(Debug, Clone)]
+pub struct WrittenJig {
+    /// The jig.
+    pub jig: Jig,
+    /// Its file, relative to the kit.
+    pub file: String,
+    /// The bytes of its file.
+    pub bytes: Vec<u8>,
+    /// The triangles read back from those bytes, print pose, in the jig's own size.
+    pub read_back: TriMesh,
+}
+
+impl WrittenJig {
+    /// Returns its name: that of its joint after `jig-`.
+    pub fn id(&self) -> String {
+        format!("jig-{}", JointId::of(self.jig.joint))
+    }
+
+    /// Returns the jig as the judge reads it.
+    pub fn evidence(&self) -> PartEvidence {
+        PartEvidence {
+            id: self.id(),
+            mesh: self.read_back.clone(),
+            pose: Pose {
+                rows: self.jig.print_from_model,
+            },
+        }
     }
 }
 

@@ -20,7 +20,7 @@ mod remark;
 mod solved;
 
 pub use brief::{Model, Placed, Shop};
-pub use made::{Made, WrittenPart};
+pub use made::{Made, WrittenJig, WrittenPart};
 pub use natural::NaturalUp;
 pub use opened::{Achieved, BossRound, CleaningRound, KeptBoss, KeptSolid, Opened, Voids};
 pub use policy::{Policy, Rung};

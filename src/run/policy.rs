@@ -63,8 +63,13 @@ pub struct Policy {
     pub cheap_loss_ratio: f64,
     /// Greatest loss for pins if some joint stays without them.
     pub partial_loss_ratio: f64,
-    /// Greatest loss for pins in every joint. Beyond it the kit has lost what it was made for.
+    /// Greatest loss for pins in every joint. Beyond it a jig holds the joint, which costs nothing.
     pub dear_loss_ratio: f64,
+    /// Greatest loss for pins that a person ordered. Beyond it the kit has lost what it was made
+    /// for.
+    pub ordered_loss_ratio: f64,
+    /// Least distance of a joint's farthest pins, as a share of the joint's longest diagonal.
+    pub pin_spread_ratio: f64,
     /// Greatest share of the voids that may become solid for pins. Some figures hardly tell: a
     /// toppling angle barely changes when all voids are lost.
     pub max_void_loss_ratio: f64,
@@ -108,11 +113,26 @@ pub struct Policy {
 }
 
 impl Policy {
+    /// Returns the policy of a run whose joints may cost this share of the goal's figure; the usual
+    /// share if `None`.
+    pub fn with_joint_price(ratio: Option<f64>) -> Self {
+        let usual = Self::STANDARD;
+        let ratio = ratio.unwrap_or(usual.dear_loss_ratio);
+        Self {
+            cheap_loss_ratio: usual.cheap_loss_ratio.min(ratio),
+            partial_loss_ratio: ratio,
+            dear_loss_ratio: ratio,
+            ..usual
+        }
+    }
+
     /// The policy of every run.
     pub const STANDARD: Self = Self {
         cheap_loss_ratio: 0.1,
-        partial_loss_ratio: 0.35,
-        dear_loss_ratio: 0.65,
+        partial_loss_ratio: 0.15,
+        dear_loss_ratio: 0.15,
+        ordered_loss_ratio: 0.65,
+        pin_spread_ratio: PlanRequest::SPREAD_RATIO,
         max_void_loss_ratio: 0.5,
         ends_margin_openings: 0.25,
         max_ends: 3,

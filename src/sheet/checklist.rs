@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::certificate::Certificate;
 use super::goal::{FootRow, GoalRow, TurnRow};
-use super::joints::{BallastRow, CutListRow, JointRow, RoundRow};
+use super::joints::{BallastRow, CutListRow, JigRow, JointRow, RoundRow};
 use super::parts::PartRow;
 use super::printer::{GridRow, MaterialRow, PrinterRow, WallRow};
 use super::timing::Timing;
@@ -56,6 +56,9 @@ pub struct Checklist {
     pub parts: Vec<PartRow>,
     /// Glue joints, in the order they are made.
     pub joints: Vec<JointRow>,
+    /// Jigs that hold parts while their glue sets: tools, not counted in any mass.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub jigs: Vec<JigRow>,
     /// Lengths of walls, pins and cut faces as the machine's pixels, lines and layers make them.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub grid: Vec<GridRow>,

@@ -2,7 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::verify::{BallastOrder, GlueFilm};
+use crate::geom::play::Play;
+use crate::verify::{BallastOrder, GlueFilm, HeldBy, PromisedJig};
 
 /// A glue joint.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -19,6 +20,12 @@ pub struct JointRow {
     pub pins: usize,
     /// Gap between pin and socket on each side, mm.
     pub clearance_mm: f64,
+    /// Way in which its parts are aligned; `Eye` in kits of older versions.
+    #[serde(default = "by_eye")]
+    pub held_by: HeldBy,
+    /// Play that its pins leave; `None` if they leave a turn free, or there are fewer than two.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub play: Option<Play>,
     /// Film of glue, which the figures of the assembly count; `None` if the printer's profile does
     /// not give it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -26,6 +33,25 @@ pub struct JointRow {
     /// Warning for whoever glues it, such as that it has no room for pins.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub note: Option<String>,
+}
+
+/// Returns the way in which nothing printed aligns a joint.
+fn by_eye() -> HeldBy {
+    HeldBy::Eye
+}
+
+/// A jig: a printed cradle that holds the parts of a joint while the glue sets. A tool, no part.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct JigRow {
+    /// Name on the sheet, joint, file and place.
+    #[serde(flatten)]
+    pub order: PromisedJig,
+    /// Extent on the plate, mm.
+    pub size_mm: [f64; 3],
+    /// Volume, mm³.
+    pub volume_mm3: f64,
+    /// Mass, g, which the assembly does not count.
+    pub mass_g: f64,
 }
 
 /// A round in which material was kept solid around pins and everything was solved again.

@@ -15,7 +15,7 @@ mod voids;
 pub use certificate::{Certificate, CleaningRow, Course, HeightProof, KeptRow, PassRow, SpeedRow};
 pub use checklist::{Checklist, ChecklistError, LogRow, ModelRow, Tool, Verdict};
 pub use goal::{FootRow, GoalRow, ObjectiveName, ShaftKind, ShaftRow, TurnRow};
-pub use joints::{BallastRow, BossRow, CutListRow, JointRow, RoundRow};
+pub use joints::{BallastRow, BossRow, CutListRow, JigRow, JointRow, RoundRow};
 pub use parts::{Half, PartRow, SupportRow, finished_size_mm, part_picture_file};
 pub use printer::{
     Direction, GlueRow, GridRow, MaterialRow, PrinterRow, Process, SupportMethod, WallRow,

@@ -36,6 +36,12 @@ pub struct PrinterRow {
     pub minimum_opening_mm: f64,
     /// Rule by which a void counts as clean.
     pub cleaning: Cleaning,
+    /// Diameter of the thinnest printed pin, mm; `None` in kits of older versions.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub least_pin_mm: Option<f64>,
+    /// Largest step at the rim of a seam, mm; `None` if the profile names none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub seam_step_mm: Option<f64>,
     /// Glue for its materials; `None` if its profile names none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub glue: Option<GlueRow>,

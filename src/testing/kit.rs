@@ -8,8 +8,8 @@ use crate::sheet::part_picture_file;
 use crate::sheet::*;
 use crate::verify::judge_tests::{judge, sound_kit};
 use crate::verify::{
-    Cleaning, Evidence, FigureName, Judgement, PartFacts, Promise, PromisedCut, PromisedFigure,
-    PromisedPart, PromisedVoid, Shells,
+    Cleaning, Evidence, FigureName, HeldBy, Judgement, PartFacts, Promise, PromisedCut,
+    PromisedFigure, PromisedPart, PromisedVoid, Shells,
 };
 
 /// The cleaning rule of a water jet.
@@ -64,6 +64,8 @@ pub fn sample_pictures(sheet: &Checklist, evidence: &Evidence) -> (Vec<Picture>,
         ..
     } = &evidence.promise;
     let subject = Subject {
+        jigs: &evidence.jigs,
+        promised_jigs: &evidence.promise.jigs,
         shells: &shells,
         parts: &evidence.parts,
         promised,
@@ -135,6 +137,7 @@ fn checklist(evidence: &Evidence, found: &Judgement) -> Checklist {
         cuts: vec![cut()],
         parts: parts(evidence, found),
         joints: vec![joint()],
+        jigs: Vec::new(),
         grid: vec![grid_row()],
         hardware: vec![],
         dowels: vec![],
@@ -222,6 +225,8 @@ fn printer() -> PrinterRow {
         minimum_wall_mm: 1.0,
         minimum_opening_mm: 4.0,
         cleaning: CLEANING,
+        least_pin_mm: Some(2.0),
+        seam_step_mm: Some(0.3),
         glue: Some(GlueRow {
             name: "thin cyanoacrylate (super glue)".into(),
             hold_s: Some(60.0),
@@ -291,6 +296,8 @@ fn joint() -> JointRow {
         area_mm2: 60.0 * 40.0 - 54.0 * 34.0,
         pins: 0,
         clearance_mm: 0.2,
+        held_by: HeldBy::Eye,
+        play: None,
         glue: None,
         note: None,
     }

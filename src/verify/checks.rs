@@ -4,12 +4,15 @@ use super::goal_checks::{figure_check, goal_checks};
 use super::hardware::HardwareKind;
 use super::joints::FilmError;
 use super::limits::{
-    FILM_LIMIT_RATIO, GAP_TOLERANCE_MM, GRIP_TOLERANCE_MM, LEAST_GRIP_DIAMETERS, PIN_LIMIT_MM,
-    POSE_LIMIT_RATIO, RESTING_LIMIT_MM, STRING_GAP_TOLERANCE_MM, VOLUME_SUM_LIMIT_RATIO,
-    WALL_TOLERANCE_MM,
+    FILM_LIMIT_RATIO, GAP_TOLERANCE_MM, GRIP_TOLERANCE_MM, JIG_SEAM_LIMIT_MM, LEAST_GRIP_DIAMETERS,
+    PIN_LIMIT_MM, POSE_LIMIT_RATIO, RESTING_LIMIT_MM, STRING_GAP_TOLERANCE_MM,
+    VOLUME_SUM_LIMIT_RATIO, WALL_TOLERANCE_MM,
 };
+use super::play::worst_joint;
 use super::void_checks::void_checks;
-use super::{Check, CheckKind, Judgement, Limit, PartFacts, Peg, PegFacts, Promise, PromisedPart};
+use super::{
+    Check, CheckKind, JigFacts, Judgement, Limit, PartFacts, Peg, PegFacts, Promise, PromisedPart,
+};
 
 /// Returns all checks of a kit, in the order of a person's questions. Does it do what was ordered?
 /// Is the wall there? Can it be printed? Do the parts make the whole?
@@ -28,16 +31,19 @@ pub fn checks(promise: &Promise, found: &Judgement) -> Vec<Check> {
     checks.extend(fit_checks(promise, found));
     checks.extend(found.ballast_room_mm.map(ballast_check));
     checks.extend(surface_checks(found));
-    checks.extend(plate_checks(&found.parts));
+    let printed = printed(found);
+    checks.extend(plate_checks(&printed));
     checks.extend(
         promise
             .printer
             .build_volume_mm
-            .map(|room| room_check(&found.parts, room)),
+            .map(|room| room_check(&printed, room)),
     );
     checks.extend(void_checks(promise, &found.voids));
     checks.push(volume_check(promise, found));
     checks.extend(joint_checks(promise, found));
+    checks.extend(step_check(promise, found));
+    checks.extend(jig_checks(&found.jigs));
     checks.extend(found.film_error.as_ref().map(film_check));
     checks.extend(found.lost_strokes.map(marks_check));
     checks
@@ -101,11 +107,18 @@ fn ballast_check(room_mm: f64) -> Check {
     )
 }
 
+/// Returns the facts about all that is printed: parts and jigs.
+fn printed(found: &Judgement) -> Vec<PartFacts> {
+    let jigs = found.jigs.iter().map(|jig| &jig.part);
+    found.parts.iter().chain(jigs).cloned().collect()
+}
+
 /// Checks that the surfaces of all files can be printed.
 fn surface_checks(found: &Judgement) -> Vec<Check> {
+    let printed = printed(found);
     let uncut = std::iter::once(("hollowed.stl", &found.surface));
     let surfaces: Vec<_> = uncut
-        .chain(found.parts.iter().map(|p| (p.id.as_str(), &p.surface)))
+        .chain(printed.iter().map(|p| (p.id.as_str(), &p.surface)))
         .collect();
     let broken = surfaces
         .iter()
@@ -241,6 +254,40 @@ fn socket_wall_check(promise: &Promise, wall_mm: Option<f64>) -> Check {
         wall_mm,
         limit,
     )
+}
+
+/// Checks that pins leave no large step at the rim of their joint. `None` if no joint is held by
+/// pins, or the process has no limit.
+fn step_check(promise: &Promise, found: &Judgement) -> Option<Check> {
+    let limit_mm = promise.printer.seam_step_mm?;
+    let worst = worst_joint(promise, &found.joints)?;
+    let words = "the parts of every joint meet at its rim, however its pins are pushed, within";
+    let limit = Limit::at_most(limit_mm, "mm");
+    let check = Check::new(CheckKind::JointStep, words, Some(worst.step_mm()), limit);
+    Some(check.at(Some(worst.id.clone())))
+}
+
+/// Checks that every jig comes off, keeps its gap and leaves the seam free; empty without jigs.
+fn jig_checks(jigs: &[JigFacts]) -> Vec<Check> {
+    let worst = |value: fn(&JigFacts) -> f64| {
+        let worst = jigs.iter().max_by(|a, b| value(a).total_cmp(&value(b)));
+        worst.map(|jig| (value(jig), Some(jig.part.id.clone())))
+    };
+    let caught = worst(|jig| jig.caught as f64).map(|(caught, at)| {
+        let words = "every jig comes off straight, and nothing catches it";
+        no_faults(CheckKind::JigWay, words, caught as usize).at(at)
+    });
+    let gap = worst(|jig| jig.ordered_gap_mm - jig.gap_mm).map(|(lack_mm, at)| {
+        let words = "every jig keeps its gap from the outside; it lacks";
+        let limit = Limit::at_most(GAP_TOLERANCE_MM, "mm");
+        Check::new(CheckKind::JigGap, words, Some(lack_mm), limit).at(at)
+    });
+    let seam = worst(|jig| -jig.seam_mm).map(|(over_mm, at)| {
+        let words = "every jig leaves room along its seam of";
+        let limit = Limit::at_least(JIG_SEAM_LIMIT_MM, "mm");
+        Check::new(CheckKind::JigSeam, words, Some(-over_mm), limit).at(at)
+    });
+    caught.into_iter().chain(gap).chain(seam).collect()
 }
 
 /// Checks that all strokes of the engraved ids are there.

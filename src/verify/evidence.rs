@@ -13,6 +13,8 @@ pub struct Evidence {
     pub hollowed: TriMesh,
     /// The parts, in the order of the checklist.
     pub parts: Vec<PartEvidence>,
+    /// The jigs, in the order of the checklist.
+    pub jigs: Vec<PartEvidence>,
 }
 
 /// One part as it was read back.

@@ -6,9 +6,11 @@ use super::ballast::{ballast_moments, fill_moments, least_room_mm};
 use super::checks::checks;
 use super::cleaning::inspect_voids;
 use super::hardware::{mass_moments, measure_fit};
+use super::jigs::measure_jigs;
 use super::joints::{count_lost_strokes, film_error, film_moments};
 use super::part_probe::PartProbe;
 use super::pegs::{count_overlaps, measure_pegs};
+use super::play::measure_joints;
 use super::{
     Evidence, Figures, Judgement, PartEvidence, PartFacts, Setting, Shells, SpinFacts,
     SurfaceFacts, assembly_moments,
@@ -38,6 +40,7 @@ pub fn judge(evidence: &Evidence, watch: &Watch) -> Result<Judgement, Cancelled>
     let assembled = assembly_moments(&evidence.parts);
     let probes: Vec<PartProbe> = evidence.parts.par_iter().map(PartProbe::new).collect();
     let part_facts = |part: &PartEvidence| PartFacts::of_part(part, watch);
+    let jigs = measure_jigs(evidence, &outer, watch)?;
     let figures = |printed: &Moments, load: &Moments| {
         watch.check()?;
         Ok(Figures::with_load(printed, load, &setting))
@@ -62,6 +65,8 @@ pub fn judge(evidence: &Evidence, watch: &Watch) -> Result<Judgement, Cancelled>
         spin: SpinFacts::of_top(&promise.goal, &promise.hardware, &outer),
         ballast_room_mm: least_room_mm(&promise.ballast, &welded, &outer),
         pegs: measure_pegs(promise, &probes, &evidence.hollowed, watch)?,
+        joints: measure_joints(promise, &evidence.parts, &jigs),
+        jigs,
         overlaps: count_overlaps(&probes, watch)?,
         voids: inspect_voids(promise, &shells.inward, &probes, watch)?,
         film_error: film_error(promise, &evidence.parts),

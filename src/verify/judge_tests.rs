@@ -37,6 +37,7 @@ pub(crate) fn sound_kit() -> Evidence {
         promise: promise(&poses),
         hollowed,
         parts: vec![part(0), part(1)],
+        jigs: Vec::new(),
     }
 }
 
@@ -59,6 +60,7 @@ fn promise(poses: &[Pose]) -> Promise {
             minimum_wall_mm: 1.0,
             minimum_opening_mm: None,
             cleaning: None,
+            seam_step_mm: Some(0.3),
         },
         material: Density { density_g_cm3: 1.2 },
         goal: Aim::new(GoalKind::Top, [0.0; 3], [0.0, 0.0, 1.0]),
@@ -73,6 +75,7 @@ fn promise(poses: &[Pose]) -> Promise {
         ballast: Vec::new(),
         fill: None,
         joints: vec![],
+        jigs: Vec::new(),
         files: Default::default(),
     }
 }

@@ -2,7 +2,8 @@
 
 use super::joints::FilmError;
 use super::{
-    Check, Figures, FileChange, Fit, PartFacts, PegFacts, SpinFacts, SurfaceFacts, VoidFacts,
+    Check, Figures, FileChange, Fit, JigFacts, JointFacts, PartFacts, PegFacts, SpinFacts,
+    SurfaceFacts, VoidFacts,
 };
 
 /// The judgement of a kit.
@@ -28,6 +29,10 @@ pub struct Judgement {
     pub ballast_room_mm: Option<f64>,
     /// Every pin and its socket, as found in the files.
     pub pegs: Vec<PegFacts>,
+    /// Facts about each jig.
+    pub jigs: Vec<JigFacts>,
+    /// The play of every joint.
+    pub joints: Vec<JointFacts>,
     /// Number of sample points just under the parts' surfaces that lie in another part too.
     pub overlaps: usize,
     /// Facts about every void in the parts; empty if no cleaning was ordered.

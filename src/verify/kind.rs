@@ -85,8 +85,16 @@ pub enum CheckKind {
     Clearance,
     /// Walls around the sockets.
     SocketWall,
+    /// Steps at the rims of the joints, as far as their pins let the parts move.
+    JointStep,
     /// Parts that reach into each other.
     Overlap,
+    /// Jigs that do not come off.
+    JigWay,
+    /// Gaps between the jigs and the object.
+    JigGap,
+    /// Room that the jigs leave along the seams.
+    JigSeam,
     /// Films of glue against the faces they join.
     Glue,
     /// Strokes of the engraved ids.
@@ -142,7 +150,11 @@ impl fmt::Display for CheckKind {
             Self::Pins => "pins",
             Self::Clearance => "clearance",
             Self::SocketWall => "socket wall",
+            Self::JointStep => "joint step",
             Self::Overlap => "overlap",
+            Self::JigWay => "jig off",
+            Self::JigGap => "jig gap",
+            Self::JigSeam => "jig at seam",
             Self::Glue => "glue",
             Self::EngravedIds => "ids",
             Self::Checklist => "checklist",
@@ -158,7 +170,7 @@ mod tests {
     use serde_json::json;
 
     /// The keys and names of all kinds without data.
-    const KEYS: [(CheckKind, &str, &str); 33] = [
+    const KEYS: [(CheckKind, &str, &str); 37] = [
         (CheckKind::AxisOffset, "axis-offset", "axis offset"),
         (CheckKind::AxisTilt, "axis-tilt", "axis tilt"),
         (CheckKind::Dominance, "dominance", "dominance"),
@@ -206,7 +218,11 @@ mod tests {
         (CheckKind::Pins, "pins", "pins"),
         (CheckKind::Clearance, "clearance", "clearance"),
         (CheckKind::SocketWall, "socket-wall", "socket wall"),
+        (CheckKind::JointStep, "joint-step", "joint step"),
         (CheckKind::Overlap, "overlap", "overlap"),
+        (CheckKind::JigWay, "jig-way", "jig off"),
+        (CheckKind::JigGap, "jig-gap", "jig gap"),
+        (CheckKind::JigSeam, "jig-seam", "jig at seam"),
         (CheckKind::Glue, "glue", "glue"),
         (CheckKind::EngravedIds, "engraved-ids", "ids"),
         (CheckKind::Checklist, "checklist", "checklist"),

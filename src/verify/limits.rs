@@ -43,6 +43,9 @@ pub const POSE_LIMIT_RATIO: f64 = 1e-9;
 /// A pin or socket may be this far from its promised radius, length or depth, mm. The flats of a
 /// circle of 48 sides lie 0.004 mm inside it at 4 mm across. Above it a pin may bind or rattle.
 pub const PIN_LIMIT_MM: f64 = 0.02;
+/// A jig must leave this much room along the seam, mm, so that glue can be wiped off it and does
+/// not reach the jig.
+pub(super) const JIG_SEAM_LIMIT_MM: f64 = 3.0;
 /// The gap between a pin and its socket may be this much narrower than ordered, mm, for the
 /// rounding of files. A greater limit would consume the shop's own clearance, though printers are
 /// far less accurate.

@@ -24,11 +24,14 @@ mod support;
 mod water;
 // The facts about surfaces, parts and joints.
 mod cleaning;
+mod jigs;
 mod joints;
 mod measure;
 mod mouths;
 mod part_probe;
 mod pegs;
+mod play;
+mod rim;
 mod shells;
 // The checks and the verdict.
 mod check;
@@ -73,8 +76,8 @@ pub use fingerprint::{Fingerprint, Likeness};
 pub use hardware::{Hardware, HardwareKind};
 pub use pose::Pose;
 pub use promise::{
-    Aim, Density, FigureName, GlueFilm, Mark, Peg, PrinterLimits, Promise, PromisedCut,
-    PromisedFigure, PromisedJoint, PromisedPart, PromisedVoid, SCHEMA, WallOrder,
+    Aim, Density, FigureName, GlueFilm, HeldBy, Mark, Peg, PrinterLimits, Promise, PromisedCut,
+    PromisedFigure, PromisedJig, PromisedJoint, PromisedPart, PromisedVoid, SCHEMA, WallOrder,
 };
 pub use rotor::RotorOrder;
 pub use water::WaterOrder;
@@ -83,9 +86,11 @@ pub use water::WaterOrder;
 pub use cleaning::VoidFacts;
 pub use figures::{Figures, Setting};
 pub use hardware::{Fit, mass_moments};
+pub use jigs::JigFacts;
 pub use joints::FilmError;
 pub use measure::{PartFacts, SurfaceFacts};
 pub use pegs::PegFacts;
+pub use play::JointFacts;
 pub use rotor::Unbalance;
 pub use shells::Shells;
 pub use spin::SpinFacts;

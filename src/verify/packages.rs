@@ -40,8 +40,13 @@ enum Kind {
 /// If a package cannot be read.
 pub fn packages_check(folder: &Path, evidence: &Evidence) -> Result<Option<Check>, VerifyError> {
     let promise = &evidence.promise;
+    let is_jig = |file: &&String| {
+        let mut jigs = promise.jigs.iter();
+        jigs.any(|jig| Path::new(&jig.file).with_extension("3mf") == Path::new(*file))
+    };
     let is_beside = |file: &&String| {
-        file.ends_with(".3mf") && !promise.parts.iter().any(|part| part.file == **file)
+        let is_part = promise.parts.iter().any(|part| part.file == **file);
+        file.ends_with(".3mf") && !is_part && !is_jig(file)
     };
     let files: Vec<&String> = promise.files.keys().filter(is_beside).collect();
     if files.is_empty() {

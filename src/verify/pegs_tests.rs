@@ -42,6 +42,8 @@ fn kit_with_pin(pin: [f64; 2], socket: [f64; 2], shift: Vector) -> Evidence {
     evidence.promise.parts[1].sockets = vec![peg(SOCKET[0], SOCKET[1], volume(SOCKET))];
     let joint = PromisedJoint {
         id: "J1".to_owned(),
+        parts: ["P01".to_owned(), "P02".to_owned()],
+        held_by: None,
         clearance_mm: GAP_MM - 0.001,
         glue: None,
     };

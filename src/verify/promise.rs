@@ -58,6 +58,9 @@ pub struct Promise {
     /// The joints between them.
     #[serde(default)]
     pub joints: Vec<PromisedJoint>,
+    /// The jigs that hold parts while their glue sets.
+    #[serde(default)]
+    pub jigs: Vec<PromisedJig>,
     /// The SHA-256 of every other file of the kit, by path relative to its folder.
     #[serde(default)]
     pub files: BTreeMap<String, String>,
@@ -80,6 +83,9 @@ pub struct PrinterLimits {
     /// The rule by which a void counts as clean; `None` if that is not judged.
     #[serde(default)]
     pub cleaning: Option<Cleaning>,
+    /// The largest step at the rim of a seam, mm; `None` if that is not judged.
+    #[serde(default)]
+    pub seam_step_mm: Option<f64>,
 }
 
 /// The density the masses rest on.
@@ -289,11 +295,54 @@ pub struct Peg {
 pub struct PromisedJoint {
     /// The name on the sheet, such as `J1`.
     pub id: String,
+    /// The ids of the parts below and above it; empty in kits of older versions.
+    #[serde(default)]
+    pub parts: [String; 2],
     /// The gap between pin and socket on each side, mm.
     pub clearance_mm: f64,
+    /// The way in which its parts are aligned; `None` in kits of older versions.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub held_by: Option<HeldBy>,
     /// The film of glue in it; `None` if it is not known.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub glue: Option<GlueFilm>,
+}
+
+/// The way in which the parts of a joint are aligned while the glue sets.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum HeldBy {
+    /// Pins or dowels that fit one way only and leave no large step.
+    Pins,
+    /// A jig: a printed cradle of the outside.
+    Jig,
+    /// The eye of whoever glues it.
+    Eye,
+}
+
+/// A jig as the kit names it: a printed cradle that holds the parts of a joint.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct PromisedJig {
+    /// The name on the sheet, such as `jig-J1`.
+    pub id: String,
+    /// The joint.
+    pub joint: String,
+    /// Its file, relative to the kit.
+    pub file: String,
+    /// Model coordinates to print coordinates.
+    pub print_from_model: Pose,
+    /// The unit direction in which the object comes out of it, model frame.
+    pub out: [f64; 3],
+    /// A point of the joint's plane, model frame, mm.
+    pub point_mm: [f64; 3],
+    /// The unit normal of that plane.
+    pub normal: [f64; 3],
+    /// The gap between the jig and the outside, mm.
+    pub gap_mm: f64,
+    /// The distances of its ribs' faces from the plane on either side, mm.
+    pub ribs_mm: [f64; 2],
+    /// The depth to which a part is pressed into it, but for this, mm.
+    pub pressed_mm: f64,
 }
 
 /// The film of glue in a joint.

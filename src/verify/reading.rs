@@ -5,7 +5,7 @@ use std::path::Path;
 use serde_json::Value;
 
 use super::files::{CHECKLIST_FILE, HOLLOWED_FILE, is_inside_kit};
-use super::{Evidence, PartEvidence, Promise, SCHEMA, VerifyError};
+use super::{Evidence, PartEvidence, Pose, Promise, SCHEMA, VerifyError};
 use crate::geom::Vector;
 use crate::io::read_model;
 use crate::mesh::TriMesh;
@@ -14,17 +14,22 @@ use crate::mesh::TriMesh;
 pub(super) fn read_evidence(folder: &Path, promise: Promise) -> Result<Evidence, VerifyError> {
     check_files(folder, &promise)?;
     let hollowed = read_mesh(&folder.join(HOLLOWED_FILE))?;
-    let parts = promise.parts.iter().map(|part| {
-        let mesh = read_mesh(&folder.join(&part.file))?;
+    let read = |id: &str, file: &str, pose: Pose| {
+        let mesh = read_mesh(&folder.join(file))?;
         Ok(PartEvidence {
-            id: part.id.clone(),
+            id: id.to_owned(),
             mesh: undo_print_scale(mesh, promise.printer.print_scale_ratio),
-            pose: part.print_from_model,
+            pose,
         })
-    });
+    };
+    let parts = promise.parts.iter();
+    let parts = parts.map(|part| read(&part.id, &part.file, part.print_from_model));
+    let jigs = promise.jigs.iter();
+    let jigs = jigs.map(|jig| read(&jig.id, &jig.file, jig.print_from_model));
     Ok(Evidence {
         hollowed,
         parts: parts.collect::<Result<_, VerifyError>>()?,
+        jigs: jigs.collect::<Result<_, VerifyError>>()?,
         promise,
     })
 }
@@ -55,7 +60,10 @@ pub(super) fn read_checklist(folder: &Path) -> Result<(Promise, Value), VerifyEr
 
 /// Refuses a kit that names files outside of it, or that lacks a mesh.
 fn check_files(folder: &Path, promise: &Promise) -> Result<(), VerifyError> {
-    let parts = || promise.parts.iter().map(|part| &part.file);
+    let parts = || {
+        let jigs = promise.jigs.iter().map(|jig| &jig.file);
+        promise.parts.iter().map(|part| &part.file).chain(jigs)
+    };
     if let Some(file) = parts()
         .chain(promise.files.keys())
         .find(|file| !is_inside_kit(file))

@@ -5,8 +5,8 @@ use serde_json::{Map, Value, json};
 
 use super::limits::SHEET_LIMIT_RATIO;
 use super::{
-    Check, CheckKind, Evidence, FigureName, Fingerprint, Judgement, Limit, PartFacts, Promise,
-    PromisedJoint, PromisedVoid, Shells,
+    Check, CheckKind, Evidence, FigureName, Fingerprint, JointFacts, Judgement, Limit, PartFacts,
+    Promise, PromisedJoint, PromisedVoid, Shells,
 };
 use crate::base::units::MM3_PER_CM3;
 use crate::mass::moments_of_mesh;
@@ -97,8 +97,10 @@ pub(super) fn restate(sheet: &Value, evidence: &Evidence, judgement: &Judgement)
         json!({ "measured_min_mm": judgement.wall_min_mm }),
     );
     rows.insert("parts".to_owned(), json!(parts));
-    rows.insert("joints".to_owned(), json!(joint_rows(promise)));
-    if is_whole.into_iter().all(|whole| whole) {
+    let is_whole = is_whole.into_iter().all(|whole| whole);
+    let found = is_whole.then_some(&judgement.joints[..]);
+    rows.insert("joints".to_owned(), json!(joint_rows(promise, found)));
+    if is_whole {
         rows.extend(restate_whole(sheet, promise, judgement));
     }
     Value::Object(rows)
@@ -196,9 +198,9 @@ fn part_row(evidence: &Evidence, part: usize, facts: &PartFacts) -> Value {
     row
 }
 
-/// Returns the number of pins of every joint and the mass of its glue.
-fn joint_rows(promise: &Promise) -> Vec<Value> {
-    let row = |joint: &PromisedJoint| {
+/// Returns the number of pins of every joint, its play as found, and the mass of its glue.
+fn joint_rows(promise: &Promise, found: Option<&[JointFacts]>) -> Vec<Value> {
+    let row = |(index, joint): (usize, &PromisedJoint)| {
         let pegs = promise
             .parts
             .iter()
@@ -210,13 +212,17 @@ fn joint_rows(promise: &Promise) -> Vec<Value> {
         ids.sort();
         ids.dedup();
         let mut row = json!({ "id": joint.id, "pins": ids.len() });
+        // Kits of older versions do not state their play.
+        if let (Some(found), true) = (found, joint.held_by.is_some()) {
+            row["play"] = json!(found[index].play);
+        }
         if let Some(film) = joint.glue {
             let volume_mm3 = film.face.area_mm2 * film.thickness_mm;
             row["glue"] = json!({ "mass_g": volume_mm3 * film.density_g_cm3 / MM3_PER_CM3 });
         }
         row
     };
-    promise.joints.iter().map(row).collect()
+    promise.joints.iter().enumerate().map(row).collect()
 }
 
 impl Comparer {

@@ -574,6 +574,166 @@ def judge_pins(table, sheet, parts):
             table.at_least(f"{pin['id']} gap, mm", gaps[pin["joint"]] - GAP_TOLERANCE_MM, (bores - radii).min())
 
 
+def seats_of(sheet, joint):
+    """For each pin or dowel of a joint: its middle, its axis, and how far the parts move to each side of it, mm."""
+    rows = lambda key: [peg for part in sheet["parts"] for peg in part[key] if peg["joint"] == joint]
+    sockets = {peg["id"]: peg for peg in rows("sockets")}
+    sizes = [(pin["id"], pin["diameter_mm"], 1) for pin in rows("pins")]
+    sizes += [(rod["id"], rod["diameter_mm"], 2) for rod in sheet.get("dowels", [])]
+    found = [(sockets[name], diameter, gaps) for name, diameter, gaps in sizes if name in sockets]
+    return [(np.array(s["center_mm"]), np.array(s["axis"]), gaps * (s["diameter_mm"] - d) / 2) for s, d, gaps in found]
+
+
+def worst_motion(pins, rooms, rim):
+    """The largest turn of a plate held by round pins, radians, and the farthest that a corner of its rim moves, mm: turn by
+    turn the shifts are the common part of discs, whose corners and whose farthest points from each corner are tried."""
+    middle, quarter = pins.mean(axis=0), np.array([[0.0, -1.0], [1.0, 0.0]])
+    pins, rim = pins - middle, rim - middle
+    pairs = [(i, j) for i in range(len(pins)) for j in range(i)]
+    most = min((rooms[i] + rooms[j]) / np.linalg.norm(pins[i] - pins[j]) for i, j in pairs)
+    largest, step = 0.0, 0.0
+    for turn in np.linspace(-most, most, 801):
+        centers, moved = -turn * pins @ quarter.T, turn * rim @ quarter.T
+        shifts = []
+        for i, j in pairs:
+            along = centers[j] - centers[i]
+            apart = np.linalg.norm(along)
+            if 0 < apart <= (rooms[i] + rooms[j]) * (1 + 1e-12):
+                share = (apart**2 + rooms[i] ** 2 - rooms[j] ** 2) / (2 * apart)
+                aside = math.sqrt(max(rooms[i] ** 2 - share**2, 0.0)) * quarter @ along / apart
+                shifts += [centers[i] + along * share / apart + side * aside for side in (-1, 1)]
+        for center, room in zip(centers, rooms):
+            away = center + moved
+            length = np.linalg.norm(away, axis=1)
+            shifts += list((center + room * away / np.where(length > 0, length, 1)[:, None])[length > 0])
+        if not shifts:
+            continue
+        shifts = np.array(shifts)
+        inside = (np.linalg.norm(shifts[:, None] - centers[None], axis=2) <= rooms[None] + 1e-9).all(axis=1)
+        if inside.any():
+            largest = max(largest, abs(turn))
+            step = max(step, np.linalg.norm(shifts[inside][:, None] + moved[None], axis=2).max())
+    return largest, step
+
+
+def shared_rim(parts, point, axes):
+    """The corners of the faces in which two parts touch, in the coordinates of their plane."""
+    from shapely import Polygon, unary_union
+
+    regions = []
+    for corners in parts:
+        local = (corners - point) @ axes.T
+        flat = local[(np.abs(local[:, :, 2]) <= 1e-3).all(axis=1)][:, :, :2]
+        regions.append(unary_union([Polygon(t).buffer(1e-6) for t in flat]))
+    shared = regions[0].intersection(regions[1]).buffer(-1e-4)
+    return np.array(shared.convex_hull.exterior.coords) if not shared.is_empty else np.zeros((0, 2))
+
+
+def stops_in(jig, surface, outer, side):
+    """The stops of the outside on one side of a joint: points of its sections through the rib, and the jig nearest to each."""
+    normal, out = np.array(jig["normal"], float), np.array(jig["out"], float)
+    axes, near, far = np.stack([np.cross(normal, out), out]), *jig["ribs_mm"]
+    stops = []
+    for height in np.linspace(near, far, 5):
+        section = outer.section(plane_origin=np.array(jig["point_mm"]) + side * height * normal, plane_normal=normal)
+        for line in [] if section is None else section.discrete:
+            pieces = np.maximum(np.ceil(np.linalg.norm(np.diff(line, axis=0), axis=1) / 0.4), 1).astype(int)
+            points = np.concatenate([a + (b - a) * np.arange(n)[:, None] / n for a, b, n in zip(line, line[1:], pieces)])
+            nearest, distance, _ = trimesh.proximity.closest_point(surface, points)
+            flat = (nearest - points) @ axes.T
+            room = np.linalg.norm(flat, axis=1)
+            held = (distance < 1) & (room > 0.9 * distance) & (room > 0)
+            stops += list(np.column_stack([points @ axes.T, flat / np.where(room > 0, room, 1)[:, None], room])[held])
+    return np.array(stops)
+
+
+def pressed(stops, press, depth):
+    """The motions (two shifts and a turn) of what is pressed down at a point until it is within a depth of the end, as rows of
+    inequalities: found by a linear program."""
+    from scipy.optimize import linprog
+
+    at, normal, room = stops[:, :2] - press, stops[:, 2:4], stops[:, 4]
+    rows = np.column_stack([normal, normal[:, 1] * at[:, 0] - normal[:, 0] * at[:, 1]])
+    down = linprog([0, 1, 0], A_ub=rows, b_ub=room, bounds=[(-20, 20), (-20, 20), (-0.2, 0.2)])
+    return np.vstack([rows, [0, 1, 0]]), np.append(room, down.x[1] + depth)
+
+
+def step_in_jig(jig, surface, outer, rim):
+    """The farthest that the rims of two parts move apart, pressed into a jig: linear programs in 24 directions at every corner."""
+    from scipy.optimize import linprog
+    from scipy.spatial import ConvexHull
+
+    axes = np.stack([np.cross(jig["normal"], jig["out"]), np.array(jig["out"], float)])
+    flat = rim @ axes.T
+    flat = flat[ConvexHull(flat).vertices]
+    press = np.array([(flat[:, 0].min() + flat[:, 0].max()) / 2, flat[:, 1].max()])
+    stops = [stops_in(jig, surface, outer, side) for side in (-1, 1)]
+    if min(map(len, stops)) < 3:
+        return math.inf
+    motions, step = [pressed(stop, press, jig["pressed_mm"]) for stop in stops], 0.0
+    for x, y in (flat - press)[:: max(1, len(flat) // 24)]:
+        for turn in np.arange(24) * math.tau / 24:
+            way = np.array([math.cos(turn), math.sin(turn), math.sin(turn) * x - math.cos(turn) * y])
+            ends = [linprog(-sign * way, A_ub=a, b_ub=b, bounds=[(-20, 20), (-20, 20), (-0.2, 0.2)]).fun for sign, (a, b) in zip((1, -1), motions)]
+            step = max(step, -sum(ends))
+    return step
+
+
+def judge_jigs(table, sheet, kit, parts, outer):
+    """Whether every jig is sound, lies and fits on the plate, comes off, keeps its gap, leaves the seam free and holds the parts."""
+    printer, limit = sheet["printer"], sheet["printer"].get("seam_step_mm")
+    by_id = {part["id"]: corners for part, corners in zip(sheet["parts"], parts)}
+    outside = welded(np.concatenate(outer))
+    for jig in sheet.get("jigs", []):
+        printed = read_part(kit / jig["file"]) / (printer.get("print_scale_ratio") or [1, 1, 1])
+        mesh, pose = welded(printed), np.array(jig["print_from_model"], float)
+        sound = bool(mesh.is_watertight and mesh.is_winding_consistent and moments(printed)[0] > 0)
+        table.line(f"{jig['id']} watertight, outward", True, sound, sound)
+        table.at_most(f"{jig['id']} height of lowest point, mm", RESTING_LIMIT_MM, abs(mesh.bounds[0][2]))
+        if printer.get("build_volume_mm"):
+            table.at_least(f"{jig['id']} room left, mm", 0.0, (np.array(printer["build_volume_mm"]) - np.ptp(mesh.bounds, axis=0)).min())
+        corners = (printed - pose[:3, 3]) @ pose[:3, :3]
+        surface, out = welded(corners), np.array(jig["out"], float)
+        points = np.concatenate([surface.vertices, surface.triangles_center])
+        table.at_least(f"{jig['id']} gap, mm", jig["gap_mm"] - GAP_TOLERANCE_MM, trimesh.proximity.closest_point(outside, points)[1].min())
+        few = points[:: max(1, len(points) // 400)]
+        caught = sum(int((heights < 0).any()) for heights in lines_through(np.concatenate(outer), few, out))
+        table.none(f"{jig['id']} points caught on its way off", caught)
+        joint = next(joint for joint in sheet["joints"] if joint["id"] == jig["joint"])
+        _, axes = frame({"axis": jig["normal"], "origin_mm": [0, 0, 0]})
+        origin = np.array(jig["point_mm"])
+        rim = origin + shared_rim([by_id[part] for part in joint["parts"]], origin, axes) @ axes[:2]
+        table.at_least(f"{jig['id']} room along the seam, mm", 3.0, trimesh.proximity.closest_point(surface, rim)[1].min())
+        step = step_in_jig(jig, surface, outside, rim)
+        table.line(f"{jig['joint']} step in its jig, mm", joint["play"]["step_mm"], step, abs(step - joint["play"]["step_mm"]) <= 0.05)
+        if limit is not None:
+            table.at_most(f"{jig['joint']} step in its jig, mm", limit, step)
+
+
+def judge_play(table, sheet, parts):
+    """Whether the pins of every joint that they hold are thick enough, and leave the play and the step at the rim as stated."""
+    limit, least = sheet["printer"].get("seam_step_mm"), sheet["printer"].get("least_pin_mm", 0.0)
+    by_id = {part["id"]: corners for part, corners in zip(sheet["parts"], parts)}
+    for pin in (pin for part in sheet["parts"] for pin in part["pins"]):
+        table.at_least(f"{pin['id']} diameter, mm", least - 1e-9, pin["diameter_mm"])
+    for joint in sheet["joints"]:
+        seats = seats_of(sheet, joint["id"])
+        if joint.get("held_by") != "pins" or len(seats) < 2:
+            table.line(f"{joint['id']} aligned", "by something", joint.get("held_by"), joint.get("held_by") in (None, "eye", "jig"))
+            continue
+        _, axes = frame({"axis": seats[0][1], "origin_mm": [0, 0, 0]})
+        rim = shared_rim([by_id[part] for part in joint["parts"]], seats[0][0], axes)
+        pins = np.array([(middle - seats[0][0]) @ axes[:2].T for middle, _, _ in seats])
+        turn, step = worst_motion(pins, np.array([room for _, _, room in seats]), rim)
+        # The program stands a polygon of 48 sides around each circle, 0.2 % outside.
+        table.same(f"{joint['id']} turn, °", joint["play"]["turn_deg"], math.degrees(turn), 5e-3)
+        table.same(f"{joint['id']} step at the rim, mm", joint["play"]["step_mm"], step, 5e-3)
+        widest = lambda points: max((np.linalg.norm(a - b) for a in points for b in points), default=0.0)
+        table.at_least(f"{joint['id']} pins apart, of its width", 0.333, widest(pins) / widest(rim))
+        if limit is not None:
+            table.at_most(f"{joint['id']} step at the rim, mm", limit, step)
+
+
 def rings_of(mesh, heights, flat):
     """The closed lines in which a plane meets a welded mesh, a corner on the plane counting as above it."""
     edge_after, above = {}, heights >= 0
@@ -931,6 +1091,8 @@ def judge(kit):
     for part in ballast:
         table.at_least(f"{part['id']} ({part['part']}) room, mm", 0.0, ballast_room(part, whole, voids))
     judge_pins(table, sheet, parts)
+    judge_play(table, sheet, parts)
+    judge_jigs(table, sheet, kit, parts, outer)
     judge_voids(table, sheet, voids, parts)
     judge_dowels(table, sheet, parts)
     judge_films(table, sheet, parts)

@@ -6,6 +6,8 @@ use std::str::FromStr;
 
 use clap::Args;
 
+use super::values::share;
+
 use crate::cut::CutOrder;
 use crate::job::{CutMode, IdStyle, PinStyle, PlanError};
 
@@ -25,6 +27,10 @@ pub struct CutArgs {
     /// [default: engraved]
     #[arg(long, value_name = "engraved|none")]
     pub ids: Option<IdStyle>,
+    /// Share of the goal's figure that joints may cost at most [default: 15%]. A printed jig holds
+    /// those that would cost more
+    #[arg(long, value_name = "RATIO", value_parser = share)]
+    pub joint_price: Option<f64>,
 }
 
 /// The value of `--cut`.

@@ -141,7 +141,7 @@ pub struct PrepareArgs {
 }
 
 /// The arguments that a replayed job decides.
-const DECIDED_BY_JOB: [&str; 30] = [
+const DECIDED_BY_JOB: [&str; 31] = [
     "printer",
     "material",
     "wall",
@@ -169,6 +169,7 @@ const DECIDED_BY_JOB: [&str; 30] = [
     "cut",
     "pins",
     "ids",
+    "joint_price",
     "format",
     "ballast",
     "fill",
@@ -223,6 +224,7 @@ impl PrepareArgs {
             plan,
             pins: self.cutting.pins.unwrap_or(default.pins),
             ids: self.cutting.ids.unwrap_or(default.ids),
+            joint_price_ratio: self.cutting.joint_price,
             format: self.format.unwrap_or(default.format),
             ballast: self.load.ballast.unwrap_or(default.ballast),
             fill: self.load.fill,

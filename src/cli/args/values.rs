@@ -39,6 +39,23 @@ pub(super) fn angle(text: &str) -> Result<f64, AngleError> {
     }
 }
 
+/// A share that is not from 0 to 100 %.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("`{0}` is no share; remedy: give a percentage such as 15%, or a number from 0 to 1")]
+pub struct ShareError(String);
+
+/// Reads a share: `15%` or `0.15`.
+pub(super) fn share(text: &str) -> Result<f64, ShareError> {
+    let (number, unit) = match text.trim().strip_suffix('%') {
+        Some(number) => (number, 0.01),
+        None => (text, 1.0),
+    };
+    match number.trim().parse::<f64>().map(|value| unit * value) {
+        Ok(share) if (0.0..=1.0).contains(&share) => Ok(share),
+        _ => Err(ShareError(text.to_owned())),
+    }
+}
+
 /// Reads a factor.
 pub(super) fn factor(text: &str) -> Result<f64, FactorError> {
     match text.trim().parse::<f64>() {

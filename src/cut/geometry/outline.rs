@@ -31,6 +31,11 @@ impl Outline {
         Self { segments }
     }
 
+    /// Returns the corners of its rings; each at least once.
+    pub(crate) fn corners(&self) -> impl Iterator<Item = Point2> + '_ {
+        self.segments.iter().flatten().copied()
+    }
+
     /// Returns the distance to the boundary, mm; negative outside.
     pub(crate) fn signed_distance(&self, p: &Point2) -> f64 {
         let (mut inside, mut least) = (false, f64::INFINITY);

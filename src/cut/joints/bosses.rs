@@ -255,7 +255,8 @@ impl Search<'_> {
         for pair in best_pairs(&sites, face.gap_mm(&sizes[0]), &self.view) {
             let [i, j] = pair.sites;
             let pattern = [(sites[i].at, sizes[0]), (sites[j].at, sizes[1])];
-            let is_usable = !is_confused(&face.end_views(&pattern), facing.others)
+            let is_usable = face.is_held_by(&pattern)
+                && !is_confused(&face.end_views(&pattern), facing.others)
                 && (!must_open || open.leaves_open(pair.sites)?);
             if is_usable {
                 return Ok(Some((pair.cost, face.placement(&pattern, true))));

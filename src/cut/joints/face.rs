@@ -6,6 +6,7 @@ use crate::{
         geometry::chart::{Chart, Point2},
         ids::{CutId, PinId},
         joints::{
+            hold::Rim,
             pattern::Peg,
             pin_shape::PinSite,
             pin_size::{Size, min_room_mm, reach_mm},
@@ -65,6 +66,8 @@ pub(crate) struct Face<'a> {
     surface: Bvh,
     /// Space occupied by the pins of other joints.
     occupied: Vec<OccupiedSpace>,
+    /// The rim that the pins must hold.
+    rim: Rim,
     /// Points of the faces, in the plane's own coordinates, with their distance from the edge, mm.
     points: Vec<(Point2, f64)>,
     pub(crate) widest_mm: f64,
@@ -108,6 +111,7 @@ impl<'a> Face<'a> {
             sign,
             surface,
             occupied,
+            rim: Rim::of(joint, &scene.request.pins),
             points: Vec::new(),
             widest_mm: 0.0,
         }
@@ -166,8 +170,14 @@ impl<'a> Face<'a> {
         size.room_mm(self.scene.request) - self.scene.request.wall_mm
     }
 
+    /// Returns true if a pattern holds the joint well enough.
+    pub(crate) fn is_held_by(&self, pattern: &[(Point2, Size)]) -> bool {
+        self.rim.is_held_by(pattern)
+    }
+
     /// Chooses up to three places, the first with the first size. Takes the widest pattern that
-    /// fits one way only, else the widest pair.
+    /// fits one way only and holds the joint. Else any that fits one way only, else the widest
+    /// pair.
     pub(crate) fn pattern(
         &self,
         places: &[Point2],
@@ -177,16 +187,25 @@ impl<'a> Face<'a> {
         let gap = self.gap_mm(&sizes[0]);
         let pairs = farthest_pairs(places, gap);
         let two = |&(i, j): &(usize, usize)| vec![(places[i], sizes[0]), (places[j], sizes[1])];
+        let mut loose = None;
         for pair in &pairs {
             let pattern = two(pair);
             let with_third = self
                 .third(&pattern, places, gap)
                 .map(|p| [&pattern[..], &[(p, sizes[1])]].concat());
             for pattern in with_third.into_iter().chain([pattern]) {
-                if !is_confused(&self.end_views(&pattern), placed) {
-                    return pattern;
+                let is_held = self.is_held_by(&pattern);
+                let is_wanted = is_held || loose.is_none();
+                if is_wanted && !is_confused(&self.end_views(&pattern), placed) {
+                    if is_held {
+                        return pattern;
+                    }
+                    loose = Some(pattern);
                 }
             }
+        }
+        if let Some(pattern) = loose {
+            return pattern;
         }
         let single = || {
             places
@@ -214,8 +233,10 @@ impl<'a> Face<'a> {
     }
 
     pub(crate) fn placement(&self, pattern: &[(Point2, Size)], is_one_way: bool) -> Placement {
+        let sites: Vec<PinSite> = pattern.iter().map(|(p, size)| self.site(p, size)).collect();
         Placement {
-            sites: pattern.iter().map(|(p, size)| self.site(p, size)).collect(),
+            hold: self.rim.measure(&self.plane, &sites),
+            sites,
             pegs: self.end_views(pattern),
             is_one_way,
             widest_mm: self.widest_mm,

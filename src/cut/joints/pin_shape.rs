@@ -122,6 +122,21 @@ impl PinSite {
         socket_diameter_mm / 2.0 / (std::f64::consts::PI / SIDES as f64).cos()
     }
 
+    /// Returns the distance by which the parts move against each other to each side of the pin, mm.
+    pub fn room_to_move_mm(&self) -> f64 {
+        Self::gap_mm(
+            self.diameter_mm,
+            self.socket_diameter_mm,
+            self.dowel.is_some(),
+        )
+    }
+
+    /// Returns the gap around a pin in its socket, mm; of a dowel, the gaps in both.
+    pub(crate) fn gap_mm(diameter_mm: f64, socket_diameter_mm: f64, is_dowel: bool) -> f64 {
+        let sockets = if is_dowel { 2.0 } else { 1.0 };
+        sockets * (socket_diameter_mm - diameter_mm) / 2.0
+    }
+
     /// Returns the depth of a pin's root inside its own part, mm.
     pub(crate) fn root_mm(diameter_mm: f64) -> f64 {
         OVERLAP_RATIO * diameter_mm

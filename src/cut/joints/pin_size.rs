@@ -80,6 +80,12 @@ impl Size {
         }
     }
 
+    /// Returns the distance by which the pin moves in its socket to each side, mm. A dowel moves in
+    /// two.
+    pub(crate) fn room_to_move_mm(&self) -> f64 {
+        PinSite::gap_mm(self.diameter, self.socket_diameter, self.dowel.is_some())
+    }
+
     /// Returns the radius of the socket's corners, mm.
     pub(crate) fn corner(&self) -> f64 {
         PinSite::socket_corner_mm(self.socket_diameter)

@@ -9,6 +9,7 @@ use crate::{
         ids::{CutId, PinId},
         joints::{
             face::{Face, face_points},
+            hold::Rim,
             pattern::Peg,
             pin_shape::PinSite,
             pin_size::{short_pairs, size_pairs},
@@ -84,8 +85,7 @@ fn place(scene: &PinScene, joint: &Joint, placed: &[&Placement]) -> Result<Place
         return Ok(upward);
     }
     let downward = along(false)?;
-    let rank = |p: &Placement| (p.is_sound(), p.sites.len());
-    Ok(if rank(&downward) > rank(&upward) {
+    Ok(if downward.rank() > upward.rank() {
         downward
     } else {
         upward
@@ -124,8 +124,11 @@ pub(crate) fn seat_ordered(
             .collect();
         let is_one_way = pegs.len() >= 2 && !is_confused(&pegs, &placed.iter().collect::<Vec<_>>());
         let widest_mm = face_points(scene, joint).1;
+        let sites: Vec<PinSite> = pins.into_iter().cloned().collect();
         placed.push(Placement {
-            sites: pins.into_iter().cloned().collect(),
+            hold: Rim::of(joint, &scene.request.pins)
+                .measure(&scene.tree.planes[joint.cut], &sites),
+            sites,
             pegs,
             is_one_way,
             widest_mm,
@@ -153,10 +156,11 @@ fn place_along(scene: &PinScene, joint: &Joint, facing: Facing) -> Result<Placem
         }
         let pattern = face.pattern(&places, &sizes, placed);
         let is_one_way = pattern.len() >= 2 && !is_confused(&face.end_views(&pattern), placed);
-        if is_one_way || pattern.len() > fallback.pegs.len() {
-            fallback = face.placement(&pattern, is_one_way);
+        let placement = face.placement(&pattern, is_one_way);
+        if placement.rank() > fallback.rank() {
+            fallback = placement;
         }
-        if is_one_way {
+        if fallback.is_sound() {
             break;
         }
     }

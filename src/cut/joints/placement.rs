@@ -7,6 +7,7 @@ use crate::{
             tree::CutTree,
         },
         joints::{
+            hold::Hold,
             pattern::{Peg, fits, fits_itself},
             pin_shape::PinSite,
         },
@@ -33,6 +34,8 @@ pub(crate) struct Placement {
     pub(crate) is_one_way: bool,
     /// Diameter of the largest disc of material in the joint, mm.
     pub(crate) widest_mm: f64,
+    /// The hold of the pins on the joint.
+    pub(crate) hold: Hold,
 }
 
 /// Direction of the pins in a joint, and the pins they must avoid.
@@ -45,9 +48,15 @@ pub(crate) struct Facing<'a> {
 }
 
 impl Placement {
-    /// Returns true if it has at least two pins that let the parts together one way only.
+    /// Returns true if it has at least two pins that let the parts together one way only, and hold
+    /// them well enough.
     pub(crate) fn is_sound(&self) -> bool {
-        self.sites.len() >= 2 && self.is_one_way
+        self.sites.len() >= 2 && self.is_one_way && self.hold.is_enough
+    }
+
+    /// Returns its rank among the placements of a joint; more is better.
+    pub(crate) fn rank(&self) -> impl Ord {
+        (self.is_sound(), self.is_one_way, self.sites.len())
     }
 }
 

@@ -122,6 +122,8 @@ fn joint_note(scene: &PinScene, joint: &Joint, placement: &Placement) -> JointNo
         area_mm2: joint.area_mm2(),
         pins: placement.sites.iter().map(|site| site.id.clone()).collect(),
         one_way: placement.is_one_way,
+        play: placement.hold.play,
+        held: placement.hold.is_enough,
         face: contact(&scene.tree.planes, joint, &placement.sites),
     }
 }
@@ -147,6 +149,7 @@ fn pin_lack(request: &PlanRequest, joint: &Joint, placement: &Placement) -> Opti
         0 => PinLack::TooThin,
         1 => PinLack::OnePin,
         _ if !placement.is_one_way => PinLack::Ambiguous,
+        _ if !placement.hold.is_enough => PinLack::Loose,
         _ => return None,
     };
     let parts = joint.parts();

@@ -2,6 +2,7 @@
 
 use super::super::support;
 use super::shape::Shape;
+use crate::geom::hull::convex_hull;
 use crate::geom::{Vector, orthonormal_basis};
 
 /// The number of directions in which a model is tilted.
@@ -30,8 +31,7 @@ impl Support {
         let (u, v) = orthonormal_basis(up);
         let low = shape.hull.iter().map(|corner| corner.coords);
         let low = low.filter(|corner| corner.dot(up) <= floor_mm + slack_mm);
-        let hull =
-            support::convex_hull(low.map(|corner| [corner.dot(&u), corner.dot(&v)]).collect());
+        let hull = convex_hull(low.map(|corner| [corner.dot(&u), corner.dot(&v)]).collect());
         let center = shape.center.coords;
         let at = [center.dot(&u), center.dot(&v)];
         let inside =

@@ -207,7 +207,7 @@ fn what_is_dear_is_paid_up_to_the_given_price_and_no_further() {
 }
 
 #[test]
-fn ordered_pins_get_their_bosses_at_the_dear_price() {
+fn ordered_pins_get_their_bosses_at_the_price_of_ordered_ones() {
     let free = chimneys_with(0.0);
     let paid = pay(with_bosses(&free), 0.65);
     let mut placed = chimneys_with(0.0);
@@ -216,7 +216,7 @@ fn ordered_pins_get_their_bosses_at_the_dear_price() {
     assert_eq!(way.bossed.plan.pins.len(), 1);
     assert_eq!(round_sizes(&way.bossed), [1]);
 
-    placed.policy.dear_loss_ratio = 0.0;
+    placed.policy.ordered_loss_ratio = 0.0;
     let mut walls = plan_walls(&placed);
     let refused = add_bosses(&mut walls.resolver, walls.bossed, &walls.request);
     let Err(Error::Cut(CutError::Obstacle(obstacle))) = refused else {

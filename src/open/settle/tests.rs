@@ -41,6 +41,8 @@ impl Trial {
             rounds: self.rounds,
             must_be_clean: self.must_be_clean,
             before: Achieved::of(&voids),
+            start: Achieved::of(&voids),
+            max_price_ratio: f64::INFINITY,
             max_loss_ratio: self.max_loss_ratio,
         };
         settle(&mut resolver, voids, &terms)
@@ -152,6 +154,8 @@ fn narrow_voids_are_kept_solid_only_if_all_must_be_clean() {
             rounds: 1,
             must_be_clean,
             before: Achieved::of(&voids),
+            start: Achieved::of(&voids),
+            max_price_ratio: f64::INFINITY,
             max_loss_ratio: f64::INFINITY,
         };
         let settled = settle(&mut resolver, voids.clone(), &terms).unwrap();
@@ -218,9 +222,33 @@ fn a_cancelled_run_settles_nothing() {
         rounds: 1,
         must_be_clean: true,
         before: Achieved::of(&voids),
+        start: Achieved::of(&voids),
+        max_price_ratio: f64::INFINITY,
         max_loss_ratio: 1.0,
     };
     resolver.watch().cancel();
     let settled = settle(&mut resolver, voids, &terms);
     assert!(matches!(settled, Err(Error::Cancelled)));
+}
+
+#[test]
+fn bosses_that_cost_more_than_joints_may_are_refused_before_anything_is_planned() {
+    let placed = thick_box();
+    let (mut resolver, voids) = draw(&placed);
+    let terms = Terms {
+        order: &order(vec![across(18.0)]),
+        is_ordered: false,
+        request: &unwatched(&placed),
+        rounds: 0,
+        must_be_clean: false,
+        before: Achieved::of(&voids),
+        start: Achieved::of(&voids),
+        max_price_ratio: -STEP,
+        max_loss_ratio: f64::INFINITY,
+    };
+    let settled = settle(&mut resolver, voids, &terms).unwrap();
+    let Verdict::No(refusal) = settled else {
+        panic!("a price above the limit is paid")
+    };
+    assert_eq!(refusal, Refusal::CostTooMuch { loss_ratio: 0.0 });
 }

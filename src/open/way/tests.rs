@@ -21,6 +21,7 @@ fn with_pins<'a>(way: &Way<'a>, count: usize, one_way: bool) -> Way<'a> {
     let joint = &mut way.bossed.plan.joints[0];
     joint.pins = (0..count).map(|_| PinId::from("N1")).collect();
     joint.one_way = one_way;
+    joint.held = true;
     way
 }
 

@@ -8,7 +8,7 @@ use super::finished::turn_row;
 use super::foot::foot_row;
 use super::grid::grid_rows;
 use super::hardware::{dowels, hardware};
-use super::joints::{cut_list, joint_rows, round_rows};
+use super::joints::{cut_list, jig_rows, joint_rows, round_rows};
 use super::parts::part_rows;
 use super::printer::{material_row, printer_row};
 use super::promise::{aim, ballast_orders, fill_order};
@@ -55,6 +55,7 @@ pub fn checklist(facts: &Facts) -> Checklist {
         foot,
         parts,
         joints: joint_rows(facts),
+        jigs: jig_rows(facts),
         grid: grid_rows(facts),
         hardware: hardware(placed),
         dowels: dowels(&facts.made.plan),

@@ -5,10 +5,10 @@ use std::collections::BTreeMap;
 use super::facts::Facts;
 use super::figures::in_sheet_unit;
 use crate::base::units::MM3_PER_CM3;
-use crate::cut::{self, CutPlan, Dowel, JointId, JointNote, RodSource};
-use crate::run::{BossRound, KeptBoss, Made, Placed, Remark};
-use crate::sheet::{BossRow, CutListRow, JointRow, RoundRow};
-use crate::verify::PromisedJoint;
+use crate::cut::{self, Dowel, JointId, JointNote, PRESSED_MM, RodSource};
+use crate::run::{BossRound, KeptBoss, Made, Placed, Remark, WrittenJig};
+use crate::sheet::{BossRow, CutListRow, JigRow, JointRow, RoundRow};
+use crate::verify::{HeldBy, JigFacts, PromisedJig, PromisedJoint};
 
 /// Returns the dowels to cut, equal ones together, in the order of their pins.
 pub fn cut_list(facts: &Facts) -> Vec<CutListRow> {
@@ -59,13 +59,15 @@ fn row_of(facts: &Facts, dowel: &Dowel) -> Option<CutListRow> {
 }
 
 /// Returns the promises of the joints.
-pub fn promised_joints(placed: &Placed, plan: &CutPlan) -> Vec<PromisedJoint> {
+pub fn promised_joints(placed: &Placed, made: &Made) -> Vec<PromisedJoint> {
     let clearance_mm = placed.shop.printer.clearance_per_side_mm.value;
-    let joints = plan.joints.iter().enumerate();
+    let joints = made.plan.joints.iter().enumerate();
     joints
         .map(|(index, joint)| PromisedJoint {
             id: joint_id(index),
+            parts: joint.parts.map(|id| id.to_string()),
             clearance_mm,
+            held_by: Some(held_by(made, index)),
             glue: placed.glue_film(joint),
         })
         .collect()
@@ -87,22 +89,40 @@ pub fn joint_rows(facts: &Facts) -> Vec<JointRow> {
             area_mm2: joint.area_mm2,
             pins: joint.pins.len(),
             clearance_mm: facts.placed.shop.printer.clearance_per_side_mm.value,
+            held_by: held_by(facts.made, index),
+            play: facts.judgement.joints[index].play,
             glue: facts.placed.glue_film(joint),
-            note: joint_warning(joint)
+            note: joint_warning(facts.made, index)
                 .map(|warning| [why_no_bosses(facts.made, joint), warning.to_owned()].concat()),
         })
         .collect()
 }
 
-/// Returns the warning of a joint whose pins do not align it fully; `None` if they do.
-fn joint_warning(joint: &JointNote) -> Option<&'static str> {
+/// Returns the warning of a joint that neither pins nor a jig align fully; `None` if they do.
+fn joint_warning(made: &Made, index: usize) -> Option<&'static str> {
+    let joint = &made.plan.joints[index];
     match joint.pins.len() {
+        _ if made.jig_of(index).is_some() => None,
         0 => Some("no room for pins: align the outlines by eye and touch"),
         1 => Some("room for one pin only: mind the turn, align the outlines"),
         _ if !joint.one_way => {
             Some("the pins fit in more than one way: mind the turn, align the outlines")
         }
+        _ if !joint.held => {
+            Some("the pins leave too large a step at the rim: align the outlines by eye and touch")
+        }
         _ => None,
+    }
+}
+
+/// Returns the way in which the parts of a joint are aligned.
+fn held_by(made: &Made, index: usize) -> HeldBy {
+    if made.plan.joints[index].is_aligned() {
+        HeldBy::Pins
+    } else if made.jig_of(index).is_some() {
+        HeldBy::Jig
+    } else {
+        HeldBy::Eye
     }
 }
 
@@ -125,13 +145,10 @@ pub fn is_shown_at_its_step(note: &cut::Remark) -> bool {
     matches!(note, LacksPins { .. } | NoRoomForLabel { .. })
 }
 
-/// Returns the warnings of all joints in one sentence; `None` if pins align every joint.
-pub fn warn_of_joints(plan: &CutPlan) -> Option<String> {
-    let warned = plan
-        .joints
-        .iter()
-        .enumerate()
-        .filter_map(|(index, joint)| Some((index, joint_warning(joint)?)));
+/// Returns the warnings of all joints in one sentence; `None` if pins or jigs align every joint.
+pub fn warn_of_joints(made: &Made) -> Option<String> {
+    let joints = 0..made.plan.joints.len();
+    let warned = joints.filter_map(|index| Some((index, joint_warning(made, index)?)));
     let mut by_what: BTreeMap<&str, Vec<String>> = BTreeMap::new();
     warned.for_each(|(index, what)| by_what.entry(what).or_default().push(joint_id(index)));
     let words: Vec<String> = by_what
@@ -139,6 +156,36 @@ pub fn warn_of_joints(plan: &CutPlan) -> Option<String> {
         .map(|(what, joints)| format!("{}: {what}", joints.join(", ")))
         .collect();
     (!words.is_empty()).then(|| words.join("; "))
+}
+
+/// Returns the promise of a jig.
+pub fn promised_jig(written: &WrittenJig) -> PromisedJig {
+    let jig = &written.jig;
+    PromisedJig {
+        id: written.id(),
+        joint: joint_id(jig.joint),
+        file: written.file.clone(),
+        print_from_model: written.evidence().pose,
+        out: jig.out,
+        point_mm: jig.point_mm,
+        normal: jig.normal,
+        gap_mm: jig.gap_mm,
+        ribs_mm: jig.ribs_mm,
+        pressed_mm: PRESSED_MM,
+    }
+}
+
+/// Returns the rows of the jigs.
+pub fn jig_rows(facts: &Facts) -> Vec<JigRow> {
+    let density_g_mm3 = facts.placed.shop.material.density_g_mm3();
+    let jigs = facts.made.jigs.iter().zip(&facts.judgement.jigs);
+    let row = |(written, found): (&WrittenJig, &JigFacts)| JigRow {
+        order: promised_jig(written),
+        size_mm: found.part.size_mm,
+        volume_mm3: found.part.surface.volume_mm3,
+        mass_g: found.part.surface.volume_mm3 * density_g_mm3,
+    };
+    jigs.map(row).collect()
 }
 
 /// Returns the rows of the rounds in which bosses were kept.

@@ -20,6 +20,8 @@ pub fn printer_row(placed: &Placed) -> PrinterRow {
         minimum_wall_mm: placed.minimum_wall_mm(),
         minimum_opening_mm: printer.min_opening_mm.value,
         cleaning: printer.cleaning_rule(),
+        least_pin_mm: Some(printer.pin_min_diameter_mm.value),
+        seam_step_mm: placed.seam_step_mm(),
         glue: glue_row(printer),
         sources: sources(placed),
     }

@@ -1,7 +1,7 @@
 //! The promise against which the files are judged.
 
 use super::hardware::{dowels, hardware};
-use super::joints::{joint_id, promised_joints};
+use super::joints::{joint_id, promised_jig, promised_joints};
 use super::printer::enlargement;
 use super::voids::{promised_cuts, promised_voids};
 use crate::ballast::{Load, PlacedPart};
@@ -26,6 +26,7 @@ pub fn promise(placed: &Placed, made: &Made) -> Promise {
             minimum_wall_mm: placed.minimum_wall_mm(),
             minimum_opening_mm: Some(printer.min_opening_mm.value),
             cleaning: Some(printer.cleaning_rule()),
+            seam_step_mm: placed.seam_step_mm(),
         },
         material: Density {
             density_g_cm3: placed.density_g_cm3(),
@@ -41,7 +42,8 @@ pub fn promise(placed: &Placed, made: &Made) -> Promise {
         hardware: hardware(placed),
         dowels: dowels(plan),
         string_gap_mm: placed.string_gap_mm(),
-        joints: promised_joints(placed, plan),
+        joints: promised_joints(placed, made),
+        jigs: made.jigs.iter().map(promised_jig).collect(),
         ballast: ballast_orders(&made.load),
         fill: fill_order(placed),
         files: Default::default(),

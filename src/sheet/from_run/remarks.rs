@@ -55,7 +55,7 @@ pub fn warnings(facts: &Facts, foot: Option<&FootRow>) -> Vec<String> {
         .chain(seal)
         .chain(unweighed)
         .chain(shallow_axle(placed));
-    warnings.chain(warn_of_joints(&facts.made.plan)).collect()
+    warnings.chain(warn_of_joints(facts.made)).collect()
 }
 
 /// Returns notes on the wall, on the scale of the files, on cuts and pins.

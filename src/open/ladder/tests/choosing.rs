@@ -14,6 +14,7 @@ fn lacking<'a>(way: &Way<'a>, rung: Rung, count: usize) -> Way<'a> {
     };
     let mut joint = way.bossed.plan.joints[0].clone();
     (joint.pins, joint.one_way) = (vec!["N1".into(), "N2".into()], true);
+    joint.held = true;
     way.bossed.plan.joints = vec![joint; 4];
     for joint in &mut way.bossed.plan.joints[..count] {
         joint.pins.clear();

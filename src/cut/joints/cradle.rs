@@ -1,0 +1,341 @@
+//! The outline of a cradle: what is left of a slab when a body is lifted out of it.
+
+use crate::{
+    geom::{
+        Plane, Point, Vector,
+        play::{Spot, Stop, Way},
+    },
+    mesh::{MeshError, TriMesh},
+};
+use std::{collections::BTreeMap, ops::Range};
+
+/// Width of a step of the outline, mm: finer than any printer's line or pixel.
+const STEP_MM: f64 = 0.02;
+
+/// Depth by which the outline may lie deeper than needed, so that it has fewer corners, mm.
+const SPARE_MM: f64 = 0.01;
+
+/// Distance of the points of a body that a cradle may stop, mm.
+const SPACING_MM: f64 = 0.5;
+
+/// Sectors of direction and of place in each of which only the nearest stop counts.
+const SECTORS: f64 = 36.0;
+
+/// A view along the normal of a joint: x across, y along the normal, z along the way out.
+#[derive(Clone, Copy)]
+pub(crate) struct View {
+    pub(crate) across: Vector,
+    pub(crate) normal: Vector,
+    pub(crate) out: Vector,
+    offset_mm: f64,
+}
+
+impl View {
+    /// Returns the view of a joint's plane with a unit direction in it as the way out.
+    pub(crate) fn new(plane: &Plane, out: Vector) -> Self {
+        Self {
+            across: plane.normal.cross(&out),
+            normal: plane.normal,
+            out,
+            offset_mm: plane.offset_mm,
+        }
+    }
+
+    /// Returns a point's coordinates in the view.
+    pub(crate) fn local(&self, p: &Point) -> Point {
+        let [x, y, z] = [self.across, self.normal, self.out].map(|axis| axis.dot(&p.coords));
+        Point::new(x, y - self.offset_mm, z)
+    }
+
+    /// Returns the point with these coordinates.
+    pub(crate) fn model(&self, p: &Point) -> Point {
+        Point::from(self.across * p.x + self.normal * (p.y + self.offset_mm) + self.out * p.z)
+    }
+}
+
+/// A slab of a body between two planes along a joint, seen along the joint's normal.
+pub(crate) struct Slab {
+    /// The outlines of its surface's triangles within the slab.
+    pieces: Vec<Vec<Spot>>,
+}
+
+impl Slab {
+    /// Cuts the triangles of a surface (in a view) between two heights over the joint, mm.
+    pub(crate) fn of(surface: &TriMesh, [low, high]: [f64; 2]) -> Self {
+        let piece = |corners: [Point; 3]| {
+            let above = clip(&corners, |p| low - p.y);
+            let within = clip(&above, |p| p.y - high);
+            let flat: Vec<Spot> = within.iter().map(|p| Spot::new(p.x, p.z)).collect();
+            (!flat.is_empty()).then_some(flat)
+        };
+        Self {
+            pieces: surface.iter_corners().filter_map(piece).collect(),
+        }
+    }
+
+    /// Returns the least height in each step of a row; infinite where nothing lies over it.
+    fn floor(&self, row: &Row) -> Vec<f64> {
+        let mut floor = vec![f64::INFINITY; row.count];
+        for piece in &self.pieces {
+            let next = piece.iter().cycle().skip(1);
+            for (a, b) in piece.iter().zip(next) {
+                let (a, b) = if a.x <= b.x { (a, b) } else { (b, a) };
+                let height = |x: f64| match b.x - a.x {
+                    width if width > 0.0 => a.y + (b.y - a.y) * ((x - a.x) / width).clamp(0.0, 1.0),
+                    _ => a.y.min(b.y),
+                };
+                for step in row.steps_between([a.x, b.x]) {
+                    let ends = [row.at(step).max(a.x), row.at(step + 1).min(b.x)].map(height);
+                    floor[step] = floor[step].min(ends[0]).min(ends[1]);
+                }
+            }
+        }
+        floor
+    }
+
+    /// Returns the least height of the slab within a window across, mm; infinite if it is empty.
+    pub(crate) fn lowest_mm(&self, window: [f64; 2]) -> f64 {
+        let floor = self.floor(&Row::over(window));
+        floor.into_iter().fold(f64::INFINITY, f64::min)
+    }
+
+    /// Returns the outline of a cradle across a window, no higher than `top_mm`: everywhere the gap
+    /// from the slab, however far the slab is lifted.
+    pub(crate) fn cradle(&self, window: [f64; 2], [gap_mm, top_mm]: [f64; 2]) -> Vec<Spot> {
+        let reach_mm = gap_mm + STEP_MM;
+        let wide = Row::over([window[0] - 2.0 * reach_mm, window[1] + 2.0 * reach_mm]);
+        let (floor, row) = (self.floor(&wide), Row::over(window));
+        let steps = (reach_mm / wide.step_mm).ceil() as usize + 1;
+        let height = |x: f64| {
+            let here = ((x - wide.low) / wide.step_mm).max(0.0) as usize;
+            let near = here.saturating_sub(steps)..(here + steps + 1).min(wide.count);
+            let under = near.map(|step| {
+                let aside = (wide.at(step) - x).max(x - wide.at(step + 1)).max(0.0);
+                let rest = reach_mm * reach_mm - aside * aside;
+                if rest > 0.0 {
+                    floor[step] - rest.sqrt()
+                } else {
+                    f64::INFINITY
+                }
+            });
+            under.fold(top_mm, f64::min)
+        };
+        let outline = (0..=row.count).map(|step| row.at(step));
+        let outline: Vec<Spot> = outline.map(|x| Spot::new(x, height(x))).collect();
+        thin(&outline)
+    }
+
+    /// Returns points along the sides of its pieces, [`SPACING_MM`] apart at most.
+    fn points(&self) -> impl Iterator<Item = Spot> + '_ {
+        let sides = self.pieces.iter().flat_map(|piece| {
+            let next = piece.iter().cycle().skip(1);
+            piece.iter().zip(next)
+        });
+        sides.flat_map(|(a, b)| {
+            let (from, way) = (*a, b - a);
+            let count = (way.norm() / SPACING_MM).ceil().max(1.0);
+            (0..count as usize).map(move |step| from + way * (step as f64 / count))
+        })
+    }
+
+    /// Returns the stops of a body in a cradle: its points near the outline, each with the nearest
+    /// floor, left wall and right wall.
+    pub(crate) fn stops(&self, outline: &[Spot], reach_mm: f64) -> Vec<Stop> {
+        let mut nearest: BTreeMap<[i64; 2], Stop> = BTreeMap::new();
+        let (Some(first), Some(last)) = (outline.first(), outline.last()) else {
+            return Vec::new();
+        };
+        let width = (last.x - first.x).max(f64::MIN_POSITIVE);
+        for stop in self.points().flat_map(|at| touches(&at, outline, reach_mm)) {
+            let turn = stop.normal.y.atan2(stop.normal.x) / std::f64::consts::TAU;
+            let place = (stop.at.x - first.x) / width;
+            let sector = [turn, place].map(|share| (share * SECTORS).floor() as i64);
+            let known = nearest.entry(sector).or_insert(stop);
+            if stop.room_mm < known.room_mm {
+                *known = stop;
+            }
+        }
+        nearest.into_values().collect()
+    }
+}
+
+/// Returns the stops of one point of a body: at the nearest floor and walls of an outline.
+fn touches(at: &Spot, outline: &[Spot], reach_mm: f64) -> Vec<Stop> {
+    let from = outline
+        .partition_point(|corner| corner.x < at.x - reach_mm)
+        .saturating_sub(1);
+    let to = outline.partition_point(|corner| corner.x <= at.x + reach_mm);
+    let near = &outline[from..(to + 1).min(outline.len())];
+    let mut found: [Option<Stop>; 3] = [None; 3];
+    for side in near.windows(2) {
+        let along = side[1] - side[0];
+        let kind = match along.y / along.x {
+            slope if slope.abs() <= 1.0 => 0,
+            slope if slope < 0.0 => 1,
+            _ => 2,
+        };
+        let share = (at - side[0]).dot(&along) / along.norm_squared();
+        let way = side[0] + along * share.clamp(0.0, 1.0) - at;
+        let room_mm = way.norm();
+        if room_mm > 0.0 && room_mm <= found[kind].map_or(reach_mm, |stop| stop.room_mm) {
+            found[kind] = Some(Stop {
+                at: *at,
+                normal: Way::from(way / room_mm),
+                room_mm,
+            });
+        }
+    }
+    found.into_iter().flatten().collect()
+}
+
+/// A row of equal steps across a view.
+struct Row {
+    low: f64,
+    step_mm: f64,
+    count: usize,
+}
+
+impl Row {
+    fn over([low, high]: [f64; 2]) -> Self {
+        let count = ((high - low) / STEP_MM).ceil().max(1.0);
+        Self {
+            low,
+            step_mm: (high - low) / count,
+            count: count as usize,
+        }
+    }
+
+    /// Returns the place at which a step begins.
+    fn at(&self, step: usize) -> f64 {
+        self.low + self.step_mm * step as f64
+    }
+
+    /// Returns the steps that a stretch touches.
+    fn steps_between(&self, stretch: [f64; 2]) -> Range<usize> {
+        let [from, to] = stretch.map(|x| (x - self.low) / self.step_mm);
+        if to < 0.0 || from > self.count as f64 {
+            return 0..0;
+        }
+        (from.max(0.0) as usize).min(self.count)..(to as usize + 1).min(self.count)
+    }
+}
+
+/// Returns the part of a convex polygon in space where `excess` is not positive.
+fn clip(polygon: &[Point], excess: impl Fn(&Point) -> f64) -> Vec<Point> {
+    let next = polygon.iter().cycle().skip(1);
+    let mut kept = Vec::with_capacity(polygon.len() + 1);
+    for (a, b) in polygon.iter().zip(next) {
+        let (over_a, over_b) = (excess(a), excess(b));
+        if over_a <= 0.0 {
+            kept.push(*a);
+        }
+        if (over_a < 0.0 && over_b > 0.0) || (over_a > 0.0 && over_b < 0.0) {
+            kept.push(a + (b - a) * (over_a / (over_a - over_b)));
+        }
+    }
+    kept
+}
+
+/// Lowers an outline a little and takes corners out of it, so that it lies nowhere higher than
+/// before, and deeper by [`SPARE_MM`] at most.
+fn thin(outline: &[Spot]) -> Vec<Spot> {
+    let lower = |corner: &Spot| Spot::new(corner.x, corner.y - 0.5 * SPARE_MM);
+    let outline: Vec<Spot> = outline.iter().map(lower).collect();
+    let mut kept: Vec<Spot> = outline.first().copied().into_iter().collect();
+    let mut from = 0;
+    while from + 1 < outline.len() {
+        let mut to = from + 1;
+        while to + 1 < outline.len() && is_straight(&outline[from..=to + 1]) {
+            to += 1;
+        }
+        kept.push(outline[to]);
+        from = to;
+    }
+    kept
+}
+
+/// Returns true if a stretch hardly leaves its chord.
+fn is_straight(stretch: &[Spot]) -> bool {
+    let (first, last) = (stretch[0], stretch[stretch.len() - 1]);
+    let slope = (last.y - first.y) / (last.x - first.x);
+    stretch.iter().all(|corner| {
+        let over = corner.y - (first.y + slope * (corner.x - first.x));
+        over.abs() <= 0.5 * SPARE_MM
+    })
+}
+
+/// Returns the closed body under an outline down to `low_mm`, between two heights over the joint,
+/// in the view.
+pub(crate) fn body_under(
+    outline: &[Spot],
+    low_mm: f64,
+    [near, far]: [f64; 2],
+) -> Result<TriMesh, MeshError> {
+    let corners = outline.iter().flat_map(|corner| {
+        let at = |y: f64, z: f64| Point::new(corner.x, y, z);
+        [
+            at(near, low_mm),
+            at(near, corner.y),
+            at(far, low_mm),
+            at(far, corner.y),
+        ]
+    });
+    let count = outline.len() as u32;
+    let quads = (0..count - 1).flat_map(|i| {
+        let [a, b] = [4 * i, 4 * i + 4];
+        [
+            [a, b, b + 1, a + 1],
+            [a + 2, a + 3, b + 3, b + 2],
+            [a + 1, b + 1, b + 3, a + 3],
+            [a, a + 2, b + 2, b],
+        ]
+    });
+    let end = 4 * (count - 1);
+    let ends = [[0, 1, 3, 2], [end, end + 2, end + 3, end + 1]];
+    let triangles = quads
+        .chain(ends)
+        .flat_map(|[a, b, c, d]| [[a, b, c], [a, c, d]]);
+    TriMesh::new(corners.collect(), triangles.collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cut::scenes::ball;
+    use crate::geom::Bvh;
+
+    #[test]
+    fn a_cradle_keeps_its_gap_from_a_ball_wherever_it_is_lifted() {
+        let surface = ball([0.0; 3], 10.0);
+        let slab = Slab::of(surface.mesh(), [1.0, 3.0]);
+        let outline = slab.cradle([-12.0, 12.0], [0.2, -2.0]);
+        assert!(outline.windows(2).all(|side| side[0].x < side[1].x));
+        let body = body_under(&outline, -14.0, [1.2, 2.8]).unwrap();
+        assert!(body.signed_volume_mm3() > 0.0);
+        let ball = Bvh::new(surface.mesh().iter_corners());
+        let gap = |lift: f64| {
+            let corners = body.iter_corners();
+            let lowered = corners.map(|corners| corners.map(|p| p - Vector::z() * lift));
+            let gaps = lowered.map(|corners| ball.triangle_distance(&corners, 9.0));
+            gaps.fold(9.0, f64::min)
+        };
+        let gaps = [0.0, 0.5, 2.0, 5.0].map(gap);
+        assert!(gaps.iter().all(|gap| *gap >= 0.2), "{gaps:?}");
+        assert!(gaps[0] < 0.2 + 2.0 * (STEP_MM + SPARE_MM), "{gaps:?}");
+    }
+
+    #[test]
+    fn a_thinned_outline_is_nowhere_higher_and_hardly_deeper() {
+        let wave = |x: f64| (x * 0.7).sin() + 0.1 * (x * 5.0).cos();
+        let outline = (0..2000).map(|step| f64::from(step) * 0.01);
+        let outline: Vec<Spot> = outline.map(|x| Spot::new(x, wave(x))).collect();
+        let few = thin(&outline);
+        assert!(few.len() < outline.len() / 10, "{}", few.len());
+        for corner in &outline {
+            let at = few.partition_point(|kept| kept.x < corner.x).max(1);
+            let [a, b] = [few[at - 1], few[at]];
+            let height = a.y + (b.y - a.y) * (corner.x - a.x) / (b.x - a.x);
+            assert!((-1e-8..SPARE_MM + 1e-8).contains(&(corner.y - height)));
+        }
+    }
+}

@@ -1,0 +1,210 @@
+//! Facts about jigs: they come off, keep their gap, leave the seam free, and hold the parts.
+
+use super::rim::rim_of;
+use super::{Evidence, PartEvidence, PartFacts, PromisedJig, PromisedJoint};
+use crate::base::watch::{Cancelled, Watch};
+use crate::geom::play::{Play, Seat, Spot, Stop, Way};
+use crate::geom::{Bvh, Plane, Point, Vector};
+use crate::mesh::TriMesh;
+
+/// Distance within which a jig stops a point of the outside, mm.
+const REACH_MM: f64 = 1.0;
+/// Distance of the points on the outside that a jig may stop, mm.
+const STEP_MM: f64 = 0.5;
+/// Least part of a stop's direction in the plane of the joint: others hold nothing there.
+const IN_PLANE_RATIO: f64 = 0.9;
+
+/// A jig as found in its file.
+#[derive(Debug, Clone, PartialEq)]
+pub struct JigFacts {
+    /// The name of its joint.
+    pub joint: String,
+    /// Its surface and its place on the plate.
+    pub part: PartFacts,
+    /// Least distance from the outside of the object, mm.
+    pub gap_mm: f64,
+    /// Ordered distance, mm.
+    pub ordered_gap_mm: f64,
+    /// Number of points of either that meet the other while it comes off.
+    pub caught: usize,
+    /// Least distance from the rim of the joint, mm.
+    pub seam_mm: f64,
+    /// Play of the parts that are pressed into it; `None` if they slide or turn even so.
+    pub play: Option<Play>,
+}
+
+/// Measures every jig, in the order of the checklist. `outer` is the outside of the object.
+pub(super) fn measure_jigs(
+    evidence: &Evidence,
+    outer: &TriMesh,
+    watch: &Watch,
+) -> Result<Vec<JigFacts>, Cancelled> {
+    let promise = &evidence.promise;
+    let jigs = promise.jigs.iter().zip(&evidence.jigs);
+    let facts = jigs.map(|(jig, read)| {
+        let part = PartFacts::of_part(read, watch)?;
+        let joint = promise.joints.iter().find(|joint| joint.id == jig.joint);
+        let bench = Bench::new(jig, read, outer);
+        let rim = joint.map_or(Vec::new(), |joint| bench.rim(joint, &evidence.parts));
+        Ok(JigFacts {
+            joint: jig.joint.clone(),
+            part,
+            gap_mm: bench.gap_mm(),
+            ordered_gap_mm: jig.gap_mm,
+            caught: bench.count_caught(),
+            seam_mm: bench.distance_mm(&rim),
+            play: bench.play(&rim),
+        })
+    });
+    facts.collect()
+}
+
+/// A jig beside the outside of the object, model frame.
+struct Bench<'a> {
+    jig: &'a PromisedJig,
+    mesh: TriMesh,
+    surface: Bvh,
+    outer: &'a TriMesh,
+    outside: Bvh,
+}
+
+impl<'a> Bench<'a> {
+    fn new(jig: &'a PromisedJig, read: &PartEvidence, outer: &'a TriMesh) -> Self {
+        let mesh = read.mesh.map_vertices(|p| read.pose.to_model(p));
+        Self {
+            jig,
+            surface: Bvh::new(mesh.iter_corners()),
+            mesh,
+            outer,
+            outside: Bvh::new(outer.iter_corners()),
+        }
+    }
+
+    fn plane(&self) -> Plane {
+        Plane::through(
+            &Point::from(self.jig.point_mm),
+            &Vector::from(self.jig.normal),
+        )
+    }
+
+    fn out(&self) -> Vector {
+        Vector::from(self.jig.out)
+    }
+
+    fn rim(&self, joint: &PromisedJoint, parts: &[PartEvidence]) -> Vec<Point> {
+        rim_of(joint, &self.plane(), parts).unwrap_or_default()
+    }
+
+    fn gap_mm(&self) -> f64 {
+        let far_mm = 2.0 * self.jig.gap_mm + 1.0;
+        let gaps = self.mesh.iter_corners();
+        let gaps = gaps.map(|corners| self.outside.triangle_distance(&corners, far_mm));
+        gaps.fold(far_mm, f64::min)
+    }
+
+    /// Counts the points of the jig that meet the outside on its way off, and those of the outside
+    /// that meet the jig.
+    fn count_caught(&self) -> usize {
+        let [box_a, box_b] = [self.outer.aabb(), self.mesh.aabb()];
+        let way = self.out() * (box_a.size().norm() + box_b.size().norm());
+        let middle = |corners: [Point; 3]| {
+            let [a, b, c] = corners.map(|p| p.coords);
+            Point::from((a + b + c) / 3.0)
+        };
+        let points = |mesh: &TriMesh| {
+            let middles = mesh.iter_corners().map(middle);
+            mesh.vertices()
+                .iter()
+                .copied()
+                .chain(middles)
+                .collect::<Vec<Point>>()
+        };
+        let meets =
+            |surface: &Bvh, from: &Point, way: Vector| surface.crosses_segment(from, &(from + way));
+        let of_jig = points(&self.mesh);
+        let of_jig = of_jig.iter().filter(|p| meets(&self.outside, p, -way));
+        let of_outer = points(self.outer);
+        let of_outer = of_outer.iter().filter(|p| meets(&self.surface, p, way));
+        of_jig.count() + of_outer.count()
+    }
+
+    /// Returns the least distance of the jig from some points, mm; infinite without any.
+    fn distance_mm(&self, points: &[Point]) -> f64 {
+        let nearest = |p: &Point| self.surface.segment_distance(p, p, f64::INFINITY);
+        points.iter().map(nearest).fold(f64::INFINITY, f64::min)
+    }
+
+    fn flat(&self, p: &Point) -> Spot {
+        let across = Vector::from(self.jig.normal).cross(&self.out());
+        Spot::new(across.dot(&p.coords), self.out().dot(&p.coords))
+    }
+
+    /// Returns the play of the parts that are pressed into the jig at the height of the rim.
+    fn play(&self, rim: &[Point]) -> Option<Play> {
+        let rim: Vec<Spot> = rim.iter().map(|p| self.flat(p)).collect();
+        let first = rim.first()?;
+        let ends = |[low, high]: [Spot; 2], spot: &Spot| [low.inf(spot), high.sup(spot)];
+        let [low, high] = rim.iter().fold([*first; 2], ends);
+        let middle = nalgebra::center(&low, &high);
+        let press = Stop {
+            at: Spot::new(middle.x, high.y),
+            normal: Way::new(0.0, -1.0),
+            room_mm: self.jig.pressed_mm,
+        };
+        let seat = |side: f64| Seat::pressed(&self.stops(side), &press, middle);
+        Some(seat(-1.0)?.play_between(&seat(1.0)?, middle, &rim))
+    }
+
+    /// Returns the stops of the part on one side of the joint, -1 or 1.
+    fn stops(&self, side: f64) -> Vec<Stop> {
+        let plane = self.plane();
+        let [near, far] = self.jig.ribs_mm;
+        let slab = self.outer.iter_corners().filter_map(|corners| {
+            let beyond = clip(&corners, |p| near - side * plane.distance(p));
+            let within = clip(&beyond, |p| side * plane.distance(p) - far);
+            (!within.is_empty()).then_some(within)
+        });
+        let points = slab.flat_map(|piece| along(&piece));
+        points.filter_map(|p| self.stop(&p)).collect()
+    }
+
+    /// Returns the stop of a point of the outside; `None` if the jig is far from it.
+    fn stop(&self, at: &Point) -> Option<Stop> {
+        let nearest = self.surface.closest(at, REACH_MM, &[])?;
+        let way = nearest.point - at;
+        let flat = self.flat(&nearest.point) - self.flat(at);
+        let in_plane = flat.norm();
+        (in_plane > IN_PLANE_RATIO * way.norm()).then(|| Stop {
+            at: self.flat(at),
+            normal: flat / in_plane,
+            room_mm: in_plane,
+        })
+    }
+}
+
+/// Returns points along the sides of a polygon, [`STEP_MM`] apart at most.
+fn along(polygon: &[Point]) -> Vec<Point> {
+    let next = polygon.iter().cycle().skip(1);
+    let side = |(a, b): (&Point, &Point)| {
+        let (from, way) = (*a, b - a);
+        let count = (way.norm() / STEP_MM).ceil().max(1.0);
+        (0..count as usize).map(move |step| from + way * (step as f64 / count))
+    };
+    polygon.iter().zip(next).flat_map(side).collect()
+}
+
+/// Returns the part of a convex polygon where `excess` is not positive.
+fn clip(polygon: &[Point], excess: impl Fn(&Point) -> f64) -> Vec<Point> {
+    let mut kept = Vec::new();
+    let next = polygon.iter().cycle().skip(1);
+    for (a, b) in polygon.iter().zip(next) {
+        let [at_a, at_b] = [excess(a), excess(b)];
+        if at_a <= 0.0 {
+            kept.push(*a);
+        }
+        if at_a * at_b < 0.0 {
+            kept.push(a + (b - a) * (at_a / (at_a - at_b)));
+        }
+    }
+    kept
+}
