@@ -236,7 +236,7 @@ pub(super) fn draw(placed: &Placed) -> (Resolver<'_>, Voids) {
 
 /// Returns the request for cuts of a run that nobody watches.
 pub(super) fn unwatched(placed: &Placed) -> PlanRequest {
-    request(placed, &Watch::silent())
+    request(placed, &Watch::silent()).unwrap()
 }
 
 /// Returns the plan with pins in the walls alone.

@@ -99,6 +99,15 @@ pub struct Policy {
     /// Share of all walls that a cut for cleaning alone must bring into sight. Below it joints and
     /// crumbs are made for nothing.
     pub cut_worth_ratio: f64,
+    /// Price of a seam above which another plan is sought, in circles about the model of average
+    /// weight.
+    pub dear_seam_ratio: f64,
+    /// Price up to which the seams of that other plan may go, if none is hidden better.
+    pub dearest_seam_ratio: f64,
+    /// Greatest loss for a plan whose seams are seen less.
+    pub seam_loss_ratio: f64,
+    /// Greatest loss for a plan with fewer parts that is taken unasked.
+    pub part_loss_ratio: f64,
     /// Times that parts are made. The first are right but for the rounding of their files, unless
     /// the plan had to change.
     pub max_assemblies: usize,
@@ -127,6 +136,10 @@ impl Policy {
         refused_margin_openings: 2.0,
         significant_void_ratio: 2e-6,
         cut_worth_ratio: PlanRequest::WORTH_RATIO,
+        dear_seam_ratio: 0.2,
+        dearest_seam_ratio: 0.35,
+        seam_loss_ratio: 0.1,
+        part_loss_ratio: 0.02,
         max_assemblies: 3,
         correction_rounds: 8,
     };

@@ -11,6 +11,7 @@ use crate::{
         ids::{CutId, VoidId},
         planner::score::{Scene, burden},
         remark::{Remark, SightGain},
+        seam::skin::Skin,
     },
     geom::{Matrix, Plane, Point, Vector, orthonormal_basis},
     mass::{Body, moments_of_mesh},
@@ -22,6 +23,9 @@ use crate::{
 const MAX_SIGHT_CUTS: usize = 3;
 /// Least share of the missing sight that an extra cut must add to be worth its joint.
 const WORTH_RATIO: f64 = 0.1;
+/// Greatest price of an extra cut's seam, in circles about the model of average weight. A dearer
+/// one mars more than what it cleans is worth: that stays solid.
+const MOST_EXTRA_SEAM: f64 = 0.2;
 /// Quantiles of the hidden points, along a direction, at which extra cuts are tried.
 const QUANTILES: [f64; 3] = [0.2, 0.5, 0.8];
 /// Cuts within this share of the best gain compete by their burden.
@@ -266,7 +270,8 @@ fn add_best_cut(scene: &Scene, attempt: &Attempt) -> Result<Option<Attempt>, Cut
     };
     let tree = CutTree::everywhere(&attempt.planes);
     let hidden = Opened::new(&scene.chambers, worst.void, &tree, scene.request).hidden()?;
-    let planes = planes_through(scene, worst.void, &hidden);
+    let mut planes = planes_through(scene, worst.void, &hidden);
+    planes.retain(|plane| scene.allows(plane) && is_hidden(scene, plane));
     let estimated = planes
         .par_iter()
         .map(|plane| Ok((attempt.estimate_lack_mm2(scene, *plane)?, *plane)));
@@ -296,12 +301,28 @@ fn add_best_cut(scene: &Scene, attempt: &Attempt) -> Result<Option<Attempt>, Cut
         .map(|(_, next)| next))
 }
 
+/// Returns true if a plane's seam costs no more than an extra cut may, as far as it is estimated.
+fn is_hidden(scene: &Scene, plane: &Plane) -> bool {
+    let seams = &scene.request.seams;
+    let most_ratio = seams.most_ratio.unwrap_or(f64::INFINITY);
+    let most_ratio = most_ratio.min(MOST_EXTRA_SEAM);
+    let look = |skin: &Skin| skin.estimate_ratio(plane) + skin.slant_price(plane);
+    seams
+        .skin
+        .as_deref()
+        .is_none_or(|skin| look(skin) <= most_ratio)
+}
+
 /// Returns planes through hidden points of a void, normal to the axes of the model, the goal, the
 /// void and the points.
 fn planes_through(scene: &Scene, void: VoidId, hidden: &[Point]) -> Vec<Plane> {
     let axis = scene.request.axis.direction.normalize();
     let (u, v) = orthonormal_basis(&axis);
     let mut normals = vec![Vector::x(), Vector::y(), Vector::z(), axis, u, v];
+    if let Some(up) = scene.request.seams.up() {
+        let (side, front) = orthonormal_basis(&up);
+        normals.extend([up, side, front]);
+    }
     let own = Body::new(
         &moments_of_mesh(scene.hollowed.voids[void.index()].mesh()),
         1.0,
