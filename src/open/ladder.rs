@@ -133,8 +133,7 @@ impl<'a> Ladder<'a> {
         let is_as_clean = are_clean(&other.bossed.plan, &other.request)
             || !are_clean(&usual.bossed.plan, &usual.request);
         let is_cheap = other.loss_ratio(&usual) <= self.policy.part_loss_ratio;
-        let is_hidden =
-            other.dearest_seam()? <= usual.dearest_seam()?.max(self.policy.dear_seam_ratio);
+        let is_hidden = other.seam_price()? <= usual.seam_price()?.max(self.policy.dear_seam_ratio);
         if is_as_clean && is_cheap && is_hidden {
             self.request = request;
             return Ok(other);
@@ -236,26 +235,24 @@ impl<'a> Ladder<'a> {
         })
     }
 
-    /// Returns a plan whose seams are seen less, if one of the usual plan is dear and the other
+    /// Returns a plan whose seams are seen less, if those of the usual plan are dear and the other
     /// costs little of the goal's figure. The rungs beyond then keep to it.
     fn hide_seams(&mut self, usual: Way<'a>) -> Result<Way<'a>, Error> {
-        let dearest = usual.dearest_seam()?;
-        let limits = [self.policy.dear_seam_ratio, self.policy.dearest_seam_ratio];
-        let limits = limits.into_iter().filter(|limit| dearest > *limit);
-        if !(self.is_free() && self.hides_seams) {
+        let price = usual.seam_price()?;
+        if !(self.is_free() && self.hides_seams) || price <= self.policy.dear_seam_ratio {
             return Ok(usual);
         }
         let mut least_loss: Option<f64> = None;
-        let mut is_dear = false;
-        for most_ratio in limits {
-            is_dear = true;
+        let mut weight = self.policy.lack_weight;
+        for _ in 0..self.policy.hidden_rounds {
             let mut request = self.request.clone();
-            request.seams.most_ratio = Some(most_ratio);
+            request.seams.lack_weight = Some(weight);
+            weight *= self.policy.lack_growth;
             let other = self.plan_in_walls(&self.ground, &request, Rung::Walls);
             let Some(other) = unless_refused(other)? else {
                 continue;
             };
-            if other.dearest_seam()? >= dearest {
+            if other.bossed.plan.cuts.is_empty() || other.seam_price()? >= price {
                 continue;
             }
             let loss_ratio = other.loss_ratio(&usual);
@@ -269,10 +266,10 @@ impl<'a> Ladder<'a> {
             }
             least_loss = Some(least_loss.map_or(loss_ratio, |least| least.min(loss_ratio)));
         }
-        self.notes.extend(is_dear.then_some(Remark::Seams {
+        self.notes.push(Remark::Seams {
             loss_ratio: least_loss,
             is_taken: false,
-        }));
+        });
         Ok(usual)
     }
 

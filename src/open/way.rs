@@ -68,15 +68,15 @@ impl<'a> Way<'a> {
             && filled_ratio <= policy.max_void_loss_ratio
     }
 
-    /// Returns the price of its dearest seam with its slant, in circles about the model; 0 if
-    /// nobody looked.
-    pub fn dearest_seam(&self) -> Result<f64, Error> {
+    /// Returns the price of its seams with their slants, in circles about the model; 0 if nobody
+    /// looked.
+    pub fn seam_price(&self) -> Result<f64, Error> {
         let outer = self.bossed.voids.hollowed.outer.mesh();
         let seams = cut::seams(outer, &self.bossed.plan, &self.request)?;
         let prices = seams
             .iter()
             .filter_map(|seam| Some(seam.seen_ratio? + seam.slant_price));
-        Ok(prices.fold(0.0, f64::max))
+        Ok(prices.sum())
     }
 
     /// Returns whether its seams are worth what they cost against the usual way: a little of the

@@ -99,11 +99,15 @@ pub struct Policy {
     /// Share of all walls that a cut for cleaning alone must bring into sight. Below it joints and
     /// crumbs are made for nothing.
     pub cut_worth_ratio: f64,
-    /// Price of a seam above which another plan is sought, in circles about the model of average
-    /// weight.
+    /// Price of a plan's seams above which a plan with hidden ones is sought, in circles about the
+    /// model of average weight.
     pub dear_seam_ratio: f64,
-    /// Price up to which the seams of that other plan may go, if none is hidden better.
-    pub dearest_seam_ratio: f64,
+    /// Weight of walls without sight, against scores of seams, in the first plan with hidden ones.
+    pub lack_weight: f64,
+    /// Factor on that weight from one such plan to the next.
+    pub lack_growth: f64,
+    /// Number of plans with hidden seams that are tried.
+    pub hidden_rounds: usize,
     /// Greatest loss for a plan whose seams are seen less.
     pub seam_loss_ratio: f64,
     /// Greatest loss for a plan with fewer parts that is taken unasked.
@@ -136,8 +140,10 @@ impl Policy {
         refused_margin_openings: 2.0,
         significant_void_ratio: 2e-6,
         cut_worth_ratio: PlanRequest::WORTH_RATIO,
-        dear_seam_ratio: 0.2,
-        dearest_seam_ratio: 0.35,
+        dear_seam_ratio: 0.12,
+        lack_weight: 7.0,
+        lack_growth: 3.0,
+        hidden_rounds: 3,
         seam_loss_ratio: 0.1,
         part_loss_ratio: 0.02,
         max_assemblies: 3,

@@ -1,5 +1,6 @@
 //! The planner: the fewest planes that open every void, or the planes that were ordered.
 
+pub(crate) mod attempt;
 pub(crate) mod cover;
 pub(crate) mod extra;
 pub(crate) mod family;
@@ -29,7 +30,8 @@ use crate::{
         pieces::{pose::fits, rejoin::rejoin, split::Piece},
         plan::{Cut, CutPlan, bridges_on, tree_of},
         planner::{
-            extra::{Attempt, add_extra_cuts, cleanest},
+            attempt::{Attempt, cleanest},
+            extra::add_extra_cuts,
             layers::snap_to_layers,
             layout::Layout,
             score::{Scene, burden, estimate_seam_penalty},
@@ -245,8 +247,8 @@ fn opening_cuts(scene: &Scene, notes: &mut Vec<Remark>) -> Result<Layout, CutErr
         layout
     } else {
         let others = has_extra.then(|| best.planes.clone()).into_iter();
-        let others = others.chain(found.plans.iter().take(COMPARED_FOR_SIZE).cloned());
-        match whole_parts(scene, others)? {
+        let plans = others.chain(found.plans.iter().map(|plan| plan.planes.clone()));
+        match whole_parts(scene, plans.take(COMPARED_FOR_SIZE))? {
             Some(whole) => whole,
             None => {
                 notes.extend(of_extra);

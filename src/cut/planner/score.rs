@@ -56,7 +56,7 @@ const ROOM_WEIGHT: f64 = 2.0;
 /// Weight of crumbs. They get lost or are glued wrongly.
 const SMALL_PART_WEIGHT: f64 = 2.0;
 /// Weight of each piece beyond two. Every part is one more to print, clean and glue.
-const EXTRA_PART_WEIGHT: f64 = 0.2;
+pub(crate) const EXTRA_PART_WEIGHT: f64 = 0.2;
 /// Weight of a cut through the contact point. The tip wears along a seam.
 const CONTACT_WEIGHT: f64 = 1.0;
 /// Weight of a seam as dear as a circle about the model of average weight. A seam through a face

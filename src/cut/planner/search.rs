@@ -45,11 +45,19 @@ struct MeasuredPlane {
     seam_penalty: f64,
 }
 
+/// Planes that together open every void, and their score.
+#[derive(Debug, Clone)]
+pub(crate) struct RankedPlan {
+    pub(crate) planes: Vec<Plane>,
+    /// The sum of the weighted terms, 0 at best.
+    pub(crate) penalty: f64,
+}
+
 /// The ranked plans, and the proof that no fewer cuts suffice.
 #[derive(Debug, Clone)]
 pub(crate) struct Found {
     /// Plans with the same number of planes, best first.
-    pub(crate) plans: Vec<Vec<Plane>>,
+    pub(crate) plans: Vec<RankedPlan>,
     /// Number of candidates in the family.
     pub(crate) family: usize,
     /// Number of partial choices examined in the proof.
@@ -62,7 +70,7 @@ impl Found {
     /// Returns the number of cuts and the extent of the proof.
     pub(crate) fn proof(&self) -> Proof {
         Proof {
-            cuts: self.plans.first().map_or(0, Vec::len),
+            cuts: self.plans.first().map_or(0, |plan| plan.planes.len()),
             family: self.family,
             nodes: self.nodes,
             is_proved: self.is_proved,
@@ -144,7 +152,7 @@ fn rank_covers(
     scene: &Scene,
     measured: &[MeasuredPlane],
     known: &[usize],
-) -> Result<Vec<Vec<Plane>>, Cancelled> {
+) -> Result<Vec<RankedPlan>, Cancelled> {
     let voids = scene.hollowed.voids.len();
     let all = VoidSet::MAX >> (MAX_VOIDS - voids);
     let opened: Vec<VoidSet> = measured.iter().map(|e| e.opened).collect();
@@ -178,16 +186,11 @@ fn rank_covers(
         .filter_map(|(opening, c)| Some((penalty(&c)? + opening, c)))
         .collect();
     scored.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let most_ratio = scene.request.seams.most_ratio;
-    let is_hidden = |i: &usize| {
-        let seen_ratio = burdens[*i].and_then(|burden| burden.look_ratio());
-        most_ratio.is_none_or(|most| seen_ratio.is_none_or(|seen| seen <= most))
+    let plan = |(penalty, cover): &(f64, Vec<usize>)| RankedPlan {
+        planes: cover.iter().map(|&i| measured[i].plane).collect(),
+        penalty: *penalty,
     };
-    if scored.iter().any(|(_, cover)| cover.iter().all(is_hidden)) {
-        scored.retain(|(_, cover)| cover.iter().all(is_hidden));
-    }
-    let planes = |cover: &[usize]| cover.iter().map(|&i| measured[i].plane).collect();
-    Ok(scored.iter().map(|(_, cover)| planes(cover)).collect())
+    Ok(scored.iter().map(plan).collect())
 }
 
 /// Counts the voids that more than one of the cover's planes meet.

@@ -39,8 +39,9 @@ impl SeamStyle {
 pub struct Seams {
     /// The balls that no seam enters.
     pub keep_clear: Vec<KeepClear>,
-    /// Greatest price of a seam, as long as there are others. `None`: any.
-    pub most_ratio: Option<f64>,
+    /// Weight of walls that lack sight against seams: what they hold stays solid. `None`: a plan
+    /// with which every void is clean comes first, whatever its seams.
+    pub lack_weight: Option<f64>,
     /// True if only level cuts are made.
     pub only_level: bool,
     /// The outside, looked at; `None` if only the length of a seam counts.
@@ -73,7 +74,7 @@ impl Seams {
     pub fn unseen(&self) -> Self {
         Self {
             skin: None,
-            most_ratio: None,
+            lack_weight: None,
             ..self.clone()
         }
     }
