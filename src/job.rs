@@ -14,7 +14,7 @@ use crate::ballast::Order;
 use crate::base::digest::sha256_hex;
 use crate::base::toml_text::{self, TextFault};
 use crate::base::units::Length;
-use crate::cut::CutOrder;
+use crate::cut::{CutOrder, KeepClear, LeastPart, SeamStyle};
 use crate::goal::Request;
 
 /// The version of `job.toml` that this program writes and reads.
@@ -43,6 +43,15 @@ pub struct Job {
     pub pitch: Option<Length>,
     /// The choice to cut the object.
     pub cut: CutMode,
+    /// The kind of seam; hidden ones if the key is missing.
+    #[serde(default = "default_seam", skip_serializing_if = "SeamStyle::is_hidden")]
+    pub seam: SeamStyle,
+    /// The least part; the usual limit if the key is missing.
+    #[serde(
+        default = "default_least_part",
+        skip_serializing_if = "LeastPart::is_usual"
+    )]
+    pub least_part: LeastPart,
     /// The pins that align the parts; printed ones if the key is missing.
     #[serde(default = "default_pins", skip_serializing_if = "PinStyle::is_printed")]
     pub pins: PinStyle,
@@ -67,6 +76,9 @@ pub struct Job {
     /// The goal.
     #[serde(deserialize_with = "read_goal")]
     pub goal: Request,
+    /// The balls that no seam enters; none if the key is missing.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub keep_clear: Vec<KeepClear>,
     /// The cuts and pins that the user ordered, in place of the planner's.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub plan: Option<CutOrder>,
@@ -191,6 +203,8 @@ impl Job {
             wall: None,
             pitch: None,
             cut: CutMode::Auto,
+            seam: default_seam(),
+            least_part: default_least_part(),
             pins: PinStyle::Printed,
             ids: IdStyle::Engraved,
             joint_price_ratio: None,
@@ -200,6 +214,7 @@ impl Job {
             model,
             printer,
             goal,
+            keep_clear: Vec::new(),
             plan: None,
         }
     }
@@ -255,6 +270,14 @@ fn without_solver(text: &str) -> String {
 
 fn default_pins() -> PinStyle {
     PinStyle::Printed
+}
+
+fn default_seam() -> SeamStyle {
+    SeamStyle::Hidden
+}
+
+fn default_least_part() -> LeastPart {
+    LeastPart::USUAL
 }
 
 fn default_ids() -> IdStyle {
@@ -317,6 +340,9 @@ mod tests {
         other.wall = Some("1.1mm".parse().unwrap());
         other.pitch = Some("0.1".parse().unwrap());
         other.cut = CutMode::Never;
+        other.seam = SeamStyle::Level;
+        other.least_part = "5%".parse().unwrap();
+        other.keep_clear = vec!["1,2.5,-3,4".parse().unwrap(), "0,0,9,1".parse().unwrap()];
         other.printer.material = Some("vero-white".into());
         other.model.scaling = Scaling::Factor(0.1 + 0.2);
         other.goal = Request {

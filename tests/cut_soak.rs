@@ -20,8 +20,8 @@ use std::time::Instant;
 use equipoise::base::verdict::Verdict;
 use equipoise::base::watch::Watch;
 use equipoise::cut::{
-    Cut, CutId, CutOrder, CutPlan, CutSide, GoalAxis, Hollowed, LabelStyle, Obstacle, Part,
-    PinSettings, PinSite, PlanRequest, PosePreference, Side, parts, plan_by, rods,
+    Cut, CutId, CutOrder, CutPlan, CutSide, GoalAxis, Hollowed, LabelStyle, LeastPart, Obstacle,
+    Part, PinSettings, PinSite, PlanRequest, PosePreference, Seams, Side, parts, plan_by, rods,
 };
 use equipoise::geom::{Bvh, Point, Vector};
 use equipoise::io::read_model;
@@ -153,6 +153,8 @@ fn request(dice: &mut Dice) -> PlanRequest {
             stroke_mm: 0.5,
             depth_mm: 0.5,
         }),
+        seams: Seams::default(),
+        least_part: LeastPart::NONE,
         watch: Watch::silent(),
     }
 }

@@ -12,7 +12,9 @@
 )]
 
 use equipoise::base::watch::Watch;
-use equipoise::cut::{GoalAxis, Hollowed, PinSettings, PlanRequest, PosePreference, plan};
+use equipoise::cut::{
+    GoalAxis, Hollowed, LeastPart, PinSettings, PlanRequest, PosePreference, Seams, plan,
+};
 use equipoise::geom::{Point, Vector};
 use equipoise::mesh::{Csg, Solid, TriMesh, primitives};
 use equipoise::printer::Cleaning;
@@ -48,6 +50,8 @@ fn request() -> PlanRequest {
         pose: PosePreference::CutFaceDown,
         rods: Vec::new(),
         labels: None,
+        seams: Seams::default(),
+        least_part: LeastPart::NONE,
         watch: Watch::silent(),
     }
 }

@@ -23,6 +23,12 @@ choice! {
         Cut = "cut",
         /// The cuts and pins that the user orders.
         Plan = "plan",
+        /// The kind of seam.
+        Seam = "seam",
+        /// The balls that no seam enters.
+        KeepClear = "keep_clear",
+        /// The least part.
+        LeastPart = "least_part",
         /// The pins that align the parts.
         Pins = "pins",
         /// The marking of parts with their ids.

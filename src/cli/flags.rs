@@ -2,6 +2,7 @@
 
 use crate::base::setting::{Key, Setting, reword};
 use crate::coupon::{Commands, CouponSet};
+use crate::job::Job;
 
 /// Returns the flag of a setting, such as `--ballast=auto`.
 pub fn flag(setting: &Setting) -> String {
@@ -27,6 +28,16 @@ pub fn with_flags(text: &str) -> String {
 /// Returns the command that writes a shop's own profile from a printer.
 pub fn command_for_new_profile(id: &str) -> String {
     format!("equipoise printers new --from {id} --out shop.toml")
+}
+
+/// Returns the command that makes a kit by one of the plans of a job.
+pub fn command_for_plan(job: &Job) -> String {
+    format!(
+        "equipoise prepare {} --goal {} --printer {} --cut plan1.toml, with the size and all else as before",
+        job.model.path.display(),
+        job.goal.kind,
+        job.printer.id
+    )
 }
 
 /// Returns the command that writes the coupons of a printer.

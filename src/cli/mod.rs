@@ -3,6 +3,7 @@
 pub mod args;
 pub mod bars;
 pub mod coupon;
+mod cuts;
 mod exit;
 mod flags;
 pub mod inspect;
@@ -23,7 +24,8 @@ use std::error::Error;
 
 pub use exit::Exit;
 
-use args::{Cli, Command};
+use args::{Cli, Command, DEFAULT_PLANS};
+use prepare::PrepareError;
 use signals::{Stop, end_process_on_signal};
 use voice::{Manner, Voice};
 
@@ -44,7 +46,28 @@ fn dispatch(cli: Cli, manner: Manner) -> Result<Exit, Box<dyn Error + Send + Syn
     };
     let out = &mut std::io::stdout();
     match cli.command {
-        Command::Prepare(args) => Ok(prepare::prepare(*args, voice, &Stop::on_signals(), out)?),
+        Command::Prepare(args) => match args.plans {
+            Some(count) => {
+                let request = args.request().map_err(PrepareError::from)?;
+                Ok(cuts::cuts(
+                    &request,
+                    usize::from(count),
+                    voice,
+                    &Stop::on_signals(),
+                )?)
+            }
+            None => Ok(prepare::prepare(*args, voice, &Stop::on_signals(), out)?),
+        },
+        Command::Cuts(mut args) => {
+            let count = *args.plans.get_or_insert(DEFAULT_PLANS);
+            let request = args.request().map_err(PrepareError::from)?;
+            Ok(cuts::cuts(
+                &request,
+                usize::from(count),
+                voice,
+                &Stop::on_signals(),
+            )?)
+        }
         Command::Inspect(args) => {
             end_process_on_signal();
             Ok(inspect::inspect(&args, voice, out)?)

@@ -122,7 +122,8 @@ fn print_prepared(
     Ok(())
 }
 
-fn print_impossible(
+/// Prints why a goal cannot be met, and what helps.
+pub(super) fn print_impossible(
     impossible: &Impossible,
     voice: Voice,
     out: &mut dyn Write,

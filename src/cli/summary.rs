@@ -32,6 +32,7 @@ pub fn ten_lines(checklist: &Checklist, out: &Path, manner: Manner) -> String {
         )),
         wall(checklist).map(|words| ("wall", words)),
         Some(("parts", parts(checklist))),
+        offer(checklist).map(|words| ("other plan", words)),
         Some(("verdict", summary(&checklist.checks, manner))),
         checklist
             .timing_s
@@ -46,6 +47,11 @@ pub fn ten_lines(checklist: &Checklist, out: &Path, manner: Manner) -> String {
         .collect();
     // Non-breaking blanks are for pages; on a terminal they get in the way of a search.
     table(&rows).replace('\u{a0}', " ") + &broken(&checklist.checks, manner)
+}
+
+/// Returns the first offer of another plan; `None` if there is none.
+fn offer(checklist: &Checklist) -> Option<String> {
+    checklist.offers.first().cloned()
 }
 
 /// Returns what the object does, and for a top on what it spins.

@@ -7,7 +7,10 @@ use crate::{
         verdict::Verdict,
         watch::Cancelled,
     },
-    cut::ids::{CutId, PartId, PinId, VoidId},
+    cut::{
+        ids::{CutId, PartId, PinId, VoidId},
+        seam::clear::KeepClear,
+    },
     mesh::ClipError,
 };
 
@@ -17,8 +20,9 @@ use crate::{
 pub enum Obstacle {
     /// No plane of the family opens these voids wide enough.
     #[error(
-        "no plane opens void {} wide enough: the widest opening found is {widest_mm:.2} mm, asked are {needed_mm:.2} mm; fill the void or accept a smaller opening",
-        list(voids)
+        "no plane opens void {} wide enough: the widest opening found is {widest_mm:.2} mm, asked are {needed_mm:.2} mm; {}",
+        list(voids),
+        remedy_for_closed(*is_free)
     )]
     Unopenable {
         /// The voids.
@@ -27,6 +31,8 @@ pub enum Obstacle {
         widest_mm: f64,
         /// The required opening, mm.
         needed_mm: f64,
+        /// False if planes were left out because of where their seams run.
+        is_free: bool,
     },
     /// A part would enclose a cavity.
     #[error(
@@ -38,6 +44,17 @@ pub enum Obstacle {
         part: PartId,
         /// The number of cavities.
         cavities: usize,
+    },
+    /// The seam of an ordered cut enters a ball that is to be kept clear.
+    #[error(
+        "the seam of cut {cut} enters the ball {ball} (X,Y,Z,R, mm) that is to be kept clear; move the cut, or leave out this `{}`",
+        Setting::open(Key::KeepClear)
+    )]
+    SeamInBall {
+        /// The cut's id.
+        cut: CutId,
+        /// The ball.
+        ball: KeepClear,
     },
     /// A pin of the plan does not stand on a cut face.
     #[error(
@@ -95,6 +112,18 @@ pub enum CutError {
     /// The caller stopped the run.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
+}
+
+/// Returns the remedy for a void that no plane opens.
+fn remedy_for_closed(is_free: bool) -> String {
+    if is_free {
+        return "fill the void or accept a smaller opening".to_owned();
+    }
+    format!(
+        "the planes whose seams may run there do not; make the balls of `{}` smaller, or `{}`",
+        Setting::open(Key::KeepClear),
+        Setting::new(Key::Seam, "hidden")
+    )
 }
 
 /// Joins the ids with commas.

@@ -1,7 +1,9 @@
 //! Requests for cuts that a printer can make.
 
 use crate::base::watch::Watch;
+use crate::cut::least_part::LeastPart;
 use crate::cut::request::{GoalAxis, LabelStyle, PinSettings, PlanRequest, PosePreference};
+use crate::cut::seam::rules::Seams;
 use crate::printer::{Grid, PrintPose, Printer, Quantity};
 
 impl PlanRequest {
@@ -17,7 +19,8 @@ impl PlanRequest {
     /// openings, pins and grid.
     ///
     /// Cuts keep away from the point of `axis`. Pins are printed, and ids are sunk into the cut
-    /// faces, and nobody watches: change `rods`, `labels` and `watch` for anything else.
+    /// faces. Of a seam only the length counts, and nobody watches. Change `rods`, `labels`,
+    /// `seams` and `watch` for anything else.
     pub fn for_printer(printer: &Printer, size_mm: f64, axis: GoalAxis) -> Self {
         let elephant_foot = printer.number(Quantity::ElephantFootMm);
         let elephant_foot_mm = elephant_foot.map_or(0.0, |foot| foot.value);
@@ -55,6 +58,8 @@ impl PlanRequest {
             },
             rods: Vec::new(),
             labels: Some(LabelStyle::for_printer(printer)),
+            seams: Seams::default(),
+            least_part: LeastPart::USUAL,
             watch: Watch::silent(),
         }
     }

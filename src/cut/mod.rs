@@ -17,12 +17,14 @@
 //! | `access` | the openings of voids, and the share of their walls in sight |
 //! | `pieces` | the pieces between the cuts, their poses, and the finished parts |
 //! | `joints` | pins, dowels, bosses and labels |
+//! | `seam`, `least_part` | what is seen of a seam, where none may run, and the least part |
 //! | `planner` | the search for the fewest cuts, and the way from cuts to a plan |
 
 mod error;
 mod for_printer;
 mod hollowed;
 mod ids;
+mod least_part;
 mod order;
 mod plan;
 mod remark;
@@ -35,6 +37,7 @@ mod geometry;
 mod joints;
 mod pieces;
 mod planner;
+mod seam;
 
 #[cfg(test)]
 mod scenes;
@@ -43,8 +46,13 @@ mod tests;
 
 // The input.
 pub use hollowed::{Hollowed, Void};
+pub use least_part::LeastPart;
 pub use order::{CutOrder, Namer, OrderError, PinFault};
 pub use request::{GoalAxis, LabelStyle, PinSettings, PlanRequest, PosePreference};
+pub use seam::clear::KeepClear;
+pub use seam::notes::{SeamNote, seams};
+pub use seam::rules::{SeamStyle, Seams};
+pub use seam::skin::SeamLie;
 pub use seat::Seat;
 
 // The plan.

@@ -8,17 +8,21 @@ use serde::{Deserialize, Serialize};
 use crate::{
     base::toml_text::{self, TextFault},
     cut::{
+        error::CutError,
         ids::{CutId, PinId},
         joints::pin_shape::PinSite,
         plan::{Cut, CutPlan, SolidEnd, UncutFace, index_of, tree_of},
+        seam::clear::KeepClear,
     },
+    geom::Parting,
 };
 
 /// The header of every written file.
 const FILE_HEADER: &str = r#"# Cuts and pins, mm, in the frame of the scaled model. Edit, then: equipoise prepare, with this file as its cuts.
 # Without pins they are placed anew; `pins = []` makes none. Faces listed as uncut stay whole where a cut passes; a cut with
 # `within = [{ cut = "C1", side = "above" }]` is made on that side only. Of the interior stays solid what hangs together with
-# `at_mm` between the corners of the box of a `[[solid]]`.
+# `at_mm` between the corners of the box of a `[[solid]]`. No seam enters the ball of a `[[keep_clear]]` with `center_mm` and
+# `radius_mm`; a file with such balls and no cuts leaves the cuts to the planner.
 
 "#;
 
@@ -37,6 +41,9 @@ pub struct CutOrder {
     /// Regions of the interior that stay solid.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub solid: Vec<SolidEnd>,
+    /// Balls that no seam enters.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub keep_clear: Vec<KeepClear>,
 }
 
 /// An order as it stands in a file, before it is checked.
@@ -50,6 +57,8 @@ struct Given {
     uncut: Vec<UncutFace>,
     #[serde(default)]
     solid: Vec<SolidEnd>,
+    #[serde(default)]
+    keep_clear: Vec<KeepClear>,
 }
 
 /// The reason why an order makes no sense.
@@ -84,6 +93,11 @@ pub enum OrderError {
         "solid region {0} is none; remedy: give `low_mm` below `high_mm` on each axis, and `at_mm` between them"
     )]
     NoRegion(usize),
+    /// A ball to keep clear has no radius, or numbers that are not finite.
+    #[error(
+        "ball {0} to keep clear is none; remedy: give `center_mm` as three numbers, and a `radius_mm` above zero"
+    )]
+    NoBall(usize),
     /// A pin cannot be made.
     #[error("pin {id}: {reason}")]
     BadPin {
@@ -155,7 +169,23 @@ impl CutOrder {
             cuts: plan.cuts.clone(),
             uncut: plan.uncut.clone(),
             solid: plan.solid.clone(),
+            keep_clear: Vec::new(),
         }
+    }
+
+    /// Returns its cuts with the half-spaces within which they are made, in their order. Errors as
+    /// [`Cut::plane`].
+    pub fn partings(&self) -> Result<Vec<Parting>, CutError> {
+        Ok(tree_of(&self.cuts)?.partings().collect())
+    }
+
+    /// Returns whether it names balls to keep clear and nothing else, so that the planner cuts.
+    pub fn is_only_clear(&self) -> bool {
+        let bare = Self {
+            keep_clear: self.keep_clear.clone(),
+            ..Self::default()
+        };
+        !self.keep_clear.is_empty() && *self == bare
     }
 
     /// Returns the order with its cuts named as the planner names them: C1, C2, …
@@ -205,6 +235,7 @@ impl TryFrom<Given> for CutOrder {
             cuts,
             uncut,
             solid,
+            keep_clear,
         } = given;
         if let Some(id) = find_duplicate(cuts.iter().map(|cut| &cut.id)) {
             return Err(OrderError::TwinCuts(id.clone()));
@@ -249,11 +280,15 @@ impl TryFrom<Given> for CutOrder {
         if let Some(index) = solid.iter().position(|end| !end.is_sound()) {
             return Err(OrderError::NoRegion(index + 1));
         }
+        if let Some(index) = keep_clear.iter().position(|ball| !ball.is_sound()) {
+            return Err(OrderError::NoBall(index + 1));
+        }
         Ok(Self {
             pins,
             cuts,
             uncut,
             solid,
+            keep_clear,
         })
     }
 }

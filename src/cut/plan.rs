@@ -174,6 +174,14 @@ impl CutPlan {
         })
     }
 
+    /// Counts the parts that its joints hold together; 1 without joints.
+    pub fn count_parts(&self) -> usize {
+        let mut parts: Vec<&PartId> = self.joints.iter().flat_map(|joint| &joint.parts).collect();
+        parts.sort_unstable();
+        parts.dedup();
+        parts.len().max(1)
+    }
+
     /// Returns the cuts at which a part meets others.
     pub fn cuts_of(&self, part: PartId) -> impl Iterator<Item = &Cut> {
         let meets = move |joint: &JointNote| joint.parts.contains(&part);

@@ -61,6 +61,13 @@ pub enum Remark {
         /// Required diameter, mm.
         least_opening_mm: f64,
     },
+    /// A part is smaller than the least, and no other plan was found.
+    SmallPart {
+        /// The part.
+        part: PartId,
+        /// Its share of the material.
+        mass_ratio: f64,
+    },
     /// A cut face has no room for the id of its part.
     NoRoomForLabel {
         /// The part.
@@ -79,9 +86,10 @@ impl Remark {
             | Self::Score { .. }
             | Self::FittingCut(_)
             | Self::LimitedCut { .. } => true,
-            Self::LacksPins { .. } | Self::NarrowPiece { .. } | Self::NoRoomForLabel { .. } => {
-                false
-            }
+            Self::LacksPins { .. }
+            | Self::NarrowPiece { .. }
+            | Self::SmallPart { .. }
+            | Self::NoRoomForLabel { .. } => false,
         }
     }
 
@@ -96,7 +104,10 @@ impl Remark {
                 let sides = sides.iter_mut().map(|side| &mut side.cut);
                 std::iter::once(cut).chain(sides).collect()
             }
-            Self::Fewest(_) | Self::LacksPins { .. } | Self::NarrowPiece { .. } => Vec::new(),
+            Self::Fewest(_)
+            | Self::LacksPins { .. }
+            | Self::NarrowPiece { .. }
+            | Self::SmallPart { .. } => Vec::new(),
         }
     }
 }
@@ -147,6 +158,11 @@ impl fmt::Display for Remark {
             } => write!(
                 f,
                 "void {void}: a piece of it opens by {opening_mm:.2} mm only, asked are {least_opening_mm:.2} mm"
+            ),
+            Self::SmallPart { part, mass_ratio } => write!(
+                f,
+                "part {part} is small, {:.1} % of the volume: no plan was found without it",
+                100.0 * mass_ratio
             ),
             Self::NoRoomForLabel { part, cut } => write!(
                 f,
@@ -228,10 +244,12 @@ pub enum Term {
     Parts,
     /// The distance from the contact point.
     Contact,
-    /// The length of the seam.
+    /// The price of the seam: what is seen of it, or its length.
     Seam,
     /// The turning of the seam, beyond that of a convex one.
     Detail,
+    /// The slant of the cut in the object's own frame.
+    Slant,
     /// The area to be glued.
     Glue,
     /// The number of halves that do not fit the build volume.
@@ -249,6 +267,7 @@ impl fmt::Display for Term {
             Self::Contact => "contact",
             Self::Seam => "seam",
             Self::Detail => "detail",
+            Self::Slant => "slant",
             Self::Glue => "glue",
             Self::BuildVolume => "build volume",
             Self::Overhang => "overhang",
@@ -399,6 +418,7 @@ mod tests {
             voids: vec![VoidId::of(0), VoidId::of(2)],
             widest_mm: 2.5,
             needed_mm: 4.0,
+            is_free: true,
         };
         let words = "no plane opens void V1, V3 wide enough: the widest opening found is 2.50 mm";
         assert!(closed.to_string().starts_with(words), "{closed}");

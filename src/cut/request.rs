@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::{
     base::watch::Watch,
-    cut::joints::rod::Rod,
+    cut::{joints::rod::Rod, least_part::LeastPart, seam::rules::Seams},
     geom::{Point, Vector},
     printer::Cleaning,
 };
@@ -45,6 +45,10 @@ pub struct PlanRequest {
     pub rods: Vec<Rod>,
     /// The style in which part ids are sunk into cut faces; `None` for no ids.
     pub labels: Option<LabelStyle>,
+    /// The rules for seams on the outside.
+    pub seams: Seams,
+    /// The least part that is worth its joint.
+    pub least_part: LeastPart,
     /// The watch over the run: it hears that planning and cutting go on, and may stop them.
     pub watch: Watch,
 }

@@ -3,8 +3,8 @@
 use crate::{
     base::watch::Watch,
     cut::{
-        self, CutError, CutOrder, CutPlan, GoalAxis, Part, PinSettings, PlanRequest,
-        PosePreference, hollowed::Hollowed,
+        self, CutError, CutOrder, CutPlan, GoalAxis, LeastPart, Part, PinSettings, PlanRequest,
+        PosePreference, Seams, hollowed::Hollowed,
     },
     geom::{Point, Vector},
     mesh::{Solid, TriMesh},
@@ -113,6 +113,8 @@ pub(crate) fn request() -> PlanRequest {
         pose: PosePreference::CutFaceDown,
         rods: Vec::new(),
         labels: None,
+        seams: Seams::default(),
+        least_part: LeastPart::NONE,
         watch: Watch::silent(),
     }
 }

@@ -90,8 +90,11 @@ impl Kit {
 /// The file that marks a folder as a set of coupons.
 pub const COUPON_FILE: &str = "coupon.json";
 
+/// The page that marks a folder as plans side by side.
+pub const PLANS_FILE: &str = "plans.html";
+
 /// The files that mark a folder as one of ours.
-const SIGNS: [&str; 2] = ["checklist.json", COUPON_FILE];
+const SIGNS: [&str; 3] = ["checklist.json", COUPON_FILE, PLANS_FILE];
 
 /// Returns an error if the target may not be written.
 fn check_target(target: &Path, existing: Existing) -> Result<(), KitError> {

@@ -1,15 +1,19 @@
 //! The ladder: rungs are tried in order until one gives every joint its pins; the best are kept.
 
 use super::bosses::{Bossed, add_bosses, pay_for_bosses};
-use super::clean::{clean, without_ends};
+use super::clean::clean;
+use super::ground::Ground;
+use super::plan::are_clean;
+use super::refused::unless_refused;
 use super::request::request;
 use super::resolve::Resolver;
+use super::tendency::lean;
 use super::way::{Candidate, Way};
 use crate::base::watch::{Phase, Watch};
-use crate::cut::{CutError, CutPlan, PlanRequest, SolidEnd, find_ends_beyond_unpinned_joints};
+use crate::cut::{CutPlan, PlanRequest, find_ends_beyond_unpinned_joints};
 use crate::error::Error;
 use crate::job::CutMode;
-use crate::run::{CleaningRound, KeptCause, Placed, Policy, Remark, Rung, Solved, Voids};
+use crate::run::{KeptCause, Placed, Policy, Remark, Rung, Solved, Tendency};
 
 /// Opens the voids of a solution, on the lowest rung that gives every joint its pins.
 ///
@@ -20,72 +24,30 @@ pub fn climb<'a>(
     solved: Solved,
     watch: &Watch,
 ) -> Result<Vec<Candidate<'a>>, Error> {
-    let ladder = Ladder::new(placed, solved, watch)?;
-    let walls = ladder.plan_in_walls(&ladder.ground, &ladder.request, Rung::Walls)?;
-    let usual = ladder.add_bosses(walls.clone(), Rung::Bosses)?;
-    let mut ways: Vec<Way> = Vec::new();
-    let mut faults: Vec<Remark> = Vec::new();
-    for rung in Rung::BEYOND_USUAL {
-        watch.check()?;
-        if !ladder.needs(rung, &usual, &ways) {
-            continue;
-        }
-        match ladder.try_rung(rung, &usual, &ways) {
-            Ok(found) => ways.extend(found),
-            Err(Error::Cancelled) => return Err(Error::Cancelled),
-            Err(fault) => faults.push(Remark::RungFailed {
-                rung,
-                why: fault.to_string(),
-            }),
-        }
-    }
-    // What a rung costs is counted from the walls, as the usual plan costs something too.
-    ways.retain(|way| way.loss_ratio(&walls) <= ladder.policy.dear_loss_ratio);
-    let best = ladder.best(&usual, ways);
-    Ok(ladder.candidates(best, usual, walls, faults))
-}
-
-/// The voids that a rung starts from.
-#[derive(Clone)]
-struct Ground<'a> {
-    resolver: Resolver<'a>,
-    voids: Voids,
-    /// Parts of the interior that are kept solid.
-    solid: Vec<SolidEnd>,
-    /// The rounds in which that was done.
-    rounds: Vec<CleaningRound>,
-}
-
-impl Ground<'_> {
-    /// Keeps parts of the interior solid; `None` if nothing lies there or the goal is lost.
-    fn without(&self, solid: &[SolidEnd], cause: &KeptCause) -> Result<Option<Self>, Error> {
-        let mut resolver = self.resolver.clone();
-        let less = without_ends(&mut resolver, &self.voids, solid, cause)?;
-        Ok(less.map(|(round, voids)| Self {
-            resolver,
-            voids,
-            solid: solid.to_vec(),
-            rounds: vec![round],
-        }))
-    }
+    Ladder::new(placed, solved, watch)?.climb()
 }
 
 /// The ladder from one set of voids.
-struct Ladder<'a> {
+#[derive(Clone)]
+pub(super) struct Ladder<'a> {
     placed: &'a Placed,
     policy: Policy,
     watch: Watch,
     ground: Ground<'a>,
-    request: PlanRequest,
-    /// The remark on regions that a person ordered to stay solid, if they could not.
-    order: Option<Remark>,
+    pub(super) request: PlanRequest,
+    /// The remarks on what a person ordered, and on the choice of seams.
+    notes: Vec<Remark>,
+    /// True if a plan with dear seams is given up for a hidden one.
+    hides_seams: bool,
+    /// True if a plan with fewer parts is sought.
+    joins_parts: bool,
 }
 
 impl<'a> Ladder<'a> {
     /// Draws the voids, without what the job's plan keeps solid.
-    fn new(placed: &'a Placed, solved: Solved, watch: &Watch) -> Result<Self, Error> {
+    pub(super) fn new(placed: &'a Placed, solved: Solved, watch: &Watch) -> Result<Self, Error> {
         watch.enter(Phase::Shell);
-        let request = request(placed, watch);
+        let request = request(placed, watch)?;
         let mut resolver = Resolver::new(placed, solved, watch)?;
         watch.enter(Phase::Voids);
         let voids = resolver.draw()?;
@@ -96,7 +58,7 @@ impl<'a> Ladder<'a> {
             rounds: Vec::new(),
         };
         let ordered = placed.job.plan.as_ref().map(|plan| &plan.solid[..]);
-        let (ground, order) = match ordered.filter(|solid| !solid.is_empty()) {
+        let (ground, note) = match ordered.filter(|solid| !solid.is_empty()) {
             Some(solid) => match ground.without(solid, &KeptCause::Ordered)? {
                 Some(less) => (less, None),
                 None => (ground, Some(Remark::OrderTooSolid)),
@@ -109,8 +71,82 @@ impl<'a> Ladder<'a> {
             watch: watch.clone(),
             ground,
             request,
-            order,
+            notes: note.into_iter().collect(),
+            hides_seams: placed.job.seam.is_hidden(),
+            joins_parts: true,
         })
+    }
+
+    /// Climbs it. Returns the plans worth making, best first and never none.
+    pub(super) fn climb(mut self) -> Result<Vec<Candidate<'a>>, Error> {
+        let walls = self.plan_in_walls(&self.ground, &self.request, Rung::Walls)?;
+        let walls = self.hide_seams(walls)?;
+        let walls = self.join_parts(walls)?;
+        let usual = self.add_bosses(walls.clone(), Rung::Bosses)?;
+        let mut ways: Vec<Way> = Vec::new();
+        let mut faults: Vec<Remark> = Vec::new();
+        for rung in Rung::BEYOND_USUAL {
+            self.watch.check()?;
+            if !self.needs(rung, &usual, &ways) {
+                continue;
+            }
+            match self.try_rung(rung, &usual, &ways) {
+                Ok(found) => ways.extend(found),
+                Err(Error::Cancelled) => return Err(Error::Cancelled),
+                Err(fault) => faults.push(Remark::RungFailed {
+                    rung,
+                    why: fault.to_string(),
+                }),
+            }
+        }
+        // What a rung costs is counted from the walls, as the usual plan costs something too.
+        ways.retain(|way| way.loss_ratio(&walls) <= self.policy.dear_loss_ratio);
+        let best = self.best(&usual, ways);
+        Ok(self.candidates(best, usual, walls, faults))
+    }
+
+    /// Returns the ladder with another tendency.
+    pub(super) fn leaning(&self, tendency: Tendency) -> Self {
+        let keeps_seams = matches!(tendency, Tendency::Usual | Tendency::FewerParts);
+        Self {
+            request: lean(self.request.clone(), tendency),
+            hides_seams: self.hides_seams && keeps_seams,
+            joins_parts: tendency == Tendency::Usual,
+            ..self.clone()
+        }
+    }
+
+    /// Returns a plan with fewer parts in place of one with more than two, if it costs next to
+    /// nothing of the goal's figure. Else the sheet offers it with its price.
+    fn join_parts(&mut self, usual: Way<'a>) -> Result<Way<'a>, Error> {
+        let parts = usual.bossed.plan.count_parts();
+        if !(self.joins_parts && self.is_free() && parts > 2) {
+            return Ok(usual);
+        }
+        let request = lean(self.request.clone(), Tendency::FewerParts);
+        let other = self.plan_in_walls(&self.ground, &request, Rung::Walls);
+        let Some(other) = unless_refused(other)? else {
+            return Ok(usual);
+        };
+        let count = other.bossed.plan.count_parts();
+        if count >= parts || !other.bossed.voids.solution.is_usable() {
+            return Ok(usual);
+        }
+        let is_as_clean = are_clean(&other.bossed.plan, &other.request)
+            || !are_clean(&usual.bossed.plan, &usual.request);
+        let is_cheap = other.loss_ratio(&usual) <= self.policy.part_loss_ratio;
+        let is_hidden = other.seam_price()? <= usual.seam_price()?.max(self.policy.dear_seam_ratio);
+        if is_as_clean && is_cheap && is_hidden {
+            self.request = request;
+            return Ok(other);
+        }
+        let certificate = |way: &Way| way.bossed.voids.solution.certificate;
+        self.notes.push(Remark::FewerParts {
+            parts: [count, parts],
+            figure: certificate(&usual).figure,
+            values: [certificate(&other).value, certificate(&usual).value],
+        });
+        Ok(usual)
     }
 
     /// Returns whether the planner may choose other cuts.
@@ -199,6 +235,44 @@ impl<'a> Ladder<'a> {
             cleaning: rounds,
             bossed: Bossed::without(cleaned.voids, plan),
         })
+    }
+
+    /// Returns a plan whose seams are seen less, if those of the usual plan are dear and the other
+    /// costs little of the goal's figure. The rungs beyond then keep to it.
+    fn hide_seams(&mut self, usual: Way<'a>) -> Result<Way<'a>, Error> {
+        let price = usual.seam_price()?;
+        if !(self.is_free() && self.hides_seams) || price <= self.policy.dear_seam_ratio {
+            return Ok(usual);
+        }
+        let mut least_loss: Option<f64> = None;
+        let mut weight = self.policy.lack_weight;
+        for _ in 0..self.policy.hidden_rounds {
+            let mut request = self.request.clone();
+            request.seams.lack_weight = Some(weight);
+            weight *= self.policy.lack_growth;
+            let other = self.plan_in_walls(&self.ground, &request, Rung::Walls);
+            let Some(other) = unless_refused(other)? else {
+                continue;
+            };
+            if other.bossed.plan.cuts.is_empty() || other.seam_price()? >= price {
+                continue;
+            }
+            let loss_ratio = other.loss_ratio(&usual);
+            if other.hides_worth(&usual, &self.policy) {
+                self.request = request;
+                self.notes.push(Remark::Seams {
+                    loss_ratio: Some(loss_ratio),
+                    is_taken: true,
+                });
+                return Ok(other);
+            }
+            least_loss = Some(least_loss.map_or(loss_ratio, |least| least.min(loss_ratio)));
+        }
+        self.notes.push(Remark::Seams {
+            loss_ratio: least_loss,
+            is_taken: false,
+        });
+        Ok(usual)
     }
 
     /// Adds bosses around pins, where they cost little.
@@ -303,15 +377,15 @@ impl<'a> Ladder<'a> {
         walls: Way<'a>,
         faults: Vec<Remark>,
     ) -> Vec<Candidate<'a>> {
-        let order = || self.order.clone();
+        let notes = || self.notes.iter().cloned();
         let is_second = best.is_some();
         let has_bosses = !usual.bossed.rounds.is_empty();
         let price = best.as_ref().map(|best| best.price(&usual));
-        let best = best.map(|way| way.into_candidate(price.into_iter().chain(order())));
+        let best = best.map(|way| way.into_candidate(price.into_iter().chain(notes())));
         let stepped = is_second.then_some(Remark::SteppedDown(Rung::Bosses));
-        let usual = usual.into_candidate(order().into_iter().chain(stepped));
+        let usual = usual.into_candidate(notes().chain(stepped));
         let stepped = [Remark::SteppedDown(Rung::Walls)];
-        let walls = has_bosses.then(|| walls.into_candidate(order().into_iter().chain(stepped)));
+        let walls = has_bosses.then(|| walls.into_candidate(notes().chain(stepped)));
         let mut all: Vec<Candidate> = best.into_iter().chain([usual]).chain(walls).collect();
         if self.placed.has_ordered_pins() {
             all.truncate(1);
@@ -320,15 +394,6 @@ impl<'a> Ladder<'a> {
             candidate.opened.remarks.extend(faults.iter().cloned());
         }
         all
-    }
-}
-
-/// Returns `None` if the planner finds no plan: the rungs before it stand.
-fn unless_refused<T>(way: Result<T, Error>) -> Result<Option<T>, Error> {
-    match way {
-        Ok(way) => Ok(Some(way)),
-        Err(Error::Cut(CutError::Obstacle(_))) => Ok(None),
-        Err(error) => Err(error),
     }
 }
 

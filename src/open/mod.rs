@@ -8,11 +8,15 @@ mod bosses;
 mod clean;
 mod defect;
 mod failed;
+mod ground;
 mod ladder;
 mod plan;
+mod plans;
+mod refused;
 mod request;
 mod resolve;
 mod settle;
+mod tendency;
 mod way;
 
 #[cfg(test)]
@@ -21,5 +25,6 @@ mod scenes;
 pub use defect::defect_ratio;
 pub use ladder::climb;
 pub use plan::plan_once;
+pub use plans::{Leaning, climb_by_tendency};
 pub use resolve::{Resolver, finish};
 pub use way::Candidate;

@@ -1,11 +1,16 @@
 //! The request for cuts and pins of a placed goal.
 
-use crate::base::watch::Watch;
-use crate::cut::{GoalAxis, PinSettings, PlanRequest};
-use crate::run::Placed;
+use crate::base::watch::{Cancelled, Watch};
+use crate::cut::{GoalAxis, PinSettings, PlanRequest, Seams};
+use crate::geom::Vector;
+use crate::run::{AxisChoice, Placed};
 
-/// Returns what cuts, pins and parts must keep to for this job on its printer.
-pub fn request(placed: &Placed, watch: &Watch) -> PlanRequest {
+/// Returns what cuts, pins and parts must keep to for this job on its printer. Looks at the outside
+/// of the model, which takes some tenths of a second.
+///
+/// # Errors
+/// The watch was stopped.
+pub fn request(placed: &Placed, watch: &Watch) -> Result<PlanRequest, Cancelled> {
     let frame = &placed.goal().frame;
     let axis = GoalAxis {
         point: frame.origin,
@@ -13,7 +18,9 @@ pub fn request(placed: &Placed, watch: &Watch) -> PlanRequest {
     };
     let size_mm = placed.solid().mesh().longest_side_mm();
     let usual = PlanRequest::for_printer(&placed.shop.printer, size_mm, axis);
-    PlanRequest {
+    let outer = placed.solid().mesh();
+    let looked_at = Seams::look(placed.job.seam, outer, &natural_up(placed), watch)?;
+    Ok(PlanRequest {
         pins: PinSettings {
             spread_ratio: placed.policy.pin_spread_ratio,
             ..usual.pins
@@ -21,9 +28,27 @@ pub fn request(placed: &Placed, watch: &Watch) -> PlanRequest {
         worth_ratio: placed.policy.cut_worth_ratio,
         rods: placed.shop.rods.clone(),
         labels: usual.labels.filter(|_| placed.job.ids.is_engraved()),
+        seams: Seams {
+            keep_clear: placed.job.keep_clear.clone(),
+            ..looked_at
+        },
+        least_part: placed.job.least_part,
         watch: watch.clone(),
         ..usual
-    }
+    })
+}
+
+/// Returns up as the object stands by itself, or as the job has it.
+fn natural_up(placed: &Placed) -> Vector {
+    let natural = match &placed.choice {
+        Some(AxisChoice::Natural(natural) | AxisChoice::NearNatural { natural, .. }) => {
+            natural.up.direction()
+        }
+        _ => None,
+    };
+    natural
+        .unwrap_or_else(|| placed.goal().frame.axis())
+        .normalize()
 }
 
 #[cfg(test)]
@@ -62,7 +87,7 @@ mod tests {
     fn the_button_of_a_run_stops_its_plans() {
         let placed = thick_box();
         let watch = Watch::silent();
-        let request = request(&placed, &watch);
+        let request = request(&placed, &watch).unwrap();
         watch.cancel();
         assert!(request.watch.is_cancelled());
     }

@@ -7,7 +7,7 @@ use super::resolve::Resolver;
 use super::way::Way;
 use crate::ballast::Load;
 use crate::base::watch::Watch;
-use crate::cut::{Cut, CutOrder, PlanRequest};
+use crate::cut::{Cut, CutOrder, LeastPart, PlanRequest, SeamStyle};
 use crate::geom::Point;
 use crate::goal::{GoalKind, Objective, PrintStock, Request, place_in_material};
 use crate::hollow::{Fill, TopCourse};
@@ -159,8 +159,11 @@ fn job(goal: Request) -> Job {
         id: PRINTER.into(),
         material: None,
     };
+    // Boxes have no face: their plans open widest, as if nobody looked at them.
     Job {
         ids: IdStyle::None,
+        seam: SeamStyle::Short,
+        least_part: LeastPart::NONE,
         ..Job::new(model, printer, goal)
     }
 }
@@ -244,7 +247,7 @@ pub(super) fn draw(placed: &Placed) -> (Resolver<'_>, Voids) {
 
 /// Returns the request for cuts of a run that nobody watches.
 pub(super) fn unwatched(placed: &Placed) -> PlanRequest {
-    request(placed, &Watch::silent())
+    request(placed, &Watch::silent()).unwrap()
 }
 
 /// Returns the plan with pins in the walls alone.

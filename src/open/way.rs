@@ -3,7 +3,8 @@
 use super::bosses::Bossed;
 use super::plan::are_clean;
 use super::resolve::Resolver;
-use crate::cut::PlanRequest;
+use crate::cut::{self, PlanRequest};
+use crate::error::Error;
 use crate::run::{Achieved, CleaningRound, Opened, Policy, Remark, Rung};
 
 /// An opened body that is worth making, and the resolver that corrects it.
@@ -65,6 +66,28 @@ impl<'a> Way<'a> {
             && (is_clean(self) || !is_clean(usual))
             && self.loss_ratio(usual) <= max_loss_ratio
             && filled_ratio <= policy.max_void_loss_ratio
+    }
+
+    /// Returns the price of its seams with their slants, in circles about the model; 0 if nobody
+    /// looked.
+    pub fn seam_price(&self) -> Result<f64, Error> {
+        let outer = self.bossed.voids.hollowed.outer.mesh();
+        let seams = cut::seams(outer, &self.bossed.plan, &self.request)?;
+        let prices = seams
+            .iter()
+            .filter_map(|seam| Some(seam.seen_ratio? + seam.slant_price));
+        Ok(prices.sum())
+    }
+
+    /// Returns whether its seams are worth what they cost against the usual way: a little of the
+    /// figure, and one more part at most.
+    pub fn hides_worth(&self, usual: &Self, policy: &Policy) -> bool {
+        let is_clean = |way: &Self| are_clean(&way.bossed.plan, &way.request);
+        let count = |way: &Self| way.bossed.plan.count_parts();
+        self.bossed.voids.solution.is_usable()
+            && (is_clean(self) || !is_clean(usual))
+            && self.loss_ratio(usual) <= policy.seam_loss_ratio
+            && count(self) <= count(usual) + 1
     }
 
     /// Returns whether it gives every joint its pins and is worth it.

@@ -39,6 +39,7 @@ pub(super) fn cover(inputs: &PageInputs, job: &JobId) -> Markup {
                 (facts(sheet))
             }
             (overview(sheet))
+            (offers(sheet))
         }
     }
 }
@@ -58,6 +59,12 @@ fn verdict(sheet: &Checklist) -> Markup {
 fn warnings(sheet: &Checklist) -> Markup {
     html! {
         @for warning in &sheet.warnings { p class="warn" { strong { "Warning: " } (sentence(warning)) } }
+    }
+}
+
+fn offers(sheet: &Checklist) -> Markup {
+    html! {
+        @for offer in &sheet.offers { p class="small" { strong { "Another plan: " } (sentence(offer)) } }
     }
 }
 

@@ -10,6 +10,7 @@ mod load;
 mod outcome;
 mod papers;
 mod place;
+pub mod plans;
 mod rotor;
 mod solve;
 mod upright;

@@ -72,7 +72,11 @@ fn files(placed: &Placed, draft: &Draft) -> Result<Kit, Error> {
         kit.add(file, bytes.clone());
     }
     kit.add(JOB, placed.job.to_toml()?.into_bytes());
-    let cuts = CutOrder::of(&draft.made.plan).to_toml();
+    let cuts = CutOrder {
+        keep_clear: placed.job.keep_clear.clone(),
+        ..CutOrder::of(&draft.made.plan)
+    };
+    let cuts = cuts.to_toml();
     kit.add(CUTS, cuts.map_err(JobError::from)?.into_bytes());
     for picture in &draft.pictures {
         kit.add(&picture.file, picture.bytes());

@@ -18,6 +18,7 @@ mod opened;
 mod policy;
 mod remark;
 mod solved;
+mod tendency;
 
 pub use brief::{Model, Placed, Shop};
 pub use made::{Made, WrittenJig, WrittenPart};
@@ -26,3 +27,4 @@ pub use opened::{Achieved, BossRound, CleaningRound, KeptBoss, KeptSolid, Opened
 pub use policy::{Policy, Rung};
 pub use remark::{AxisChoice, KeptCause, Refusal, Remark};
 pub use solved::{HeightProof, Solved};
+pub use tendency::Tendency;

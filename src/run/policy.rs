@@ -104,6 +104,19 @@ pub struct Policy {
     /// Share of all walls that a cut for cleaning alone must bring into sight. Below it joints and
     /// crumbs are made for nothing.
     pub cut_worth_ratio: f64,
+    /// Price of a plan's seams above which a plan with hidden ones is sought, in circles about the
+    /// model of average weight.
+    pub dear_seam_ratio: f64,
+    /// Weight of walls without sight, against scores of seams, in the first plan with hidden ones.
+    pub lack_weight: f64,
+    /// Factor on that weight from one such plan to the next.
+    pub lack_growth: f64,
+    /// Number of plans with hidden seams that are tried.
+    pub hidden_rounds: usize,
+    /// Greatest loss for a plan whose seams are seen less.
+    pub seam_loss_ratio: f64,
+    /// Greatest loss for a plan with fewer parts that is taken unasked.
+    pub part_loss_ratio: f64,
     /// Times that parts are made. The first are right but for the rounding of their files, unless
     /// the plan had to change.
     pub max_assemblies: usize,
@@ -147,6 +160,12 @@ impl Policy {
         refused_margin_openings: 2.0,
         significant_void_ratio: 2e-6,
         cut_worth_ratio: PlanRequest::WORTH_RATIO,
+        dear_seam_ratio: 0.12,
+        lack_weight: 7.0,
+        lack_growth: 3.0,
+        hidden_rounds: 3,
+        seam_loss_ratio: 0.1,
+        part_loss_ratio: 0.02,
         max_assemblies: 3,
         correction_rounds: 8,
     };

@@ -9,6 +9,7 @@ use crate::base::setting::{Key, Setting};
 use crate::base::units::format_count;
 use crate::cut::{PartId, UncleanCause};
 use crate::goal::{Request, ShaftAxis, Up};
+use crate::hollow::Figure;
 
 /// A note for the job sheet.
 #[derive(Debug, Clone, PartialEq)]
@@ -41,8 +42,36 @@ pub enum Remark {
         /// The fault, in the words of its error.
         why: String,
     },
+    /// A plan with fewer parts is possible, too.
+    FewerParts {
+        /// Numbers of parts: fewer, and in this kit.
+        parts: [usize; 2],
+        /// The figure of the certificate.
+        figure: Figure,
+        /// Its values in both.
+        values: [f64; 2],
+    },
+    /// Another plan hides its seams better, and was taken or not.
+    Seams {
+        /// Share of itself by which the goal's figure is worse in that plan; `None` if it cannot be
+        /// made.
+        loss_ratio: Option<f64>,
+        /// True if it was taken.
+        is_taken: bool,
+    },
     /// The solid regions of the ordered plan leave too little for the goal.
     OrderTooSolid,
+}
+
+impl Remark {
+    /// Returns whether it tells of another plan that a person may prefer.
+    pub fn is_offer(&self) -> bool {
+        match self {
+            Self::FewerParts { .. } => true,
+            Self::Seams { is_taken, .. } => !is_taken,
+            _ => false,
+        }
+    }
 }
 
 impl fmt::Display for Remark {
@@ -74,10 +103,43 @@ impl fmt::Display for Remark {
                 "pins in every joint would break a promise of the kit: some joints have none",
             ),
             Self::RungFailed { rung, why } => write!(f, "pins: {rung} could not be tried: {why}"),
+            Self::FewerParts {
+                parts: [fewer, parts],
+                figure,
+                values,
+            } => {
+                let figure = *figure;
+                let [then, now] = values.map(|value| Reached { figure, value });
+                let fewer = format_count(*fewer, "part");
+                write!(
+                    f,
+                    "{fewer} in place of {parts}: it then {then}; this kit {now}"
+                )
+            }
+            Self::Seams {
+                loss_ratio,
+                is_taken,
+            } => f.write_str(&seam_words(*loss_ratio, *is_taken)),
             Self::OrderTooSolid => f.write_str(
                 "the regions that the plan keeps solid leave too little for the goal: they are not kept solid",
             ),
         }
+    }
+}
+
+/// Returns the words on seams that another plan hides better.
+fn seam_words(loss_ratio: Option<f64>, is_taken: bool) -> String {
+    let Some(loss_ratio) = loss_ratio else {
+        return "seams: one runs where it is seen, and no other plan was found".to_owned();
+    };
+    let percent = format!("{:.1} %", 100.0 * loss_ratio.abs());
+    let change = if loss_ratio > 0.0 { "worse" } else { "better" };
+    if is_taken {
+        format!("seams: they run where they are seen less; the goal's figure is {percent} {change}")
+    } else {
+        format!(
+            "seams: one runs where it is seen; off there the goal's figure would be {percent} {change}"
+        )
     }
 }
 

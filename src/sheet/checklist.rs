@@ -99,6 +99,9 @@ pub struct Checklist {
     pub verdict: Verdict,
     /// Warnings that a person must read before printing.
     pub warnings: Vec<String>,
+    /// Other plans that a person may prefer.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub offers: Vec<String>,
     /// Notes that a person may want to read.
     pub notes: Vec<String>,
     /// SHA-256 of the other files of the kit, by path relative to its folder.

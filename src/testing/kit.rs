@@ -151,6 +151,7 @@ fn checklist(evidence: &Evidence, found: &Judgement) -> Checklist {
         rounds: Vec::new(),
         checks: found.checks.clone(),
         verdict: Verdict::of(&found.checks),
+        offers: Vec::new(),
         warnings: vec![
             "the contact point hangs 10 mm below the surface: glue on a tip of that length".into(),
         ],

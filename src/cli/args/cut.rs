@@ -6,9 +6,8 @@ use std::str::FromStr;
 
 use clap::Args;
 
-use super::values::share;
-
-use crate::cut::CutOrder;
+use super::values::{share, words};
+use crate::cut::{CutOrder, KeepClear, LeastPart, SeamStyle};
 use crate::job::{CutMode, IdStyle, PinStyle, PlanError};
 
 /// The arguments for cutting the object and joining its parts.
@@ -19,6 +18,17 @@ pub struct CutArgs {
     /// Such a plan is a kit's cuts.toml, edited [default: auto]
     #[arg(long, value_name = "auto|never|FILE")]
     pub cut: Option<CutArg>,
+    /// Put seams where they are seen least (hidden), make them short (short), or only level ones
+    /// (level) [default: hidden]
+    #[arg(long, value_parser = words::<SeamStyle>(SeamStyle::WORDS))]
+    pub seam: Option<SeamStyle>,
+    /// Keep seams out of a ball, such as a face: its centre and radius in mm of the scaled model;
+    /// once for each ball
+    #[arg(long, value_name = "X,Y,Z,R", allow_hyphen_values = true)]
+    pub keep_clear: Vec<KeepClear>,
+    /// Make no part with a smaller share of the mass, nor one shorter than three pins [default: 2%]
+    #[arg(long, value_name = "PERCENT", allow_hyphen_values = true)]
+    pub least_part: Option<LeastPart>,
     /// Align the parts by pins printed on them (printed), or by dowels cut from stock rods (dowel)
     /// [default: printed]
     #[arg(long, value_name = "printed|dowel")]

@@ -17,7 +17,7 @@ use clap::{Args, Parser, Subcommand};
 use clap_complete::Shell;
 
 pub use error::ArgsError;
-pub use prepare::{PrepareArgs, Request};
+pub use prepare::{DEFAULT_PLANS, PrepareArgs, Request};
 pub use printers::{CalibrateArgs, CouponArgs, ImportArgs, NewArgs, PrintersAction, PrintersArgs};
 pub use scaling::ScalingArgs;
 pub use values::FactorError;
@@ -68,6 +68,10 @@ pub struct GlobalArgs {
 pub enum Command {
     /// Turn a model into a kit of printable parts that does what the goal says
     Prepare(Box<PrepareArgs>),
+    /// Show plans of cuts side by side, to choose one for prepare
+    ///
+    /// It takes the arguments of prepare, and writes plan1.toml and so on with pictures of each.
+    Cuts(Box<PrepareArgs>),
     /// Show a model's facts, defects and mass, and what it could become
     Inspect(InspectArgs),
     /// List the known printers, show one, or check a profile of your own

@@ -131,6 +131,15 @@ pub struct PrepareArgs {
     /// Replace the folder if it exists
     #[arg(long, help_heading = "Kit")]
     pub force: bool,
+    /// Write this many plans of cuts side by side, 1 to 4, in place of a kit [default: 3 with the
+    /// command cuts]
+    #[arg(
+        long,
+        value_name = "N",
+        value_parser = clap::value_parser!(u8).range(1..=4),
+        help_heading = "Kit"
+    )]
+    pub plans: Option<u8>,
     /// The file format of the parts; 3mf writes the assembly and the build plates too [default:
     /// both]
     #[arg(long, value_parser = words::<PartFormat>(PartFormat::WORDS), help_heading = "Kit")]
@@ -140,8 +149,11 @@ pub struct PrepareArgs {
     pub job: Option<PathBuf>,
 }
 
+/// Number of plans that the command for plans writes.
+pub const DEFAULT_PLANS: u8 = 3;
+
 /// The arguments that a replayed job decides.
-const DECIDED_BY_JOB: [&str; 31] = [
+const DECIDED_BY_JOB: [&str; 34] = [
     "printer",
     "material",
     "wall",
@@ -167,6 +179,9 @@ const DECIDED_BY_JOB: [&str; 31] = [
     "unit",
     "pitch",
     "cut",
+    "seam",
+    "keep_clear",
+    "least_part",
     "pins",
     "ids",
     "joint_price",
@@ -192,12 +207,13 @@ impl PrepareArgs {
     /// # Errors
     /// The arguments contradict each other, or a file they name cannot be used.
     pub fn request(self) -> Result<Request, ArgsError> {
-        let (out, force) = (self.out.clone(), self.force);
+        let (out, force, plans) = (self.out.clone(), self.force, self.plans);
         let job = match &self.job {
             Some(path) => replay(Job::read(path)?, self.model),
             None => self.new_job()?,
         };
-        let out = out.unwrap_or_else(|| default_out(&job.model.path));
+        let ending = if plans.is_some() { "-plans" } else { "-kit" };
+        let out = out.unwrap_or_else(|| default_out(&job.model.path, ending));
         Ok(Request { job, out, force })
     }
 
@@ -217,11 +233,18 @@ impl PrepareArgs {
             .map(CutArg::order)
             .transpose()?
             .unwrap_or((default.cut, None));
+        let mut keep_clear = self.cutting.keep_clear;
+        let of_plan = plan.iter().flat_map(|plan| plan.keep_clear.clone());
+        keep_clear.extend(of_plan);
+        let plan = plan.filter(|plan| !plan.is_only_clear());
         Ok(Job {
             wall: self.wall,
             pitch: self.pitch,
             cut,
             plan,
+            seam: self.cutting.seam.unwrap_or(default.seam),
+            keep_clear,
+            least_part: self.cutting.least_part.unwrap_or(default.least_part),
             pins: self.cutting.pins.unwrap_or(default.pins),
             ids: self.cutting.ids.unwrap_or(default.ids),
             joint_price_ratio: self.cutting.joint_price,
@@ -260,11 +283,11 @@ fn replay(job: Job, model: Option<PathBuf>) -> Job {
     }
 }
 
-/// Returns `<model>-kit` in the current folder.
-fn default_out(model: &Path) -> PathBuf {
+/// Returns the model's name with an ending, in the current folder.
+fn default_out(model: &Path, ending: &str) -> PathBuf {
     let mut name = model
         .file_stem()
         .map_or_else(|| OsString::from("model"), ToOwned::to_owned);
-    name.push("-kit");
+    name.push(ending);
     PathBuf::from(name)
 }

@@ -295,3 +295,29 @@ fn global_flags_stand_before_or_after_the_command() {
         2
     );
 }
+
+#[test]
+fn the_rules_for_seams_reach_the_job() {
+    let plain = request(PREPARE).job;
+    assert_eq!((plain.seam.word(), plain.keep_clear.len()), ("hidden", 0));
+    assert_eq!(plain.least_part.to_string(), "2%");
+    let line = "--seam level --least-part 5% --keep-clear -1,2,3,4 --keep-clear=0,0,9,1.5";
+    let ruled = request(&format!("{PREPARE} {line}")).job;
+    let balls: Vec<String> = ruled.keep_clear.iter().map(ToString::to_string).collect();
+    assert_eq!(ruled.seam.word(), "level");
+    assert_eq!(ruled.least_part.to_string(), "5%");
+    assert_eq!(balls, ["-1,2,3,4", "0,0,9,1.5"]);
+    let refused = parse(&format!("{PREPARE} --keep-clear 1,2,3")).unwrap_err();
+    assert!(refused.to_string().contains("X,Y,Z,R"), "{refused}");
+}
+
+#[test]
+fn plans_are_written_beside_the_model_and_not_over_its_kit() {
+    let kit = request(PREPARE).out;
+    let plans = request(&format!("{PREPARE} --plans 2")).out;
+    assert_eq!(kit, Path::new("elephant-kit"));
+    assert_eq!(plans, Path::new("elephant-plans"));
+    let line = PREPARE.replace("prepare", "cuts");
+    assert!(matches!(parse(&line).unwrap().command, Command::Cuts(_)));
+    assert!(parse(&format!("{PREPARE} --plans 9")).is_err());
+}

@@ -158,6 +158,11 @@ impl Ring {
         self.points.iter().zip(next).map(|(&a, &b)| [a, b])
     }
 
+    /// Returns true if a point lies inside the ring.
+    pub(crate) fn holds(&self, at: &Point2) -> bool {
+        self.outline().holds(at)
+    }
+
     fn outline(&self) -> Outline {
         Outline::new(self.segments().collect())
     }

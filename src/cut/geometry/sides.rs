@@ -54,6 +54,11 @@ impl<'a> Sides<'a> {
         }
     }
 
+    /// Returns the plane.
+    pub(crate) fn plane(&self) -> &Plane {
+        &self.plane
+    }
+
     /// Returns the pieces above and below the plane that polygon `group` of the section joins.
     pub(crate) fn neighbours(&self, group: usize) -> [u32; 2] {
         let ring = &self.section.rings[self.polygons[group][0]];

@@ -5,12 +5,16 @@ use rayon::prelude::*;
 use crate::{
     base::watch::Cancelled,
     cut::{
-        access::void_access::{Opened, VoidAccess, access, accesses, required_sight_ratio},
+        access::void_access::{Opened, VoidAccess},
         error::CutError,
         geometry::tree::CutTree,
         ids::{CutId, VoidId},
-        planner::score::{Scene, burden},
+        planner::{
+            attempt::Attempt,
+            score::{EXTRA_PART_WEIGHT, Scene, burden, estimate_seam_penalty},
+        },
         remark::{Remark, SightGain},
+        seam::skin::Skin,
     },
     geom::{Matrix, Plane, Point, Vector, orthonormal_basis},
     mass::{Body, moments_of_mesh},
@@ -22,6 +26,9 @@ use crate::{
 const MAX_SIGHT_CUTS: usize = 3;
 /// Least share of the missing sight that an extra cut must add to be worth its joint.
 const WORTH_RATIO: f64 = 0.1;
+/// Greatest price of an extra cut's seam, in circles about the model of average weight. A dearer
+/// one mars more than what it cleans is worth: that stays solid.
+const MOST_EXTRA_SEAM: f64 = 0.2;
 /// Quantiles of the hidden points, along a direction, at which extra cuts are tried.
 const QUANTILES: [f64; 3] = [0.2, 0.5, 0.8];
 /// Cuts within this share of the best gain compete by their burden.
@@ -29,189 +36,6 @@ const NEARLY_BEST_RATIO: f64 = 0.05;
 /// Number of extra cuts that are measured. Each costs a cut of a void and two passes over the
 /// model.
 const MEASURED_CUTS: usize = 6;
-/// Number of the best plans that are estimated before any extra cut is made. Two planes may leave a
-/// corner out of sight, and an extra cut costs a joint. An estimate takes some hundredths of a
-/// second.
-const ESTIMATED_PLANS: usize = 48;
-/// Number of plans estimated in parallel before the promising ones are measured.
-const ESTIMATED_AT_ONCE: usize = 8;
-/// Error of an estimate. A plan that seems to lack no more than this is measured.
-const ESTIMATE_ERROR_RATIO: f64 = 0.01;
-/// Number of plans measured although they seem to lack more. Extra cuts start from the cleanest of
-/// them.
-const FALLBACK_PLANS: usize = 3;
-
-/// A trial set of cuts, and the access they give to the voids.
-#[derive(Clone)]
-pub(crate) struct Attempt {
-    pub(crate) planes: Vec<Plane>,
-    pub(crate) voids: Vec<VoidAccess>,
-    lack_mm2: f64,
-}
-
-impl Attempt {
-    pub(crate) fn new(scene: &Scene, planes: &[Plane]) -> Result<Self, CutError> {
-        let planes: Vec<Plane> = planes
-            .iter()
-            .map(|plane| move_off_vertices(&scene.material, plane))
-            .collect();
-        let voids = accesses(
-            &scene.chambers,
-            &CutTree::everywhere(&planes),
-            scene.request,
-        )?;
-        Ok(Self::of(scene, planes, voids))
-    }
-
-    fn of(scene: &Scene, planes: Vec<Plane>, voids: Vec<VoidAccess>) -> Self {
-        let lack_mm2 = voids.iter().map(|void| void.lack_mm2(scene.request)).sum();
-        Self {
-            planes,
-            voids,
-            lack_mm2,
-        }
-    }
-
-    /// Returns the sum of [`VoidAccess::area_mm2`] over all voids, mm².
-    fn area_mm2(&self) -> f64 {
-        self.voids.iter().map(VoidAccess::area_mm2).sum()
-    }
-
-    /// Returns true if every void can be cleaned.
-    pub(crate) fn is_clean(&self) -> bool {
-        self.voids.iter().all(|void| void.is_clean)
-    }
-
-    /// Returns true if no void lacks more than the planner's margin of sight. Keeping that much
-    /// solid costs less than a joint.
-    fn is_nearly_clean(&self, scene: &Scene) -> bool {
-        let margin = scene.request.cleaning.sight_ratio..required_sight_ratio(scene.request);
-        self.voids
-            .iter()
-            .all(|void| void.is_clean || margin.contains(&void.sight_ratio))
-    }
-
-    /// Returns the cleaner of two attempts, or the first if they are equal.
-    fn or_cleaner(self, other: Self) -> Self {
-        if other.lack_mm2 < self.lack_mm2 {
-            other
-        } else {
-            self
-        }
-    }
-
-    /// Returns these cuts with one more. Voids that it does not meet keep their access.
-    fn with(&self, scene: &Scene, plane: Plane) -> Result<Self, CutError> {
-        let planes = [&self.planes[..], &[plane]].concat();
-        let voids = update_accesses(scene, &self.voids, &CutTree::everywhere(&planes), &[plane])?;
-        Ok(Self::of(scene, planes, voids))
-    }
-
-    /// Estimates the lack with one more cut, mm². Only the voids that it meets change.
-    fn estimate_lack_mm2(&self, scene: &Scene, plane: Plane) -> Result<f64, Cancelled> {
-        let planes = [&self.planes[..], &[plane]].concat();
-        let lack_mm2 = |before: &VoidAccess| {
-            Ok(if meets(scene, before.void, &plane) {
-                before.area_mm2() * estimate_lack_ratio(scene, before.void, &planes)?
-            } else {
-                before.lack_mm2(scene.request)
-            })
-        };
-        self.voids.iter().map(lack_mm2).sum()
-    }
-}
-
-/// Updates the access to the voids after some planes have changed. Only the voids that meet one of
-/// these planes are measured again.
-pub(crate) fn update_accesses(
-    scene: &Scene,
-    before: &[VoidAccess],
-    tree: &CutTree,
-    changed: &[Plane],
-) -> Result<Vec<VoidAccess>, CutError> {
-    let again = |known: &VoidAccess| {
-        if changed.iter().any(|plane| meets(scene, known.void, plane)) {
-            access(&scene.chambers, known.void, tree, scene.request)
-        } else {
-            Ok(known.clone())
-        }
-    };
-    before.iter().map(again).collect()
-}
-
-/// Returns true if a plane passes through a void.
-fn meets(scene: &Scene, void: VoidId, plane: &Plane) -> bool {
-    plane.passes_through(scene.hollowed.voids[void.index()].mesh().vertices())
-}
-
-/// Estimates the share of a void's wall that lacks sight with these cuts; 0 if no sight is
-/// required.
-fn estimate_lack_ratio(scene: &Scene, void: VoidId, planes: &[Plane]) -> Result<f64, Cancelled> {
-    let required = required_sight_ratio(scene.request);
-    if required == 0.0 {
-        return Ok(0.0);
-    }
-    let (chamber, tree) = (&scene.chambers[void.index()], CutTree::everywhere(planes));
-    let seen = chamber.estimate_sight_ratio(&tree, scene.request)?;
-    Ok((required - seen).max(0.0))
-}
-
-/// Returns the first of the plans with which every void can be cleaned, or else the cleanest.
-///
-/// Estimates all plans and measures those that seem clean, in their order. Then it measures the
-/// most promising of the others.
-pub(crate) fn cleanest(scene: &Scene, plans: &[Vec<Plane>]) -> Result<Attempt, CutError> {
-    let estimate = |planes: &Vec<Plane>| {
-        let mut voids = (0..scene.chambers.len()).map(VoidId::of);
-        voids.try_fold(0.0, |worst: f64, void| {
-            Ok(worst.max(estimate_lack_ratio(scene, void, planes)?))
-        })
-    };
-    let mut attempts = Attempts { scene, best: None };
-    let mut others: Vec<(f64, &Vec<Plane>)> = Vec::new();
-    for some in plans[..plans.len().min(ESTIMATED_PLANS)].chunks(ESTIMATED_AT_ONCE) {
-        let lacks = some.par_iter().map(estimate);
-        let lacks = lacks.collect::<Result<Vec<f64>, Cancelled>>()?;
-        for (lack, planes) in lacks.into_iter().zip(some) {
-            if lack > ESTIMATE_ERROR_RATIO {
-                others.push((lack, planes));
-            } else if let Some(clean) = attempts.measure(planes)? {
-                return Ok(clean);
-            }
-        }
-    }
-    others.sort_by(|a, b| a.0.total_cmp(&b.0));
-    for (_, planes) in others.into_iter().take(FALLBACK_PLANS) {
-        if let Some(clean) = attempts.measure(planes)? {
-            return Ok(clean);
-        }
-    }
-    attempts.best.map_or_else(|| Attempt::new(scene, &[]), Ok)
-}
-
-/// A series of plans that are measured one after another.
-struct Attempts<'a> {
-    scene: &'a Scene<'a>,
-    /// The cleanest plan so far.
-    best: Option<Attempt>,
-}
-
-impl Attempts<'_> {
-    /// Measures a plan. Returns it if every void is clean, and otherwise remembers it if it is the
-    /// cleanest.
-    fn measure(&mut self, planes: &[Plane]) -> Result<Option<Attempt>, CutError> {
-        let attempt = Attempt::new(self.scene, planes)?;
-        if attempt.is_clean() {
-            return Ok(Some(attempt));
-        }
-        self.best = Some(match self.best.take() {
-            Some(best) => best.or_cleaner(attempt),
-            None => attempt,
-        });
-        Ok(None)
-    }
-}
-
 /// Adds cuts through hidden points until every void can be cleaned or no cut gains enough. Each cut
 /// gets a remark in the notes.
 pub(crate) fn add_extra_cuts(
@@ -227,7 +51,8 @@ pub(crate) fn add_extra_cuts(
             break;
         };
         let gain_mm2 = attempt.lack_mm2 - next.lack_mm2;
-        if gain_mm2 < WORTH_RATIO * attempt.lack_mm2
+        if !is_worth_its_seam(scene, &next, gain_mm2)
+            || gain_mm2 < WORTH_RATIO * attempt.lack_mm2
             || gain_mm2 < scene.request.worth_ratio * attempt.area_mm2()
         {
             break;
@@ -236,6 +61,16 @@ pub(crate) fn add_extra_cuts(
         attempt = next;
     }
     Ok(attempt)
+}
+
+/// Returns true if an extra cut cleans more than its seam and its part cost, or nobody weighs them.
+fn is_worth_its_seam(scene: &Scene, next: &Attempt, gain_mm2: f64) -> bool {
+    let weight = scene.request.seams.lack_weight;
+    let (Some(weight), Some(plane)) = (weight, next.planes.last()) else {
+        return true;
+    };
+    let price = EXTRA_PART_WEIGHT + estimate_seam_penalty(scene, plane);
+    weight * gain_mm2 >= price * next.area_mm2()
 }
 
 /// Returns the remark on an extra cut: the voids with more of the wall in sight.
@@ -266,7 +101,8 @@ fn add_best_cut(scene: &Scene, attempt: &Attempt) -> Result<Option<Attempt>, Cut
     };
     let tree = CutTree::everywhere(&attempt.planes);
     let hidden = Opened::new(&scene.chambers, worst.void, &tree, scene.request).hidden()?;
-    let planes = planes_through(scene, worst.void, &hidden);
+    let mut planes = planes_through(scene, worst.void, &hidden);
+    planes.retain(|plane| scene.allows(plane) && is_hidden(scene, plane));
     let estimated = planes
         .par_iter()
         .map(|plane| Ok((attempt.estimate_lack_mm2(scene, *plane)?, *plane)));
@@ -296,12 +132,24 @@ fn add_best_cut(scene: &Scene, attempt: &Attempt) -> Result<Option<Attempt>, Cut
         .map(|(_, next)| next))
 }
 
+/// Returns true if a plane's seam costs no more than an extra cut may, or nobody weighs it.
+fn is_hidden(scene: &Scene, plane: &Plane) -> bool {
+    let seams = &scene.request.seams;
+    let look = |skin: &Skin| skin.estimate_ratio(plane) + skin.slant_price(plane);
+    let is_dear = |skin: &Skin| look(skin) > MOST_EXTRA_SEAM;
+    seams.lack_weight.is_none() || !seams.skin.as_deref().is_some_and(is_dear)
+}
+
 /// Returns planes through hidden points of a void, normal to the axes of the model, the goal, the
 /// void and the points.
 fn planes_through(scene: &Scene, void: VoidId, hidden: &[Point]) -> Vec<Plane> {
     let axis = scene.request.axis.direction.normalize();
     let (u, v) = orthonormal_basis(&axis);
     let mut normals = vec![Vector::x(), Vector::y(), Vector::z(), axis, u, v];
+    if let Some(up) = scene.request.seams.up() {
+        let (side, front) = orthonormal_basis(&up);
+        normals.extend([up, side, front]);
+    }
     let own = Body::new(
         &moments_of_mesh(scene.hollowed.voids[void.index()].mesh()),
         1.0,

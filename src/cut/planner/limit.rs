@@ -10,7 +10,7 @@ use crate::{
             pose::fits,
             split::{Piece, check_no_cavity},
         },
-        planner::{extra::update_accesses, score::Scene},
+        planner::{attempt::update_accesses, score::Scene},
     },
     geom::Plane,
 };

@@ -1,5 +1,6 @@
 //! The planner: the fewest planes that open every void, or the planes that were ordered.
 
+pub(crate) mod attempt;
 pub(crate) mod cover;
 pub(crate) mod extra;
 pub(crate) mod family;
@@ -7,9 +8,11 @@ pub(crate) mod layers;
 pub(crate) mod layout;
 pub(crate) mod limit;
 pub(crate) mod mirror;
+pub(crate) mod scene;
 pub(crate) mod score;
 pub(crate) mod search;
 pub(crate) mod to_plan;
+pub(crate) mod turns;
 
 #[cfg(test)]
 mod tests;
@@ -21,29 +24,39 @@ use crate::{
         error::{CutError, Obstacle, verdict},
         geometry::tree::{CutTree, Limit},
         hollowed::Hollowed,
-        ids::CutId,
+        ids::{CutId, PartId},
         joints::pins::Pins,
         order::CutOrder,
         pieces::{pose::fits, rejoin::rejoin, split::Piece},
         plan::{Cut, CutPlan, bridges_on, tree_of},
         planner::{
-            extra::{Attempt, add_extra_cuts, cleanest},
+            attempt::{Attempt, cleanest},
+            extra::add_extra_cuts,
             layers::snap_to_layers,
             layout::Layout,
-            score::{Scene, burden},
+            score::{Scene, burden, estimate_seam_penalty},
             search::smallest_plans,
             to_plan::{rename_cuts, to_plan},
         },
         remark::Remark,
         request::PlanRequest,
+        seam::clear::ClearBalls,
         side::CutSide,
     },
-    geom::{Plane, Point, Vector},
+    geom::{Aabb, Plane, Point, Vector},
     mesh::{move_off_faces, move_off_vertices},
 };
 
+/// Number of plans that are cut if the best leaves a part below the least. Each takes some tenths
+/// of a second.
+const COMPARED_FOR_SIZE: usize = 6;
+
 /// Greatest number of extra cuts that make parts fit the build volume.
 const MAX_FITTING_CUTS: usize = 8;
+
+/// Places tried for a cut that makes a part fit, as shares of its length from its middle. Among
+/// equals the first is taken.
+const MIDDLES: [f64; 7] = [0.0, 0.05, -0.05, 0.1, -0.1, 0.15, -0.15];
 
 /// Finds the fewest cuts that open every void by the required disc, and places pins in every joint.
 /// Among plans of equally few cuts, it takes the best-scored with which every void can be cleaned
@@ -66,6 +79,7 @@ fn plan_fewest(hollowed: &Hollowed, request: &PlanRequest) -> Result<CutPlan, Cu
     let mut layout = opening_cuts(&scene, &mut notes)?;
     fit_build_volume(&scene, &mut layout, &mut notes)?;
     notes.extend(limited_cut_remarks(&layout.tree));
+    notes.extend(small_part_remarks(&scene, &layout));
     let plan = to_plan(&scene, &layout, Pins::Placed, notes.clone())?;
     snap_to_layers(&scene, &layout, plan, notes)
 }
@@ -114,6 +128,7 @@ fn plan_ordered(
         .map(|cut| move_cut_off_faces(&scene, cut))
         .collect::<Result<Vec<_>, CutError>>()?;
     let (tree, numbered) = (tree_of(&cuts)?, order.numbered());
+    check_clear(&scene, &tree, &cuts)?;
     let bridges = bridges_on(&tree.planes, &numbered.cuts, &numbered.uncut);
     let pieces = rejoin(scene.split(&tree)?, &tree, &bridges, &request.watch)?;
     let voids = accesses(&scene.chambers, &tree, request)?;
@@ -137,6 +152,19 @@ fn plan_ordered(
         solid: order.solid.clone(),
         ..rename_cuts(plan, &cuts)
     })
+}
+
+/// Returns an error if the seam of an ordered cut enters a ball that is to be kept clear.
+fn check_clear(scene: &Scene, tree: &CutTree, cuts: &[Cut]) -> Result<(), CutError> {
+    let outer = scene.hollowed.outer.mesh();
+    let balls = ClearBalls::new(&scene.request.seams.keep_clear, outer, 0.0);
+    let mut cut_and_parting = cuts.iter().zip(tree.partings());
+    let entered = cut_and_parting.find_map(|(cut, parting)| {
+        let ball = balls.entered_within(&parting)?;
+        let cut = cut.id.clone();
+        Some(Obstacle::SeamInBall { cut, ball })
+    });
+    entered.map_or(Ok(()), |obstacle| Err(obstacle.into()))
 }
 
 /// Returns the cut as ordered, or moved off faces of which it would leave a thin sheet.
@@ -210,13 +238,57 @@ fn opening_cuts(scene: &Scene, notes: &mut Vec<Remark>) -> Result<Layout, CutErr
     let found = smallest_plans(scene)?;
     notes.push(Remark::Fewest(found.proof()));
     let best = cleanest(scene, &found.plans)?;
-    let Attempt { planes, voids, .. } = add_extra_cuts(scene, best, notes)?;
+    let mut of_extra = Vec::new();
+    let full = add_extra_cuts(scene, best.clone(), &mut of_extra)?;
+    let has_extra = full.planes.len() > best.planes.len();
+    let layout = Layout::new(scene, full.planes, full.voids)?;
+    let layout = if layout.count_small(scene) == 0 {
+        notes.extend(of_extra);
+        layout
+    } else {
+        let others = has_extra.then(|| best.planes.clone()).into_iter();
+        let plans = others.chain(found.plans.iter().map(|plan| plan.planes.clone()));
+        match whole_parts(scene, plans.take(COMPARED_FOR_SIZE))? {
+            Some(whole) => whole,
+            None => {
+                notes.extend(of_extra);
+                layout
+            }
+        }
+    };
     let score = |(index, plane): (usize, &Plane)| Remark::Score {
         cut: CutId::of(index),
         terms: burden(scene, plane).terms(scene).to_vec(),
     };
-    notes.extend(planes.iter().enumerate().map(score));
-    Layout::new(scene, planes, voids)
+    notes.extend(layout.tree.planes.iter().enumerate().map(score));
+    Ok(layout)
+}
+
+/// Returns the first layout of some plans that has no part below the least; `None` if all have.
+/// Ends of voids that it leaves unclean are for the caller to keep solid.
+fn whole_parts(
+    scene: &Scene,
+    plans: impl Iterator<Item = Vec<Plane>>,
+) -> Result<Option<Layout>, CutError> {
+    for planes in plans {
+        let Attempt { planes, voids, .. } = Attempt::new(scene, &planes)?;
+        let layout = Layout::new(scene, planes, voids)?;
+        if layout.count_small(scene) == 0 {
+            return Ok(Some(layout));
+        }
+    }
+    Ok(None)
+}
+
+/// Returns a remark on each part that is below the least all the same.
+fn small_part_remarks(scene: &Scene, layout: &Layout) -> Vec<Remark> {
+    let pieces = layout.pieces.iter().enumerate();
+    let small = pieces.filter(|(_, piece)| layout.is_small(scene, piece));
+    let remark = |(index, piece): (usize, &Piece)| Remark::SmallPart {
+        part: PartId::of(index),
+        mass_ratio: piece.volume_mm3 / scene.volume_mm3,
+    };
+    small.map(remark).collect()
 }
 
 /// Returns a remark on each cut that is limited to sides of others.
@@ -227,6 +299,25 @@ fn limited_cut_remarks(tree: &CutTree) -> impl Iterator<Item = Remark> {
         (!sides.is_empty()).then_some(Remark::LimitedCut { cut, sides })
     };
     (0..tree.planes.len()).filter_map(remark)
+}
+
+/// Returns the plane across the longest side of a box, near its middle, whose seam costs least. It
+/// enters no ball to be kept clear if there is such a plane.
+fn best_middle(scene: &Scene, aabb: &Aabb) -> Plane {
+    let axis = aabb.size().imax();
+    let normal = Vector::ith(axis, 1.0);
+    let at = |share: f64| Plane {
+        normal,
+        offset_mm: aabb.center()[axis] + share * aabb.size()[axis],
+    };
+    let best = MIDDLES.map(at).into_iter().min_by(|a, b| {
+        let is_refused = |plane: &Plane| scene.clear.entered(plane).is_some();
+        let penalty = |plane: &Plane| estimate_seam_penalty(scene, plane);
+        is_refused(a)
+            .cmp(&is_refused(b))
+            .then(penalty(a).total_cmp(&penalty(b)))
+    });
+    best.unwrap_or_else(|| at(0.0))
 }
 
 /// Bisects pieces that do not fit the build volume, across their longest extent, until all fit.
@@ -241,7 +332,7 @@ fn fit_build_volume(
             return Ok(());
         };
         let aabb = piece.mesh.aabb();
-        let middle = Plane::through(&aabb.center(), &Vector::ith(aabb.size().imax(), 1.0));
+        let middle = best_middle(scene, &aabb);
         let middle = move_off_vertices(&scene.material, &middle);
         let planes: Vec<Plane> = layout.tree.planes.iter().copied().chain([middle]).collect();
         let voids = accesses(

@@ -8,8 +8,10 @@
 //! | smallest part | share of the volume | nothing; good from 2 % | 2 |
 //! | parts | pieces beyond two | each | 0.2 |
 //! | contact | distance of the cut from the contact point, mm | nothing; good from 3 mm | 1 |
-//! | seam | length on the outside, mm | circle about the model | 0.5 |
-//! | detail | turning of the seam beyond a convex one, rad | two turns more | 0.1 |
+//! | seam, looked at | length on the outside, weighted by what is seen | circle of average weight | 3 |
+//! | slant, looked at | angle from level and upright in the object's frame | 15°, unless it follows the body | 0.6 |
+//! | seam, else | length on the outside, mm | circle about the model | 0.5 |
+//! | detail, else | turning of the seam beyond a convex one, rad | two turns more | 0.1 |
 //! | glue | area of the smallest joint, mm² | nothing; good from four pins' discs | 0.3 |
 //! | build volume | halves that do not fit it | each | 0.5 |
 //! | overhang | share of the surface that overhangs by more than 45° | all | 0.3 |
@@ -23,76 +25,19 @@
 
 use crate::{
     cut::{
-        access::chamber::Chamber,
-        error::CutError,
         geometry::{
-            opening::{Opening, measure_opening},
+            chart::Chart,
             section::{Ring, Section},
             sides::Sides,
-            tree::CutTree,
         },
-        hollowed::Hollowed,
         joints::pin_size::min_room_mm,
-        pieces::split::{Piece, split_body},
-        planner::cover::VoidSet,
         remark::Term,
-        request::{PlanRequest, PosePreference},
+        request::PosePreference,
     },
     geom::{Aabb, Plane, Point},
-    mass::moments_of_mesh,
-    mesh::{Csg, TriMesh},
 };
 
-/// The body to cut, and the data against which every plane is compared.
-pub(crate) struct Scene<'a> {
-    pub(crate) hollowed: &'a Hollowed,
-    pub(crate) request: &'a PlanRequest,
-    /// Surface of the material: the outside and the inverted voids.
-    pub(crate) material: TriMesh,
-    /// The material, prepared for cutting.
-    body: Csg,
-    /// The voids, prepared for cutting and line-of-sight tests.
-    pub(crate) chambers: Vec<Chamber<'a>>,
-    volume_mm3: f64,
-    diagonal_mm: f64,
-}
-
-impl<'a> Scene<'a> {
-    pub(crate) fn new(hollowed: &'a Hollowed, request: &'a PlanRequest) -> Result<Self, CutError> {
-        let material = hollowed.to_mesh();
-        let chambers = || Chamber::all(hollowed, &request.watch);
-        let (body, chambers) = rayon::join(|| Csg::of_mesh(&material), chambers);
-        let volume_mm3 = moments_of_mesh(&material).volume();
-        let diagonal_mm = hollowed.outer.mesh().aabb().size().norm();
-        let (body, chambers) = (body?, chambers?);
-        Ok(Self {
-            hollowed,
-            request,
-            material,
-            body,
-            chambers,
-            volume_mm3,
-            diagonal_mm,
-        })
-    }
-
-    /// Returns the pieces of the body between the cuts.
-    pub(crate) fn split(&self, tree: &CutTree) -> Result<Vec<Piece>, CutError> {
-        split_body(&self.body, tree, &self.request.watch)
-    }
-
-    /// Returns the plane's opening into each void of `met`; `None` for voids that it misses.
-    pub(crate) fn openings(&self, plane: &Plane, met: VoidSet) -> Vec<Option<Opening>> {
-        let voids = self.hollowed.voids.iter().enumerate();
-        voids
-            .map(|(i, void)| {
-                (met >> i & 1 == 1)
-                    .then(|| measure_opening(void.mesh(), plane))
-                    .flatten()
-            })
-            .collect()
-    }
-}
+pub(crate) use crate::cut::planner::scene::Scene;
 
 /// Openings wider than this many times the required one score no better.
 pub(crate) const AMPLE_OPENING_RATIO: f64 = 3.0;
@@ -111,9 +56,12 @@ const ROOM_WEIGHT: f64 = 2.0;
 /// Weight of crumbs. They get lost or are glued wrongly.
 const SMALL_PART_WEIGHT: f64 = 2.0;
 /// Weight of each piece beyond two. Every part is one more to print, clean and glue.
-const EXTRA_PART_WEIGHT: f64 = 0.2;
+pub(crate) const EXTRA_PART_WEIGHT: f64 = 0.2;
 /// Weight of a cut through the contact point. The tip wears along a seam.
 const CONTACT_WEIGHT: f64 = 1.0;
+/// Weight of a seam as dear as a circle about the model of average weight. A seam through a face
+/// costs about a quarter of that, one in a neck less than a tenth. It outweighs a narrow opening.
+const SEEN_SEAM_WEIGHT: f64 = 3.0;
 /// Weight of a seam as long as the circle about the model. Seams are visible and cost glue.
 const SEAM_WEIGHT: f64 = 0.5;
 /// Weight of a seam over features such as ears and folds. Steps show there, and edges chip.
@@ -133,11 +81,25 @@ const AMPLE_GLUE_DISCS: f64 = 4.0;
 /// usual limit.
 const OVERHANG_COSINE: f64 = std::f64::consts::FRAC_1_SQRT_2;
 
+/// Estimates the weighted terms of a plane's seam, without cutting anything; 0 if nobody looks at
+/// it. Takes some microseconds.
+pub(crate) fn estimate_seam_penalty(scene: &Scene, plane: &Plane) -> f64 {
+    let look = scene.request.seams.skin.as_ref();
+    look.map_or(0.0, |skin| {
+        SEEN_SEAM_WEIGHT * (skin.estimate_ratio(plane) + skin.slant_price(plane))
+    })
+}
+
 /// The effect of a cut on the body, apart from the voids it opens.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Burden {
-    /// Visible length of the seam, mm.
+    /// Length of the seam on the outside, mm.
     pub(crate) seam_mm: f64,
+    /// What is seen of the seam, in circles about the model of average weight; `None` if nobody
+    /// looked.
+    pub(crate) seen_ratio: Option<f64>,
+    /// Price of its slant in the object's frame, in the same unit; 0 if nobody looked.
+    pub(crate) slant_price: f64,
     /// Diameter of the largest disc of material in the tightest joint, mm: at most what pins need,
     /// and 0 below half of that. If wide joints are wanted, a quarter of the diameter with the
     /// voids in the joint filled.
@@ -195,6 +157,13 @@ pub(crate) fn burden(scene: &Scene, plane: &Plane) -> Burden {
         seam_mm: groups()
             .map(|&group| sides.section.rings[sides.polygons[group][0]].length_mm())
             .sum(),
+        seen_ratio: seen_ratio(scene, &sides, groups().copied()),
+        slant_price: scene
+            .request
+            .seams
+            .skin
+            .as_ref()
+            .map_or(0.0, |skin| skin.slant_price(plane)),
         extra_parts: volumes.len().saturating_sub(2),
         room_mm: needed.iter().map(room_mm).fold(needed_mm, f64::min),
         smallest_ratio: volumes.into_iter().fold(1.0, f64::min),
@@ -212,6 +181,16 @@ pub(crate) fn burden(scene: &Scene, plane: &Plane) -> Burden {
             .map_or(0, |room_mm| oversize(scene, plane, room_mm)),
         overhang_ratio: overhang_ratio(scene, plane),
     }
+}
+
+/// Returns what is seen of the outlines of some polygons of a section; `None` if nobody looked.
+fn seen_ratio(scene: &Scene, sides: &Sides, groups: impl Iterator<Item = usize>) -> Option<f64> {
+    let skin = scene.request.seams.skin.as_ref()?;
+    let (plane, chart) = (sides.plane(), Chart::of_plane(sides.plane()));
+    let outlines = groups.map(|group| &sides.section.rings[sides.polygons[group][0]]);
+    let segments = outlines.flat_map(Ring::segments);
+    let lifted = segments.map(|ends| ends.map(|end| chart.lift(plane, &end)));
+    Some(skin.price_ratio(plane, lifted))
 }
 
 /// Returns the area of material in a joint, mm².
@@ -343,16 +322,30 @@ fn is_needless(joint: &Joint, joints: &[Joint]) -> bool {
 }
 
 impl Burden {
+    /// Returns the price of the seam and of its slant, in circles about the model of average
+    /// weight; `None` if nobody looked.
+    pub(crate) fn look_ratio(&self) -> Option<f64> {
+        self.seen_ratio.map(|seen| seen + self.slant_price)
+    }
+
     /// Returns the sum of the weighted terms of one cut, 0 at best.
     pub(crate) fn penalty(&self, scene: &Scene) -> f64 {
         self.terms(scene).iter().map(|(_, value)| value).sum()
     }
 
     /// Returns the weighted terms of one cut with their names, each 0 at best.
-    pub(crate) fn terms(&self, scene: &Scene) -> [(Term, f64); 9] {
+    pub(crate) fn terms(&self, scene: &Scene) -> [(Term, f64); 10] {
         let needed_mm = min_room_mm(scene.request);
         let ample_glue_mm2 = AMPLE_GLUE_DISCS * std::f64::consts::FRAC_PI_4 * needed_mm * needed_mm;
         let circle_mm = std::f64::consts::PI * scene.diagonal_mm;
+        let ample_part_ratio = AMPLE_PART_RATIO.max(scene.request.least_part.mass_ratio());
+        let (seam, detail) = match self.seen_ratio {
+            Some(seen_ratio) => (SEEN_SEAM_WEIGHT * seen_ratio, 0.0),
+            None => (
+                SEAM_WEIGHT * self.seam_mm / circle_mm,
+                DETAIL_WEIGHT * (self.detail_rad / FULL_DETAIL_RAD).min(1.0),
+            ),
+        };
         [
             (
                 Term::RoomForPins,
@@ -360,18 +353,16 @@ impl Burden {
             ),
             (
                 Term::SmallestPart,
-                SMALL_PART_WEIGHT * shortfall(self.smallest_ratio, AMPLE_PART_RATIO),
+                SMALL_PART_WEIGHT * shortfall(self.smallest_ratio, ample_part_ratio),
             ),
             (Term::Parts, EXTRA_PART_WEIGHT * self.extra_parts as f64),
             (
                 Term::Contact,
                 CONTACT_WEIGHT * shortfall(self.contact_mm, AMPLE_CONTACT_MM),
             ),
-            (Term::Seam, SEAM_WEIGHT * self.seam_mm / circle_mm),
-            (
-                Term::Detail,
-                DETAIL_WEIGHT * (self.detail_rad / FULL_DETAIL_RAD).min(1.0),
-            ),
+            (Term::Seam, seam),
+            (Term::Detail, detail),
+            (Term::Slant, SEEN_SEAM_WEIGHT * self.slant_price),
             (
                 Term::Glue,
                 GLUE_WEIGHT * shortfall(self.glue_mm2, ample_glue_mm2),
@@ -395,7 +386,7 @@ pub(crate) fn opening_penalty(scene: &Scene, openings_mm: impl Iterator<Item = f
 }
 
 /// Returns the relative shortfall of `value` against `ample`: 0 for none, 1 if `value` is 0.
-fn shortfall(value: f64, ample: f64) -> f64 {
+pub(crate) fn shortfall(value: f64, ample: f64) -> f64 {
     (1.0 - value / ample).clamp(0.0, 1.0)
 }
 
@@ -403,7 +394,10 @@ fn shortfall(value: f64, ample: f64) -> f64 {
 mod tests {
     use super::*;
     use crate::{
-        cut::scenes::{ball, cuboid, request, with_balls},
+        cut::{
+            Hollowed, PlanRequest,
+            scenes::{ball, cuboid, request, with_balls},
+        },
         geom::Vector,
     };
 

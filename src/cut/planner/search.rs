@@ -9,9 +9,10 @@ use crate::{
         geometry::opening::Opening,
         ids::VoidId,
         planner::{
-            cover::{MAX_VOIDS, VoidSet, covers_of_size, greedy_cover, smallest_cover},
+            cover::{MAX_VOIDS, VoidSet, covers_of_size, smallest_cover},
             family::{Candidate, candidates},
-            score::{AMPLE_OPENING_RATIO, Burden, Scene, burden, opening_penalty},
+            score::{Burden, Scene, burden, estimate_seam_penalty, opening_penalty},
+            turns::{keep_allowed, promising_first},
         },
         remark::Proof,
     },
@@ -40,13 +41,23 @@ struct MeasuredPlane {
     openings: Vec<Option<Opening>>,
     /// The voids that it opens wide enough.
     opened: VoidSet,
+    /// Estimated terms of its seam; 0 if nobody looks.
+    seam_penalty: f64,
+}
+
+/// Planes that together open every void, and their score.
+#[derive(Debug, Clone)]
+pub(crate) struct RankedPlan {
+    pub(crate) planes: Vec<Plane>,
+    /// The sum of the weighted terms, 0 at best.
+    pub(crate) penalty: f64,
 }
 
 /// The ranked plans, and the proof that no fewer cuts suffice.
 #[derive(Debug, Clone)]
 pub(crate) struct Found {
     /// Plans with the same number of planes, best first.
-    pub(crate) plans: Vec<Vec<Plane>>,
+    pub(crate) plans: Vec<RankedPlan>,
     /// Number of candidates in the family.
     pub(crate) family: usize,
     /// Number of partial choices examined in the proof.
@@ -59,7 +70,7 @@ impl Found {
     /// Returns the number of cuts and the extent of the proof.
     pub(crate) fn proof(&self) -> Proof {
         Proof {
-            cuts: self.plans.first().map_or(0, Vec::len),
+            cuts: self.plans.first().map_or(0, |plan| plan.planes.len()),
             family: self.family,
             nodes: self.nodes,
             is_proved: self.is_proved,
@@ -82,7 +93,11 @@ pub(crate) fn smallest_plans(scene: &Scene) -> Result<Found, CutError> {
     }
     let all = VoidSet::MAX >> (MAX_VOIDS - voids);
     let watch = &scene.request.watch;
-    let family = promising_first(scene, candidates(scene.hollowed, scene.request)?, all)?;
+    let mut family = candidates(scene.hollowed, scene.request)?;
+    let tried = family.len();
+    keep_allowed(scene, &mut family)?;
+    let is_free = family.len() == tried;
+    let family = promising_first(scene, family, all)?;
     let met: Vec<VoidSet> = family.iter().map(|c| c.met).collect();
     let bound = smallest_cover(&met, all, watch)?;
     let (least, bound_nodes) = bound.map_or((usize::MAX, 0), |cover| (cover.at_least, cover.nodes));
@@ -101,7 +116,7 @@ pub(crate) fn smallest_plans(scene: &Scene) -> Result<Found, CutError> {
             break;
         }
     }
-    let cover = best.ok_or_else(|| unopenable(scene, &measured))?;
+    let cover = best.ok_or_else(|| unopenable(scene, &measured, is_free))?;
     Ok(Found {
         plans: rank_covers(scene, &measured, &cover.chosen)?,
         family: family.len(),
@@ -109,72 +124,6 @@ pub(crate) fn smallest_plans(scene: &Scene) -> Result<Found, CutError> {
         is_proved: cover.chosen.len() == least
             || (measured.len() == family.len() && cover.chosen.len() == cover.at_least),
     })
-}
-
-/// Sorts the family by promise. Planes that can be part of a smallest cover come first, one for
-/// each set of voids in turn. Among planes that meet the same voids, the best offset of each
-/// direction comes first, then the second best, and so on. Offsets are compared by their estimated
-/// openings. Ample estimates count as equal. So the axes, which lead the family, precede skew
-/// directions that are no better.
-fn promising_first(
-    scene: &Scene,
-    family: Vec<Candidate>,
-    all: VoidSet,
-) -> Result<Vec<Candidate>, Cancelled> {
-    let classes = classes(scene, &family, all)?;
-    let class_of = |c: &Candidate| {
-        classes
-            .binary_search_by_key(&c.met, |&(met, _)| met)
-            .unwrap_or_default()
-    };
-    let least = classes
-        .iter()
-        .map(|&(_, rest)| rest)
-        .min()
-        .unwrap_or_default();
-    let mut places: Vec<(usize, Candidate)> = Vec::with_capacity(family.len());
-    for row in family.chunk_by(|a, b| a.met == b.met && a.plane.normal == b.plane.normal) {
-        let mut row = row.to_vec();
-        row.sort_by(|a, b| b.guess_mm.total_cmp(&a.guess_mm));
-        places.extend(row.into_iter().enumerate());
-    }
-    let ample_mm = ample_guess_mm(scene);
-    let capped = |c: &Candidate| c.guess_mm.min(ample_mm);
-    places.sort_by(|(i, a), (j, b)| i.cmp(j).then(capped(b).total_cmp(&capped(a))));
-    let mut counts = vec![0; classes.len()];
-    let mut turns: Vec<((bool, usize), Candidate)> = Vec::with_capacity(places.len());
-    for (_, candidate) in places {
-        let class = class_of(&candidate);
-        counts[class] += 1;
-        turns.push(((classes[class].1 > least, counts[class]), candidate));
-    }
-    turns.sort_by_key(|&(turn, _)| turn);
-    Ok(turns.into_iter().map(|(_, candidate)| candidate).collect())
-}
-
-/// Returns the estimated opening above which a wider one is no better, mm. It is twice the limit of
-/// the score, because estimates err.
-fn ample_guess_mm(scene: &Scene) -> f64 {
-    2.0 * AMPLE_OPENING_RATIO * scene.request.min_opening_mm
-}
-
-/// Returns the distinct sets of voids met, in ascending order. Each comes with the number of
-/// further planes that open the rest by greedy choice.
-fn classes(
-    scene: &Scene,
-    family: &[Candidate],
-    all: VoidSet,
-) -> Result<Vec<(VoidSet, usize)>, Cancelled> {
-    let mut sets: Vec<VoidSet> = family.iter().map(|c| c.met).collect();
-    sets.sort_unstable();
-    sets.dedup();
-    let rest =
-        |set: VoidSet| greedy_cover(&sets, all & !set).map_or(usize::MAX, |chosen| chosen.len());
-    let class = |&set: &VoidSet| {
-        scene.request.watch.check()?;
-        Ok((set, rest(set)))
-    };
-    sets.par_iter().map(class).collect()
 }
 
 /// Measures the candidate's openings on its sections.
@@ -193,6 +142,7 @@ fn measure(scene: &Scene, candidate: &Candidate) -> Result<MeasuredPlane, Cancel
         plane: candidate.plane,
         openings,
         opened,
+        seam_penalty: estimate_seam_penalty(scene, &candidate.plane),
     })
 }
 
@@ -202,7 +152,7 @@ fn rank_covers(
     scene: &Scene,
     measured: &[MeasuredPlane],
     known: &[usize],
-) -> Result<Vec<Vec<Plane>>, Cancelled> {
+) -> Result<Vec<RankedPlan>, Cancelled> {
     let voids = scene.hollowed.voids.len();
     let all = VoidSet::MAX >> (MAX_VOIDS - voids);
     let opened: Vec<VoidSet> = measured.iter().map(|e| e.opened).collect();
@@ -218,9 +168,14 @@ fn rank_covers(
         opening_penalty(scene, openings_mm(measured, cover, &empty))
             + CROSSED_WEIGHT * count_crossed(measured, cover, voids)
     };
+    let seam_penalty = |cover: &[usize]| -> f64 {
+        let planes = cover.iter().map(|&i| &measured[i]);
+        planes.map(|plane| plane.seam_penalty).sum()
+    };
     let mut covers: Vec<(f64, Vec<usize>)> =
         covers.into_iter().map(|c| (opening_score(&c), c)).collect();
-    covers.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let promise = |(opening, cover): &(f64, Vec<usize>)| opening + seam_penalty(cover);
+    covers.sort_by(|a, b| promise(a).total_cmp(&promise(b)));
     let burdens = burdens_of(scene, measured, &covers)?;
     let penalty = |cover: &[usize]| {
         let cuts = cover.iter().map(|&i| burdens[i].map(|b| b.penalty(scene)));
@@ -231,8 +186,11 @@ fn rank_covers(
         .filter_map(|(opening, c)| Some((penalty(&c)? + opening, c)))
         .collect();
     scored.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let planes = |cover: &[usize]| cover.iter().map(|&i| measured[i].plane).collect();
-    Ok(scored.iter().map(|(_, cover)| planes(cover)).collect())
+    let plan = |(penalty, cover): &(f64, Vec<usize>)| RankedPlan {
+        planes: cover.iter().map(|&i| measured[i].plane).collect(),
+        penalty: *penalty,
+    };
+    Ok(scored.iter().map(plan).collect())
 }
 
 /// Counts the voids that more than one of the cover's planes meet.
@@ -296,7 +254,7 @@ fn widest_mm<'a>(planes: impl Iterator<Item = &'a MeasuredPlane>, void: usize) -
 }
 
 /// Returns the obstacle with the voids that none of the planes opens wide enough.
-fn unopenable(scene: &Scene, measured: &[MeasuredPlane]) -> Obstacle {
+fn unopenable(scene: &Scene, measured: &[MeasuredPlane], is_free: bool) -> Obstacle {
     let widest = |&void: &usize| widest_mm(measured.iter(), void);
     let is_closed = |&void: &usize| widest(&void) < needed_mm(scene, void);
     let voids: Vec<usize> = (0..scene.hollowed.voids.len()).filter(is_closed).collect();
@@ -306,8 +264,13 @@ fn unopenable(scene: &Scene, measured: &[MeasuredPlane]) -> Obstacle {
     let widest_mm = voids.iter().map(widest).fold(f64::INFINITY, f64::min);
     Obstacle::Unopenable {
         voids: voids.into_iter().map(VoidId::of).collect(),
-        widest_mm,
+        widest_mm: if widest_mm.is_finite() {
+            widest_mm
+        } else {
+            0.0
+        },
         needed_mm,
+        is_free,
     }
 }
 

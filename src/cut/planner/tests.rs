@@ -142,3 +142,117 @@ fn three_pockets_without_order_are_opened_by_the_plane_through_them() {
         plan.voids
     );
 }
+
+/// Returns the requirements of a test with balls that no seam enters.
+fn clear_of(balls: &[[f64; 4]]) -> PlanRequest {
+    let ball = |&[x, y, z, radius_mm]: &[f64; 4]| KeepClear {
+        center_mm: [x, y, z],
+        radius_mm,
+    };
+    PlanRequest {
+        seams: Seams {
+            keep_clear: balls.iter().map(ball).collect(),
+            ..Seams::default()
+        },
+        ..request()
+    }
+}
+
+#[test]
+fn no_seam_of_the_planner_enters_a_ball_to_keep_clear() {
+    let body = with_balls(ball([0.0; 3], 25.0), &[[0.0, 0.0, 0.0, 12.0]]);
+    let usual = plan(&body, &request()).unwrap();
+    let cut = usual.cuts[0].plane().unwrap();
+    let at = cut.foot() + cut.basis().0 * 24.0;
+    let marked = clear_of(&[[at.x, at.y, at.z, 9.0]]);
+    let balls = &marked.seams.keep_clear;
+    let balls = seam::clear::ClearBalls::new(balls, body.outer.mesh(), 0.0);
+    let enters = |plan: &CutPlan| {
+        let mut cuts = plan.partings().unwrap().into_iter();
+        cuts.any(|cut| balls.entered_within(&cut).is_some())
+    };
+    let clear = plan(&body, &marked).unwrap();
+    assert!(enters(&usual) && !enters(&clear), "{:?}", clear.cuts);
+}
+
+#[test]
+fn balls_that_leave_no_plane_are_named_in_the_refusal() {
+    let body = with_balls(ball([0.0; 3], 25.0), &[[0.0, 0.0, 0.0, 12.0]]);
+    let refused = plan(&body, &clear_of(&[[0.0, 0.0, 0.0, 60.0]])).unwrap_err();
+    let words = refused.to_string();
+    assert!(words.contains("no plane opens void V1"), "{words}");
+    assert!(
+        words.contains("make the balls of `keep_clear = …` smaller"),
+        "{words}"
+    );
+}
+
+#[test]
+fn an_ordered_cut_into_a_ball_is_refused_by_its_name() {
+    let body = with_balls(ball([0.0; 3], 25.0), &[[0.0, 0.0, 0.0, 12.0]]);
+    let text = "[[cuts]]\nid = \"waist\"\npoint_mm = [0, 0, 1]\nnormal = [0, 0, 1]\n";
+    let order = CutOrder::from_toml("cuts.toml", text).unwrap();
+    let ordered = |balls: &[[f64; 4]]| scenes::plan_by(&body, &clear_of(balls), &order);
+    let refused = ordered(&[[25.0, 0.0, 0.0, 3.0]]).unwrap_err().to_string();
+    assert!(
+        refused.contains("cut waist enters the ball 25,0,0,3"),
+        "{refused}"
+    );
+    assert!(ordered(&[[0.0, 0.0, 25.0, 3.0]]).is_ok());
+}
+
+#[test]
+fn balls_in_a_file_of_cuts_are_read_and_checked() {
+    let text = "[[keep_clear]]\ncenter_mm = [1, 2, 3]\nradius_mm = 4\n";
+    let order = CutOrder::from_toml("cuts.toml", text).unwrap();
+    assert!(order.is_only_clear() && order.keep_clear[0].radius_mm == 4.0);
+    let flat = text.replace("radius_mm = 4", "radius_mm = 0");
+    let refused = CutOrder::from_toml("cuts.toml", &flat)
+        .unwrap_err()
+        .to_string();
+    assert!(
+        refused.contains("ball 1 to keep clear is none"),
+        "{refused}"
+    );
+}
+
+#[test]
+fn a_slice_of_a_bar_is_below_the_least_part_and_its_half_is_not() {
+    use crate::{
+        cut::{
+            access::void_access::accesses,
+            geometry::tree::CutTree,
+            planner::{layout::Layout, score::Scene},
+        },
+        geom::Plane,
+    };
+    let body = with_balls(
+        cuboid([0.0; 3], [60.0, 20.0, 20.0]),
+        &[[30.0, 10.0, 10.0, 6.0]],
+    );
+    let count = |x: f64, least_part: LeastPart| {
+        let request = PlanRequest {
+            least_part,
+            ..request()
+        };
+        let scene = Scene::new(&body, &request).unwrap();
+        let planes = vec![30.013, x].into_iter().map(|offset_mm| Plane {
+            normal: Vector::x(),
+            offset_mm,
+        });
+        let planes: Vec<Plane> = planes.collect();
+        let tree = CutTree::everywhere(&planes);
+        let voids = accesses(&scene.chambers, &tree, &request).unwrap();
+        let pieces = scene.split(&tree).unwrap();
+        let layout = Layout {
+            tree,
+            voids,
+            pieces,
+            bridges: Vec::new(),
+        };
+        layout.count_small(&scene)
+    };
+    assert_eq!(count(59.0, LeastPart::USUAL), 1);
+    assert_eq!(count(50.0, LeastPart::USUAL), 0);
+    assert_eq!(count(59.0, LeastPart::NONE), 0);
+}

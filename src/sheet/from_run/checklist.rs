@@ -12,7 +12,7 @@ use super::joints::{cut_list, jig_rows, joint_rows, round_rows};
 use super::parts::part_rows;
 use super::printer::{material_row, printer_row};
 use super::promise::{aim, ballast_orders, fill_order};
-use super::remarks::{notes, warnings};
+use super::remarks::{notes, offers, warnings};
 use super::voids::{cut_rows, void_rows};
 use crate::ballast::PlacedPart;
 use crate::goal::{Objective, RoundKind, RoundSurface, Warning};
@@ -68,6 +68,7 @@ pub fn checklist(facts: &Facts) -> Checklist {
         checks: judgement.checks.clone(),
         verdict: Verdict::of(&judgement.checks),
         warnings: warnings(facts, foot.as_ref()),
+        offers: offers(facts),
         notes: notes(facts),
         files: BTreeMap::new(),
         timing_s: None,

@@ -58,9 +58,16 @@ pub fn warnings(facts: &Facts, foot: Option<&FootRow>) -> Vec<String> {
     warnings.chain(warn_of_joints(facts.made)).collect()
 }
 
+/// Returns the offers of other plans.
+pub fn offers(facts: &Facts) -> Vec<String> {
+    let remarks = facts.made.remarks.iter();
+    let offers = remarks.filter(|remark| remark.is_offer());
+    offers.map(ToString::to_string).collect()
+}
+
 /// Returns notes on the wall, on the scale of the files, on cuts and pins.
 ///
-/// Remarks on single joints stand in the rows of these joints.
+/// Remarks on single joints stand in the rows of these joints, and offers on the cover.
 pub fn notes(facts: &Facts) -> Vec<String> {
     let Facts { placed, made, .. } = facts;
     let wall = placed.shop.wall.why.clone();
@@ -68,8 +75,8 @@ pub fn notes(facts: &Facts) -> Vec<String> {
     let is_general = |note: &&cut::Remark| !is_shown_at_its_step(note);
     let planned = made.plan.notes.iter().filter(is_general);
     let planned = planned.map(ToString::to_string);
-    let is_of_joint = |remark: &&Remark| matches!(remark, Remark::NoBosses { .. });
-    let remarks = made.remarks.iter().filter(|remark| !is_of_joint(remark));
+    let is_told = |remark: &&Remark| matches!(remark, Remark::NoBosses { .. }) || remark.is_offer();
+    let remarks = made.remarks.iter().filter(|remark| !is_told(remark));
     let remarks = remarks.map(ToString::to_string);
     let all = std::iter::once(wall).chain(scale).chain(planned);
     all.chain(remarks).collect()

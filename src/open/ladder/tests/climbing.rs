@@ -5,6 +5,7 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use super::*;
 use crate::base::watch::Progress;
+use crate::cut::SolidEnd;
 use crate::geom::Point;
 use crate::mesh::primitives;
 use crate::open::scenes::{LOW, along, cut_towers, lopsided, need_jet, order, thick_box};

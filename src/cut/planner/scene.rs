@@ -1,0 +1,82 @@
+//! The body to cut, prepared for the planner.
+
+use crate::{
+    cut::{
+        access::chamber::Chamber,
+        error::CutError,
+        geometry::{
+            opening::{Opening, measure_opening},
+            tree::CutTree,
+        },
+        hollowed::Hollowed,
+        pieces::split::{Piece, split_body},
+        planner::cover::VoidSet,
+        request::PlanRequest,
+        seam::clear::ClearBalls,
+    },
+    geom::Plane,
+    mass::moments_of_mesh,
+    mesh::{Csg, TriMesh},
+};
+
+/// The body to cut, and the data against which every plane is compared.
+pub(crate) struct Scene<'a> {
+    pub(crate) hollowed: &'a Hollowed,
+    pub(crate) request: &'a PlanRequest,
+    /// Surface of the material: the outside and the inverted voids.
+    pub(crate) material: TriMesh,
+    /// The material, prepared for cutting.
+    body: Csg,
+    /// The voids, prepared for cutting and line-of-sight tests.
+    pub(crate) chambers: Vec<Chamber<'a>>,
+    /// The balls that no seam enters.
+    pub(crate) clear: ClearBalls,
+    pub(crate) volume_mm3: f64,
+    pub(crate) diagonal_mm: f64,
+}
+
+impl<'a> Scene<'a> {
+    pub(crate) fn new(hollowed: &'a Hollowed, request: &'a PlanRequest) -> Result<Self, CutError> {
+        let material = hollowed.to_mesh();
+        let chambers = || Chamber::all(hollowed, &request.watch);
+        let (body, chambers) = rayon::join(|| Csg::of_mesh(&material), chambers);
+        let volume_mm3 = moments_of_mesh(&material).volume();
+        let diagonal_mm = hollowed.outer.mesh().aabb().size().norm();
+        let (body, chambers) = (body?, chambers?);
+        // A cut may still move by half a layer.
+        let clear = &request.seams.keep_clear;
+        let clear = ClearBalls::new(clear, hollowed.outer.mesh(), request.layer_mm);
+        Ok(Self {
+            hollowed,
+            request,
+            material,
+            body,
+            chambers,
+            clear,
+            volume_mm3,
+            diagonal_mm,
+        })
+    }
+
+    /// Returns the pieces of the body between the cuts.
+    pub(crate) fn split(&self, tree: &CutTree) -> Result<Vec<Piece>, CutError> {
+        split_body(&self.body, tree, &self.request.watch)
+    }
+
+    /// Returns whether a seam may run where the plane cuts the outside.
+    pub(crate) fn allows(&self, plane: &Plane) -> bool {
+        self.request.seams.allows_lie(plane) && self.clear.entered(plane).is_none()
+    }
+
+    /// Returns the plane's opening into each void of `met`; `None` for voids that it misses.
+    pub(crate) fn openings(&self, plane: &Plane, met: VoidSet) -> Vec<Option<Opening>> {
+        let voids = self.hollowed.voids.iter().enumerate();
+        voids
+            .map(|(i, void)| {
+                (met >> i & 1 == 1)
+                    .then(|| measure_opening(void.mesh(), plane))
+                    .flatten()
+            })
+            .collect()
+    }
+}

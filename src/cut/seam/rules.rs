@@ -1,0 +1,97 @@
+//! The rules of a plan for its seams.
+
+use std::sync::Arc;
+
+use crate::{
+    base::{
+        watch::{Cancelled, Watch},
+        words::choice,
+    },
+    cut::seam::{
+        clear::KeepClear,
+        skin::{SeamLie, Skin},
+    },
+    geom::{Plane, Vector},
+    mesh::TriMesh,
+};
+
+choice! {
+    /// The kind of seam that the planner prefers.
+    SeamStyle, "kind of seam" {
+        /// Seams where they are seen least.
+        Hidden = "hidden",
+        /// Short seams, wherever they are.
+        Short = "short",
+        /// Level seams only, where they are seen least.
+        Level = "level",
+    }
+}
+
+impl SeamStyle {
+    /// Returns true for the usual kind.
+    pub fn is_hidden(&self) -> bool {
+        *self == Self::Hidden
+    }
+}
+
+/// The rules for seams on the outside. By default only their length counts.
+#[derive(Debug, Clone, Default)]
+pub struct Seams {
+    /// The balls that no seam enters.
+    pub keep_clear: Vec<KeepClear>,
+    /// Weight of walls that lack sight against seams: what they hold stays solid. `None`: a plan
+    /// with which every void is clean comes first, whatever its seams.
+    pub lack_weight: Option<f64>,
+    /// True if only level cuts are made.
+    pub only_level: bool,
+    /// The outside, looked at; `None` if only the length of a seam counts.
+    pub(crate) skin: Option<Arc<Skin>>,
+}
+
+impl Seams {
+    /// Looks at the outside of a model that stands with this unit direction up, as far as seams of
+    /// this kind need it.
+    ///
+    /// # Errors
+    /// The watch was stopped.
+    pub fn look(
+        style: SeamStyle,
+        outer: &TriMesh,
+        up: &Vector,
+        watch: &Watch,
+    ) -> Result<Self, Cancelled> {
+        let is_looked_at = style != SeamStyle::Short;
+        let skin = is_looked_at.then(|| Skin::of(outer, up, watch));
+        Ok(Self {
+            only_level: style == SeamStyle::Level,
+            skin: skin.transpose()?.map(Arc::new),
+            ..Self::default()
+        })
+    }
+
+    /// Returns the same rules with nobody to look: only the length of a seam counts.
+    #[must_use]
+    pub fn unseen(&self) -> Self {
+        Self {
+            skin: None,
+            lack_weight: None,
+            ..self.clone()
+        }
+    }
+
+    /// Returns whether a cut may lie as this plane does.
+    pub(crate) fn allows_lie(&self, plane: &Plane) -> bool {
+        let is_level = |skin: &Arc<Skin>| skin.is_level(plane);
+        !self.only_level || self.skin.as_ref().is_none_or(is_level)
+    }
+
+    /// Returns up in the object's frame; `None` if nobody looks at it.
+    pub(crate) fn up(&self) -> Option<Vector> {
+        self.skin.as_ref().map(|skin| skin.up())
+    }
+
+    /// Returns the lie of a cut in the object's frame; `None` if nobody looked at it.
+    pub fn lie(&self, plane: &Plane) -> Option<SeamLie> {
+        self.skin.as_ref().map(|skin| skin.lie(plane))
+    }
+}

@@ -1,0 +1,32 @@
+//! The voids that a rung of the ladder starts from.
+
+use super::clean::without_ends;
+use super::resolve::Resolver;
+use crate::cut::SolidEnd;
+use crate::error::Error;
+use crate::run::{CleaningRound, KeptCause, Voids};
+
+/// The voids that a rung starts from.
+#[derive(Clone)]
+pub struct Ground<'a> {
+    pub resolver: Resolver<'a>,
+    pub voids: Voids,
+    /// The parts of the interior that are kept solid.
+    pub solid: Vec<SolidEnd>,
+    /// The rounds in which that was done.
+    pub rounds: Vec<CleaningRound>,
+}
+
+impl Ground<'_> {
+    /// Keeps parts of the interior solid; `None` if nothing lies there or the goal is lost.
+    pub fn without(&self, solid: &[SolidEnd], cause: &KeptCause) -> Result<Option<Self>, Error> {
+        let mut resolver = self.resolver.clone();
+        let less = without_ends(&mut resolver, &self.voids, solid, cause)?;
+        Ok(less.map(|(round, voids)| Self {
+            resolver,
+            voids,
+            solid: solid.to_vec(),
+            rounds: vec![round],
+        }))
+    }
+}
