@@ -63,8 +63,9 @@ pub enum GoalError {
     NoSeat,
     /// A support without area.
     #[error(
-        "with {up} up the {vertices} lowest vertices of the model support it on a point or a line \
-         only: try `{instead}`, or give it a flat foot"
+        "with {up} up it would stand on {}; which way is up? try `{instead}`, or give it a flat \
+         foot",
+        narrow_foot(*vertices)
     )]
     NoSupport {
         /// The direction that is up.
@@ -88,4 +89,13 @@ pub enum GoalError {
     /// The density is zero, negative or not a number.
     #[error("a density of {0} g/cm³ is not a density; give a positive one")]
     NoDensity(f64),
+}
+
+/// Returns the words for the support of this many vertices, which has no area.
+fn narrow_foot(vertices: usize) -> &'static str {
+    if vertices == 1 {
+        "one point"
+    } else {
+        "an edge"
+    }
 }
