@@ -44,7 +44,12 @@ impl fmt::Display for Reached {
                 )
             }
             Figure::DominanceRatio => {
-                write!(f, "spins steadily (steadiness {value:.2}; must be below 1)")
+                // Never "1.00; must be below 1".
+                let places = if value > 0.99 { 4 } else { 2 };
+                write!(
+                    f,
+                    "spins steadily (steadiness {value:.places$}; must be below 1)"
+                )
             }
             Figure::TopplingAngleRad => {
                 write!(f, "stands until tilted by {:.1}°", value.to_degrees())

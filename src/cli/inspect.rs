@@ -285,26 +285,28 @@ fn plain(value: f64, unit: &str) -> String {
 
 /// Returns the natural up, and a line for each goal with what to type, the best first.
 fn becoming_text(becoming: &Becoming) -> String {
-    let head = ["goal", "hollowed it", "to type"].map(str::to_owned);
     let line = |prospect: &Prospect| {
         let result = prospect.reached.map_or_else(
             || format!("cannot: {}", prospect.reason),
             |reached| format!("{reached}{}", needs(prospect)),
         );
-        let typed = if prospect.possible {
-            flags(&settings(prospect))
-        } else {
-            String::new()
-        };
-        [prospect.kind.to_string(), result, typed]
+        [prospect.kind.to_string(), result]
     };
-    let rows = std::iter::once(head).chain(becoming.prospects.iter().map(line));
-    let rows: Vec<[String; 3]> = rows.collect();
+    let typed = |prospect: &Prospect| {
+        let is_possible = Some(prospect).filter(|prospect| prospect.possible);
+        is_possible.map(|prospect| format!("           {}\n", flags(&settings(prospect))))
+    };
+    let rows: Vec<[String; 2]> = becoming.prospects.iter().map(line).collect();
+    let rows = table(&rows).replace('\u{a0}', " ");
+    // What to type has a line of its own: both do not fit into 80 columns.
+    let rows = rows.lines().zip(&becoming.prospects);
+    let rows: String = rows
+        .map(|(row, prospect)| format!("{row}\n{}", typed(prospect).unwrap_or_default()))
+        .collect();
     format!(
-        "{}\nwith a wall of {}, best first:\n{}",
+        "{}\nhollowed with a wall of {}, as (best first)\n{rows}",
         with_flags(&becoming.natural_up),
-        show_mm(becoming.wall_mm),
-        table(&rows).replace('\u{a0}', " ")
+        show_mm(becoming.wall_mm)
     )
 }
 

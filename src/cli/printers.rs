@@ -108,16 +108,15 @@ fn show(printer: &Printer, json: bool, out: &mut dyn Write) -> Result<(), Printe
 
 /// The meanings of the words for where a number is from.
 const SURE: &str = "\
-from: shop = measured on its own prints; maker = read in the maker's files; paper = from a paper the method rests on;
-others = not from the maker; ours = our choice, for the reason given";
+from: measured = by the shop, on its own prints; published = in the source named;
+third party = in the source named, which is not the maker's; ours = our own choice, for the reason given";
 
 /// Returns the word for where a number is from.
 fn origin(sure: Sure) -> &'static str {
     match sure {
-        Sure::Measured => "shop",
-        Sure::Read | Sure::Computed => "maker",
-        Sure::Paper => "paper",
-        Sure::ThirdParty => "others",
+        Sure::Measured => "measured",
+        Sure::Read | Sure::Computed | Sure::Paper => "published",
+        Sure::ThirdParty => "third party",
         Sure::Recalled | Sure::OwnChoice => "ours",
     }
 }

@@ -8,6 +8,11 @@ use crate::goal::{GoalKind, Up, UprightPose};
 use crate::printer::Printer;
 use crate::run::reasons;
 
+/// The most characters of a choice: it stands behind a mark.
+const LINE_CHARS: usize = 76;
+/// The least lean of a direction that is told, degrees.
+const LEAST_LEAN_DEG: f64 = 0.5;
+
 /// A goal, in the words of a person who does not know ours.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct GoalChoice(pub GoalKind);
@@ -61,7 +66,8 @@ impl From<&Printer> for PrinterChoice {
 
 impl fmt::Display for PrinterChoice {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{:<22} {} ({})", self.id, self.name, self.process)
+        let line = format!("{:<22} {} ({})", self.id, self.name, self.process);
+        f.write_str(&clip(line))
     }
 }
 
@@ -94,7 +100,7 @@ impl UpChoice {
             let why = why.map_or(String::new(), |why| format!(": {why}"));
             choices.push(Self {
                 up: (!is_first).then_some(up),
-                words: format!("{} down ({likely}{why})", side_below(up)),
+                words: clip(format!("{} ({likely}{why})", side_below(up))),
             });
         }
         let known: Vec<Up> = poses.iter().map(name).collect();
@@ -102,7 +108,7 @@ impl UpChoice {
         let others = others.into_iter().filter(|up| !known.contains(up));
         choices.extend(others.map(|up| Self {
             up: Some(up),
-            words: format!("{} down", side_below(up)),
+            words: side_below(up),
         }));
         choices.push(Self {
             up: Some(Up::Auto),
@@ -126,17 +132,33 @@ impl UpChoice {
     }
 }
 
-/// Returns the side of the model that is down with this up.
+/// Returns the side of the model that is down with this up. A direction that leans is named by the
+/// nearest axis of the file.
 fn side_below(up: Up) -> String {
-    match up {
-        Up::X => "the −x side".to_owned(),
-        Up::Y => "the −y side".to_owned(),
-        Up::Z => "the −z side".to_owned(),
-        Up::NegX => "the +x side".to_owned(),
-        Up::NegY => "the +y side".to_owned(),
-        Up::NegZ => "the +z side".to_owned(),
-        up => format!("with {up} up, the other side"),
+    let axes = [Up::X, Up::Y, Up::Z, Up::NegX, Up::NegY, Up::NegZ];
+    let sides = ["−x", "−y", "−z", "+x", "+y", "+z"];
+    let angle_deg = |axis: &Up| {
+        let angle = axis.direction()?.angle(&up.direction()?);
+        Some(angle.to_degrees())
+    };
+    let angles = axes.iter().map(|axis| angle_deg(axis).unwrap_or_default());
+    let nearest = angles.zip(sides).min_by(|a, b| a.0.total_cmp(&b.0));
+    match nearest {
+        Some((lean_deg, side)) if lean_deg >= LEAST_LEAN_DEG => {
+            format!("about the {side} side down, leaning by {lean_deg:.0}°")
+        }
+        Some((_, side)) => format!("the {side} side down"),
+        None => up.to_string(),
     }
+}
+
+/// Returns a line that does not wrap on a terminal of 80 columns.
+fn clip(line: String) -> String {
+    if line.chars().count() <= LINE_CHARS {
+        return line;
+    }
+    let cut: String = line.chars().take(LINE_CHARS - 1).collect();
+    format!("{}…", cut.trim_end())
 }
 
 #[cfg(test)]
@@ -163,6 +185,13 @@ mod tests {
         );
         assert_eq!(choices[1].typed().as_deref(), Some("--up=z"));
         assert_eq!(choices.len(), 7, "{choices:?}");
+    }
+
+    #[test]
+    fn a_direction_that_leans_is_named_by_the_nearest_axis() {
+        let leaning = Up::Along([0.0, 0.1046, -0.9945]);
+        assert_eq!(side_below(leaning), "about the +z side down, leaning by 6°");
+        assert_eq!(side_below(Up::NegX), "the +x side down");
     }
 
     #[test]
