@@ -76,7 +76,10 @@ fn inspect_lists_what_the_model_could_become() {
     let options = "--size 60mm --printer objet-connex350 --wall 1.5mm";
     let arguments = [&["inspect", ELLIPSOID][..], &words(options)].concat();
     let said = text(&equipoise(&arguments).stdout);
-    let expected = ["with a wall of 1.524 mm, as", "spins upright from"];
+    let expected = [
+        "with a wall of 1.524 mm, as (best first)",
+        "spins upright from",
+    ];
     assert!(expected.iter().all(|words| said.contains(words)), "{said}");
     let facts = json(&equipoise(&[&arguments[..], &["--json"]].concat()));
     let prospects = list(&facts["could_become"], "prospects");

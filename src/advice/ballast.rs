@@ -4,7 +4,6 @@ use super::confirm::least_excess;
 use super::directions::round_to;
 use super::remedy::{Change, Kind, Remedy};
 use super::sampled_model::{CONFIRMING_COLUMNS, SampledModel, Trial, problem};
-use crate::base::setting::{Key, Setting};
 use crate::base::units::{MM3_PER_CM3, show_mm};
 use crate::base::watch::Watch;
 use crate::geom::{Point, Quadric};
@@ -37,7 +36,7 @@ struct Steel {
 /// does.
 pub(super) fn remedy(model: &SampledModel) -> Remedy {
     let Some(steel) = find_least_steel(model) else {
-        let words = "no amount of steel inside was found that helps";
+        let words = "steel inside";
         return Remedy::dead_end(Kind::LeastBallast, words.to_owned());
     };
     let mass_g = steel.volume_mm3 / MM3_PER_CM3 * STEEL_G_CM3;
@@ -45,10 +44,8 @@ pub(super) fn remedy(model: &SampledModel) -> Remedy {
     let [x, y, z] = round_to(steel.center.into(), 0);
     let words = format!(
         "put {mass_g:.1} g of steel or more (as much as a ball of {}) inside, about ({x}, {y}, \
-         {z}) \
-         mm; `{}` lays it in as balls if they fit",
+         {z}) mm",
         show_mm(ball_mm),
-        Setting::new(Key::Ballast, "auto")
     );
     let change = Change {
         amount: mass_g,

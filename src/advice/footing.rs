@@ -1,13 +1,11 @@
 //! The faces a model can stand on: those of its convex hull.
 
 use super::directions::{is_new, round_direction, with_axis};
-use super::reached::Reached;
 use super::remedy::{Change, Kind, Remedy};
 use super::sampled_model::{SampledModel, Trial};
 use crate::base::setting::{Key, Setting};
 use crate::geom::{Point, Vector};
 use crate::goal::Up;
-use crate::hollow::Figure;
 use crate::mesh::{Csg, TriMesh};
 
 /// The greatest number of faces that are tried, the largest first. The hull of a scan has
@@ -67,10 +65,7 @@ pub(super) fn remedy(model: &SampledModel, up: &Vector) -> Remedy {
         .into_iter()
         .find_map(|face| Some((face, trial(model, &face)?)));
     let Some((face, trial)) = found else {
-        return Remedy::dead_end(
-            Kind::NearestFace,
-            "it stands on no other face either".to_owned(),
-        );
+        return Remedy::dead_end(Kind::NearestFace, "other faces to stand on".to_owned());
     };
     let angle_deg = face.angle(up).to_degrees();
     let words = format!("turn it by {angle_deg:.1}° onto another face");
@@ -88,11 +83,7 @@ fn trial(model: &SampledModel, face: &Vector) -> Option<Trial> {
     if !model.allows(&request, wall_mm) {
         return None;
     }
-    let trial = model.confirm(&request, wall_mm)?;
-    let reached = Reached::of(&trial.solution.certificate);
-    let is_angle = reached.figure == Figure::TopplingAngleRad;
-    let is_kept = !is_angle || reached.value >= request.least_angle_deg.to_radians();
-    is_kept.then_some(trial)
+    model.confirm(&request, wall_mm)
 }
 
 #[cfg(test)]

@@ -83,6 +83,20 @@ pub fn is_possible(case: &Case, watch: &Watch) -> Result<bool, Cancelled> {
     Ok(is_possible)
 }
 
+/// Returns true if some hollowing meets the goal of a case and its promises, with its tip, on exact
+/// columns.
+///
+/// Costs a pass over the samples and a solve.
+///
+/// # Errors
+/// The watch was stopped.
+pub fn keeps_promises(case: &Case, watch: &Watch) -> Result<bool, Cancelled> {
+    let model = SampledModel::new(*case, COARSE_SAMPLES, watch);
+    let is_kept = model.confirm(&case.request, case.wall_mm).is_some();
+    watch.check()?;
+    Ok(is_kept)
+}
+
 /// Returns the remedies for an impossible goal: one for each kind of change, in a fixed order, with
 /// those that do not help. Empty if the goal cannot be placed.
 ///

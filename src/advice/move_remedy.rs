@@ -33,12 +33,12 @@ fn kind(part: Part) -> Kind {
     }
 }
 
-/// Returns the sentence for a part that cannot be moved so that it helps.
+/// Returns the words for moves of a part, none of which helps.
 fn no_help(part: Part) -> &'static str {
     match part {
-        Part::Contact => "no contact point was found on the same level that helps",
-        Part::SpinPoint => "no other spin point was found that helps",
-        Part::Axis => "no other axis was found that helps",
+        Part::Contact => "other contact points on the same level",
+        Part::SpinPoint => "other spin points",
+        Part::Axis => "other axes",
     }
 }
 

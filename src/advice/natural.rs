@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::case::Case;
-use super::directions::{is_new, round_direction};
+use super::directions::{is_new, name_axis, round_direction};
 use super::orientation::{Place, by_score, candidates, place_on, place_with};
 use super::reached::Reached;
 use super::sampled_model::{COARSE_SAMPLES, SampledModel};
@@ -83,7 +83,16 @@ pub fn nearest_orientation(
     up: &Vector,
     watch: &Watch,
 ) -> Result<Option<NearbyAxis>, Cancelled> {
-    let model = SampledModel::new(*case, COARSE_SAMPLES, watch);
+    nearest_on(&SampledModel::new(*case, COARSE_SAMPLES, watch), up)
+}
+
+/// Returns the axis nearest to a direction on which the goal of a sampled model works, as
+/// [`nearest_orientation`] does.
+pub(super) fn nearest_on(
+    model: &SampledModel,
+    up: &Vector,
+) -> Result<Option<NearbyAxis>, Cancelled> {
+    let (case, watch) = (&model.case, &model.watch);
     let has_sense = case.request.kind != GoalKind::Yoyo;
     let off_deg = |axis: &Vector| {
         let angle_deg = axis.angle(up).to_degrees();
@@ -104,7 +113,7 @@ pub fn nearest_orientation(
         off_deg: off_deg(&place.axis),
     };
     let measured = MeasuredSolid::new(case.solid);
-    let try_on = |axis: &Vector| place_by_rule(&model, &measured, axis);
+    let try_on = |axis: &Vector| place_by_rule(model, &measured, axis);
     if let Some(place) = try_on(up).filter(confirmed) {
         return Ok(Some(near(place)));
     }

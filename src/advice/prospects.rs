@@ -1,14 +1,15 @@
-//! The goals that a model could meet, along its own and the coordinate axes.
+//! The five goals, and what a model could reach of each.
 
 use rayon::prelude::*;
 use serde::Serialize;
 
 use super::case::Case;
-use super::directions::{distinct, with_axis};
-use super::orientation::{points_down, special_axes};
+use super::directions::{distinct, name_axis, with_axis};
+use super::natural::{NearbyAxis, name_direction, nearest_on};
+use super::orientation::special_axes;
 use super::reached::Reached;
 use super::sampled_model::{COARSE_SAMPLES, SampledModel, Trial};
-use crate::base::watch::Watch;
+use crate::base::watch::{Cancelled, Watch};
 use crate::geom::Vector;
 use crate::goal::{Contact, Footing, GoalKind, Request, Rod, Up, Warning};
 use crate::hollow::Status;
@@ -16,13 +17,15 @@ use crate::hollow::Status;
 /// A principal axis this near to a coordinate axis is that axis: cos 1°.
 const SAME_COSINE: f64 = 0.999_85;
 
-/// A goal on an axis, and whether the model can meet it.
+/// A goal, and what the model can reach of it.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Prospect {
     /// The kind of goal.
     pub kind: GoalKind,
     /// The direction that is up.
     pub up: Up,
+    /// The angle between it and the natural up, degrees; 0 for the same.
+    pub off_deg: f64,
     /// Tops: the contact point; `None` for the others.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub contact: Option<Contact>,
@@ -38,37 +41,124 @@ pub struct Prospect {
     pub reason: String,
 }
 
-/// Returns the goals that a model could meet with its wall, along the coordinate axes and the
-/// solid's principal axes. They are tops on their lowest point, else on a tip below the centre of
-/// mass; yo-yos about their centre of mass; and standing objects. Goals that cannot be
-/// placed are left out.
+impl Prospect {
+    /// Returns the place in a list, the best first. What needs nothing is before what needs a tip,
+    /// another axis or a shaft. What is impossible is last.
+    fn rank(&self) -> u8 {
+        match self {
+            Self {
+                possible: false, ..
+            } => 4,
+            Self {
+                kind: GoalKind::Balance,
+                ..
+            } => 3,
+            Self { off_deg, .. } if *off_deg > 0.0 => 2,
+            Self { tip: Some(_), .. } => 1,
+            _ => 0,
+        }
+    }
+}
+
+/// Returns what a model can reach of every goal with its wall, the best first.
 ///
-/// Ignores the request of the case. Costs about thirty trials.
-pub fn prospects(case: &Case) -> Vec<Prospect> {
-    let model = SampledModel::new(*case, COARSE_SAMPLES, &Watch::silent());
-    let axes = distinct(special_axes(case), SAME_COSINE);
-    let requests: Vec<Request> = [GoalKind::Top, GoalKind::Yoyo, GoalKind::Stand]
-        .iter()
-        .flat_map(|&kind| requests(kind, &axes))
-        .collect();
-    let found: Vec<Option<Prospect>> = requests
-        .par_iter()
-        .map(|request| prospect(&model, request))
-        .collect();
-    found.into_iter().flatten().collect()
+/// Each goal is tried as `prepare` does. What stands or floats takes the natural up. Tops and
+/// yo-yos take the axis nearest to it that works. A rotor's axis is one of the file's, through the
+/// centre of mass. A goal that cannot be placed is left out. Ignores the request of the case.
+///
+/// Costs some dozen trials, and some hundred if a goal does not work on the natural up.
+///
+/// # Errors
+/// The watch was stopped.
+pub fn prospects(case: &Case, natural: &Vector, watch: &Watch) -> Result<Vec<Prospect>, Cancelled> {
+    let model = SampledModel::new(*case, COARSE_SAMPLES, watch);
+    let tried = GoalKind::ALL.par_iter().map(|&kind| {
+        let model = model.with_request(Request::new(kind));
+        match kind {
+            GoalKind::Top | GoalKind::Yoyo => spinning(&model, natural),
+            GoalKind::Balance => Ok(turning(&model, natural)),
+            _ => Ok(resting(&model, natural)),
+        }
+    });
+    let tried = tried.collect::<Result<Vec<Option<Prospect>>, Cancelled>>()?;
+    watch.check()?;
+    let mut found: Vec<Prospect> = tried.into_iter().flatten().collect();
+    found.sort_by_key(Prospect::rank);
+    Ok(found)
 }
 
-fn requests(kind: GoalKind, axes: &[Vector]) -> Vec<Request> {
-    let has_sense = kind != GoalKind::Yoyo;
-    let axes = axes.iter().filter(|axis| has_sense || !points_down(axis));
-    axes.map(|axis| Request {
-        up: Up::of(axis),
-        ..with_axis(&Request::new(kind), axis)
-    })
-    .collect()
+/// Returns what a top or a yo-yo reaches on the axis nearest to the natural up that works.
+fn spinning(model: &SampledModel, natural: &Vector) -> Result<Option<Prospect>, Cancelled> {
+    let up = name_direction(&model.case, natural);
+    let direction = up.direction().unwrap_or(*natural);
+    let Some(nearby) = nearest_on(model, &direction)? else {
+        let refused = prospect(model, up, 0.0);
+        return Ok(refused.map(Prospect::refused_everywhere));
+    };
+    let NearbyAxis {
+        request, off_deg, ..
+    } = nearby;
+    let found = prospect(model, request.up, off_deg);
+    Ok(found.map(|found| Prospect {
+        possible: true,
+        reached: found.reached.or(Some(nearby.reached)),
+        reason: String::new(),
+        ..found
+    }))
 }
 
-fn prospect(model: &SampledModel, request: &Request) -> Option<Prospect> {
+impl Prospect {
+    /// Returns the prospect of a goal that is impossible on this axis and on all others.
+    fn refused_everywhere(self) -> Self {
+        let Self { reason, .. } = &self;
+        let reason = format!("{reason}, on every axis");
+        Self {
+            possible: false,
+            reached: None,
+            reason,
+            ..self
+        }
+    }
+}
+
+/// Returns what stands or floats reaches on its natural up, else on the nearest axis of the file or
+/// of the solid that works.
+fn resting(model: &SampledModel, natural: &Vector) -> Option<Prospect> {
+    let first = prospect(model, name_direction(&model.case, natural), 0.0);
+    if first.as_ref().is_some_and(|first| first.possible) {
+        return first;
+    }
+    let mut axes = distinct(special_axes(&model.case), SAME_COSINE);
+    axes.sort_by(|a, b| b.dot(natural).total_cmp(&a.dot(natural)));
+    let on = |axis: &Vector| {
+        let off_deg = axis.angle(natural).to_degrees();
+        prospect(model, name_axis(axis), off_deg)
+    };
+    let found = axes.iter().filter_map(on).find(|found| found.possible);
+    found.or(first)
+}
+
+/// Returns what a rotor reaches on the axis of the file that leaves it the most material, else on
+/// an axis of the solid.
+fn turning(model: &SampledModel, natural: &Vector) -> Option<Prospect> {
+    let on = |axis: &Vector| {
+        let off_deg = axis.angle(natural).to_degrees();
+        prospect(model, name_axis(axis), off_deg.min(180.0 - off_deg))
+    };
+    let best = |axes: &[Vector]| {
+        let found = axes.iter().filter_map(on).filter(|found| found.possible);
+        let score = |found: &Prospect| found.reached.map_or(f64::INFINITY, |value| value.score());
+        found.min_by(|a, b| score(a).total_cmp(&score(b)))
+    };
+    best(&[Vector::x(), Vector::y(), Vector::z()])
+        .or_else(|| best(&special_axes(&model.case)))
+        .or_else(|| on(natural))
+}
+
+/// Tries the goal of a model with this up; `None` if it cannot be placed.
+fn prospect(model: &SampledModel, up: Up, off_deg: f64) -> Option<Prospect> {
+    let axis = up.direction()?;
+    let request = &with_axis(&model.case.request, &axis);
     let is_top = request.kind == GoalKind::Top;
     let (contact, trial) = if is_top {
         let (contact, trial) = try_contacts(model, request)?;
@@ -78,36 +168,30 @@ fn prospect(model: &SampledModel, request: &Request) -> Option<Prospect> {
     };
     let reached = Reached::of(&trial.solution.certificate);
     let refusal = refusal(request, &trial, &reached);
-    let possible = refusal.is_none();
     let footing = trial.placement.footing.as_ref();
     Some(Prospect {
         kind: request.kind,
-        up: request.up,
+        up,
+        off_deg,
         contact,
-        tip: footing.and_then(Footing::tip).filter(|_| possible),
-        possible,
-        reached: possible.then_some(reached),
+        tip: footing.and_then(Footing::tip),
+        possible: refusal.is_none(),
+        reached: refusal.is_none().then_some(reached),
         reason: refusal.unwrap_or_default(),
     })
 }
 
 /// Returns the reason why a trial does not do what is promised; `None` if it does.
 fn refusal(request: &Request, trial: &Trial, reached: &Reached) -> Option<String> {
-    let is_top = request.kind == GoalKind::Top;
     if !trial.is_possible() {
-        let places = if is_top {
-            ", neither on its lowest point nor below its centre of mass"
-        } else {
-            ""
-        };
-        return Some(brief(trial) + places);
+        return Some(brief(trial));
     }
     if trial.placement.warnings.contains(&Warning::NoTip) {
         return Some("no tip below its centre of mass is held by the model".to_owned());
     }
     let angle_deg = reached.value.to_degrees();
     let is_shaky = request.kind == GoalKind::Stand && angle_deg < request.least_angle_deg;
-    is_shaky.then(|| format!("it stands, but topples at {angle_deg:.1}° at best"))
+    is_shaky.then(|| format!("topples at {angle_deg:.1}° at best"))
 }
 
 /// Tries a top on its lowest point if it leans there as promised, else below its centre of mass.
@@ -130,17 +214,22 @@ fn try_contacts(model: &SampledModel, request: &Request) -> Option<(Contact, Tri
 /// Returns the reason why a goal is impossible, in a few words with the number.
 fn brief(trial: &Trial) -> String {
     match trial.solution.status {
-        Status::ConstraintsInfeasible { .. } => "it cannot be balanced about this axis".to_owned(),
+        Status::ConstraintsInfeasible { .. } => "wobbles however it is hollowed".to_owned(),
         Status::NotDominant { least_ratio }
         | Status::UnstableForEveryInterior { least_ratio, .. } => {
-            format!("I_b/I_c stays above {least_ratio:.3}")
+            format!("too tall to spin (steadiness {least_ratio:.2}; must be below 1)")
         }
         Status::CannotStand { greatest_angle_rad } => {
-            format!(
-                "falls over ({:.1}° short)",
-                -greatest_angle_rad.to_degrees()
-            )
+            let short_deg = -greatest_angle_rad.to_degrees();
+            format!("falls over ({short_deg:.1}° short)")
         }
+        Status::Sinks { .. } => "sinks, even fully hollowed".to_owned(),
+        Status::RidesHigh { .. } => "rides too high, even solid".to_owned(),
+        Status::CannotTrim { .. } => "lies askew in water".to_owned(),
+        Status::Capsizes { .. } => "turns over in water".to_owned(),
+        Status::CannotBalance {
+            least_grade_mm_s, ..
+        } => format!("shakes: G {least_grade_mm_s:.1} at best"),
         status => status.explain(&trial.placement.goal),
     }
 }

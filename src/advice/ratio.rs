@@ -4,10 +4,11 @@ use super::case::Case;
 use super::confirm::least_excess;
 use super::directions::round_to;
 use super::remedy::{Change, Kind, Remedy};
-use super::sampled_model::{SampledModel, Trial};
+use super::sampled_model::{COARSE_SAMPLES, SampledModel, Trial};
 use crate::base::setting::{Key, Setting};
 use crate::base::units::{Length, show_mm};
-use crate::goal::{Contact, Request, SpinPoint, Waterline};
+use crate::goal::{Contact, Footing, Request, Rotor, SpinPoint, Water, Waterline};
+use crate::mesh::{Solid, scaled};
 
 /// The greatest factor by which a thinner wall or a larger model is advised. Nobody prints an
 /// object twenty times as large as planned.
@@ -20,25 +21,19 @@ const WALLS_PER_MM: f64 = 1e3;
 /// Returns the least size at this wall and the greatest wall at this size.
 ///
 /// The wall is confirmed by a solve. Then the size is rounded up and the wall down to numbers that
-/// can be typed and printed, which leaves even more to be emptied.
+/// can be typed and printed, which leaves even more to be emptied. A tip does not grow with its
+/// model, so a top on a tip is solved again at its new size.
 pub(super) fn remedies(model: &SampledModel) -> Vec<Remedy> {
     let case = &model.case;
-    let Some(thickest_mm) = greatest_wall(model) else {
-        let words = format!(
-            "also tried, without success: other walls, and up to {MOST_TIMES} times the size"
-        );
+    let confirmed = greatest_wall(model).and_then(|thickest_mm| confirm_wall(model, thickest_mm));
+    let Some((wall_mm, trial)) = confirmed else {
+        let words = format!("other walls, and up to {MOST_TIMES} times the size");
         return vec![Remedy::dead_end(Kind::LeastSize, words)];
     };
-    match confirm_wall(model, thickest_mm) {
-        Some((wall_mm, trial)) => vec![
-            larger(case, wall_mm, &trial),
-            thinner(case, wall_mm, &trial),
-        ],
-        None => {
-            let words = "no size was found that helps with certainty: it stays at the border of the possible";
-            vec![Remedy::dead_end(Kind::LeastSize, words.to_owned())]
-        }
-    }
+    vec![
+        larger(model, wall_mm, &trial),
+        thinner(case, wall_mm, &trial),
+    ]
 }
 
 /// Returns the thickest wall, mm, that makes the goal possible at the present size, on samples.
@@ -77,65 +72,117 @@ fn confirm_wall(model: &SampledModel, thickest_mm: f64) -> Option<(f64, Trial)> 
     })
 }
 
-fn larger(case: &Case, greatest_mm: f64, trial: &Trial) -> Remedy {
-    let size_mm = size_for(case, greatest_mm, case.wall_mm);
+fn larger(model: &SampledModel, greatest_mm: f64, trial: &Trial) -> Remedy {
+    let case = &model.case;
+    let least_mm = size_for(case, greatest_mm, case.wall_mm);
+    let has_tip = trial.placement.footing.as_ref().and_then(Footing::tip);
+    let carried_out = if has_tip.is_none() || least_mm > case.greatest_size_mm {
+        Some((least_mm, trial.clone()))
+    } else {
+        least_excess(|excess| {
+            let size_mm = round_up(least_mm * (1.0 + excess));
+            Some((size_mm, solve_at(model, size_mm)?))
+        })
+    };
+    let Some((size_mm, trial)) = carried_out else {
+        return Remedy::dead_end(Kind::LeastSize, "larger sizes".to_owned());
+    };
     if size_mm > case.greatest_size_mm {
         let words = format!(
-            "with the wall of {} only {} or larger would do, and a kit for this printer may be {} \
-             at most",
-            show_mm(case.wall_mm),
+            "larger sizes ({} would do, and a kit for this printer may be {} at most)",
             show_mm(size_mm),
             show_mm(case.greatest_size_mm)
         );
         return Remedy::dead_end(Kind::LeastSize, words);
     }
-    let thinner = (case.least_wall_mm < case.wall_mm).then(|| {
-        let least_mm = case.least_wall_mm;
-        let size_mm = size_for(case, greatest_mm, least_mm);
-        format!(
-            " ({} with the thinnest wall this printer makes, {})",
-            show_mm(size_mm),
-            show_mm(least_mm)
-        )
-    });
     let words = format!(
-        "make it {} or larger with the wall of {}{}",
+        "make it {} or larger with the wall of {}",
         show_mm(size_mm),
         show_mm(case.wall_mm),
-        thinner.unwrap_or_default()
     );
     let times = size_mm / case.solid.mesh().longest_side_mm();
     let mut settings = vec![Setting::new(Key::Size, format!("{size_mm}mm"))];
-    settings.extend(scale_places(&case.request, times));
+    settings.extend(places(&case.request, &grown(&case.request, times)));
     let change = Change {
         amount: size_mm,
         settings,
         words,
     };
-    Remedy::helping(Kind::LeastSize, change, trial)
+    Remedy::helping(Kind::LeastSize, change, &trial)
 }
 
-/// Returns the options that keep places given in mm where they are on a model this many times as
-/// large.
-fn scale_places(request: &Request, times: f64) -> Vec<Setting> {
+/// Solves the request on the model at another size; `None` if it is not possible there.
+fn solve_at(model: &SampledModel, size_mm: f64) -> Option<Trial> {
+    let case = &model.case;
+    let mesh = case.solid.mesh();
+    let times = size_mm / mesh.longest_side_mm();
+    let solid = Solid::new(scaled(mesh, times)).ok()?;
+    let case = Case {
+        solid: &solid,
+        request: grown(&case.request, times),
+        ..*case
+    };
+    let model = SampledModel::new(case, COARSE_SAMPLES, &model.watch);
+    model.confirm(&case.request, case.wall_mm)
+}
+
+/// Returns the request on a model this many times as large: places given in mm move along.
+fn grown(request: &Request, times: f64) -> Request {
     let point = |at: [f64; 3]| round_to(at.map(|coordinate| coordinate * times), 4);
-    let length = |length: Length| format!("{:.3}mm", length.mm() * times);
-    let contact = match request.contact {
-        Some(Contact::At(at)) => Some(Setting::new(Key::Contact, Contact::At(point(at)))),
-        _ => None,
+    let length = |length: Length| {
+        let mm = round_to([length.mm() * times, 0.0, 0.0], 3)[0];
+        Length::from_mm(mm).unwrap_or(length)
     };
-    let spin_point = match request.spin_point {
-        Some(SpinPoint::At(at)) => Some(Setting::new(Key::SpinPoint, SpinPoint::At(point(at)))),
-        _ => None,
-    };
-    let waterline = match request.water.map(|water| water.waterline) {
-        Some(Waterline::At(line)) => Some(Setting::new(Key::Waterline, length(line))),
-        _ => None,
-    };
-    let bore = request.rotor.and_then(|rotor| rotor.bore);
-    let bore = bore.map(|bore| Setting::new(Key::Bore, length(bore)));
-    let places = [contact, spin_point, waterline, bore];
-    places.into_iter().flatten().collect()
+    let contact = request.contact.map(|contact| match contact {
+        Contact::At(at) => Contact::At(point(at)),
+        contact => contact,
+    });
+    let spin_point = request.spin_point.map(|spin_point| match spin_point {
+        SpinPoint::At(at) => SpinPoint::At(point(at)),
+        spin_point => spin_point,
+    });
+    let water = request.water.map(|water| Water {
+        waterline: match water.waterline {
+            Waterline::At(line) => Waterline::At(length(line)),
+            Waterline::Auto => Waterline::Auto,
+        },
+        ..water
+    });
+    let rotor = request.rotor.map(|rotor| Rotor {
+        bore: rotor.bore.map(length),
+        ..rotor
+    });
+    Request {
+        contact,
+        spin_point,
+        water,
+        rotor,
+        ..*request
+    }
+}
+
+/// Returns the options for the places that moved from one request to another.
+fn places(from: &Request, to: &Request) -> Vec<Setting> {
+    let line = |request: &Request| request.water.map(|water| water.waterline);
+    let bore = |request: &Request| request.rotor.and_then(|rotor| rotor.bore);
+    let is_other = [
+        from.contact != to.contact,
+        from.spin_point != to.spin_point,
+        line(from) != line(to),
+        bore(from) != bore(to),
+    ];
+    let settings = [
+        to.contact
+            .map(|contact| Setting::new(Key::Contact, contact)),
+        to.spin_point
+            .map(|point| Setting::new(Key::SpinPoint, point)),
+        line(to).map(|line| Setting::new(Key::Waterline, line)),
+        bore(to).map(|bore| Setting::new(Key::Bore, bore)),
+    ];
+    let moved = settings.into_iter().zip(is_other);
+    moved
+        .filter_map(|(setting, is_other)| setting.filter(|_| is_other))
+        .collect()
 }
 
 /// Returns the size, mm, at which a wall is as thick for the model as `greatest_mm` is at the
@@ -149,8 +196,7 @@ fn thinner(case: &Case, greatest_mm: f64, trial: &Trial) -> Remedy {
     let wall_mm = (steps * case.wall_step_mm * WALLS_PER_MM).floor() / WALLS_PER_MM;
     if wall_mm < case.least_wall_mm {
         let words = format!(
-            "at this size only a wall of {} or thinner would do, and this printer makes none \
-             below {}",
+            "thinner walls ({} would do at this size, and this printer makes none below {})",
             show_mm(greatest_mm),
             show_mm(case.least_wall_mm)
         );
@@ -183,9 +229,10 @@ mod tests {
             contact: Some(Contact::At([1.0, -2.0, 0.5])),
             ..Request::new(GoalKind::Top)
         };
+        let moved = |request: &Request| places(request, &grown(request, 1.5));
         let contact = Setting::new(Key::Contact, "1.5,-3,0.75");
-        assert_eq!(scale_places(&top, 1.5), [contact]);
-        assert_eq!(scale_places(&Request::new(GoalKind::Yoyo), 1.5), []);
+        assert_eq!(moved(&top), [contact]);
+        assert_eq!(moved(&Request::new(GoalKind::Yoyo)), []);
     }
 
     #[test]

@@ -4,7 +4,7 @@ use std::fmt;
 
 use serde::Serialize;
 
-use crate::base::units::{show_mm, show_mm3};
+use crate::base::units::show_mm3;
 use crate::hollow::{Certificate, Figure};
 
 /// The best value of a figure, on the columns of one trial.
@@ -37,20 +37,28 @@ impl fmt::Display for Reached {
         let value = self.value;
         match self.figure {
             Figure::CriticalSpeedRpm => write!(f, "spins upright from {value:.0} rpm"),
-            Figure::SpinIt => write!(f, "spins, with Spin-It's functional at {value:.3}"),
-            Figure::DominanceRatio => write!(f, "spins, with I_b/I_c at {value:.3}"),
-            Figure::TopplingAngleRad => {
-                write!(f, "stands and topples at {:.1}°", value.to_degrees())
-            }
-            Figure::CenterHeightMm => {
-                write!(f, "stands, its centre of mass {} high", show_mm(value))
-            }
-            Figure::MetacentricHeightMm => {
+            Figure::SpinIt => {
                 write!(
                     f,
-                    "floats, its metacentre {} above its centre of mass",
-                    show_mm(value)
+                    "spins steadily (wobble figure {value:.2}; less is steadier)"
                 )
+            }
+            Figure::DominanceRatio => {
+                // Never "1.00; must be below 1".
+                let places = if value > 0.99 { 4 } else { 2 };
+                write!(
+                    f,
+                    "spins steadily (steadiness {value:.places$}; must be below 1)"
+                )
+            }
+            Figure::TopplingAngleRad => {
+                write!(f, "stands until tilted by {:.1}°", value.to_degrees())
+            }
+            Figure::CenterHeightMm => {
+                write!(f, "stands, its centre of mass {value:.1} mm high")
+            }
+            Figure::MetacentricHeightMm => {
+                write!(f, "floats upright (metacentric height {value:.1} mm)")
             }
             Figure::VolumeMm3 => write!(f, "runs true with {} of material", show_mm3(value)),
             Figure::BalanceGradeMmS => write!(f, "runs at grade G {value:.2}"),

@@ -95,9 +95,9 @@ pub struct Remedy {
     pub amount: Option<f64>,
     /// The unit of the amount: mm, ° or g.
     pub unit: &'static str,
-    /// The options to set in place of those given; empty if nothing helps, and for ballast.
+    /// The options to set in place of those given; empty if nothing helps.
     pub settings: Vec<Setting>,
-    /// The sentence for the user.
+    /// The sentence for the user; the words for what was tried if nothing helps.
     pub words: String,
     /// The solve that shows that it helps.
     pub confirmed: Option<Confirmation>,
@@ -138,8 +138,8 @@ impl Remedy {
         }
     }
 
-    /// Returns the remedy of a kind of change that does not help.
-    pub(super) fn dead_end(kind: Kind, words: String) -> Self {
+    /// Returns the remedy of a kind of change that does not help; `words` name what was tried.
+    pub fn dead_end(kind: Kind, words: String) -> Self {
         Self {
             kind,
             amount: None,

@@ -1,5 +1,7 @@
 //! A model that is sampled once, so that requests can be tried at any wall, contact and axis.
 
+use std::sync::Arc;
+
 use super::case::Case;
 use super::reached::Reached;
 use crate::base::watch::Watch;
@@ -8,7 +10,7 @@ use crate::goal::{
     Footing, Hydrostatics, MeasuredSolid, Placement, PrintStock, Request, Warning, Waterline,
     place_measured, spins_on_lowest,
 };
-use crate::hollow::{Problem, Settings, Solution, solve, solve_on_model_columns};
+use crate::hollow::{Figure, Problem, Settings, Solution, solve, solve_on_model_columns};
 use crate::interior::{Columns, Depths};
 use crate::mass::RoundBar;
 use crate::shell::{Keep, Shell};
@@ -32,7 +34,7 @@ pub(super) struct SampledModel<'a> {
     pub case: Case<'a>,
     pub watch: Watch,
     weighed: MeasuredSolid<'a>,
-    depths: Depths,
+    depths: Arc<Depths>,
 }
 
 /// The solver's answer to a request.
@@ -50,6 +52,22 @@ impl Trial {
         self.solution.is_usable()
     }
 
+    /// Returns true unless it is a standing object that topples sooner than is promised.
+    pub fn stands_as_promised(&self, request: &Request) -> bool {
+        let reached = Reached::of(&self.solution.certificate);
+        let is_angle = reached.figure == Figure::TopplingAngleRad;
+        let least_rad = request.promised_angle_deg().unwrap_or(0.0).to_radians();
+        !is_angle || reached.value >= least_rad
+    }
+
+    /// Returns true unless it is a top that was promised to lean and has nothing to spin on.
+    fn spins_as_promised(&self, request: &Request) -> bool {
+        let is_promised = request.promised_lean_deg().is_some_and(|deg| deg > 0.0);
+        let is_unheld =
+            |warning: &Warning| matches!(warning, Warning::NoTip | Warning::ContactInAir { .. });
+        !(is_promised && self.placement.warnings.iter().any(is_unheld))
+    }
+
     /// Returns true if the spin axis passes through the model above its contact. Advice never moves
     /// the axis off the model.
     pub fn meets_the_model(&self) -> bool {
@@ -60,10 +78,23 @@ impl Trial {
 impl<'a> SampledModel<'a> {
     pub fn new(case: Case<'a>, samples: usize, watch: &Watch) -> Self {
         Self {
-            depths: Depths::of_solid(case.solid, samples),
+            depths: Arc::new(Depths::of_solid(case.solid, samples)),
             weighed: MeasuredSolid::new(case.solid),
             case,
             watch: watch.muted(),
+        }
+    }
+
+    /// Returns the same model with another request, without sampling it again.
+    pub fn with_request(&self, request: Request) -> Self {
+        Self {
+            case: Case {
+                request,
+                ..self.case
+            },
+            watch: self.watch.clone(),
+            weighed: self.weighed.clone(),
+            depths: Arc::clone(&self.depths),
         }
     }
 
@@ -81,18 +112,20 @@ impl<'a> SampledModel<'a> {
         self.best_trial(&placement, &columns, solve_on_model_columns)
     }
 
-    /// Returns true if a request is possible on the sampled depths.
+    /// Returns true if a request is possible on the sampled depths, and stands as is promised.
     pub fn allows(&self, request: &Request, wall_mm: f64) -> bool {
         self.trial(request, wall_mm)
-            .is_some_and(|trial| trial.is_possible())
+            .is_some_and(|trial| trial.is_possible() && trial.stands_as_promised(request))
     }
 
-    /// Solves a request on exact columns, independently of the samples. Returns `None` if it is not
-    /// possible there.
+    /// Solves a request on exact columns, independently of the samples, with its tip.
+    ///
+    /// Returns `None` if it is not possible there, or breaks its promise.
     pub fn confirm(&self, request: &Request, wall_mm: f64) -> Option<Trial> {
         let (placement, columns) = self.exact_columns(request, wall_mm, CONFIRMING_COLUMNS)?;
-        self.best_trial(&placement, &columns, solve)
-            .filter(Trial::is_possible)
+        let trial = self.best_trial(&placement, &columns, solve)?;
+        let keeps = trial.stands_as_promised(request) && trial.spins_as_promised(request);
+        (trial.is_possible() && keeps).then_some(trial)
     }
 
     /// Places a request and builds the exact columns of the region that may be emptied, this many

@@ -92,7 +92,7 @@ impl<'a> Search<'a> {
     pub fn of_order(&self, order: &Order) -> Result<Option<Found>, BallastError> {
         let found = match order {
             Order::None => None,
-            Order::Auto => self.fewest_balls(&catalogue()?),
+            Order::Auto => self.fewest_balls(&catalogue()?, MOST_PARTS),
             Order::Parts {
                 id,
                 count: Some(count),
@@ -106,13 +106,24 @@ impl<'a> Search<'a> {
         Ok(found)
     }
 
+    /// Returns what an order for as few steel balls as do would find, if it takes no more than this
+    /// many. `None` if it takes more, or if none do.
+    ///
+    /// # Errors
+    /// The catalogue is at fault, or the watch was stopped.
+    pub fn of_few_balls(&self, most: u32) -> Result<Option<Found>, BallastError> {
+        let found = self.fewest_balls(&catalogue()?, most.min(MOST_PARTS));
+        self.watch.check()?;
+        Ok(found)
+    }
+
     /// Returns the fewest steel balls that make the goal possible, and of as many the lightest.
     ///
     /// Loads below the proved bound on the mass of steel are not tried.
-    fn fewest_balls(&self, parts: &[Part]) -> Option<Found> {
+    fn fewest_balls(&self, parts: &[Part], most: u32) -> Option<Found> {
         let balls: Vec<&Part> = parts.iter().filter(|part| part.shape.is_ball()).collect();
         let least_mass_g = self.least_mass_g(balls.first()?)?;
-        (1..=MOST_PARTS).find_map(|count| {
+        (1..=most).find_map(|count| {
             let heavy_enough = |ball: &&&Part| ball.mass_g * f64::from(count) >= least_mass_g;
             let found = balls
                 .iter()

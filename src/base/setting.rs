@@ -49,6 +49,8 @@ choice! {
         Size = "size",
         /// The printer's id, or the path of its profile.
         Printer = "printer",
+        /// The kind of goal.
+        Goal = "kind",
         /// The direction that becomes the spin axis or up.
         Up = "up",
         /// The contact point of a top.

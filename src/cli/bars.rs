@@ -1,48 +1,54 @@
-//! The progress bar of a run: its phase, the done share, the time so far and the time left.
+//! The progress of a run: one bar with the time left, or a line for each stage.
 
-use std::{
-    sync::{Arc, Mutex, PoisonError},
-    time::{Duration, Instant},
-};
+use std::collections::BTreeSet;
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
+use terminal_size::{Width, terminal_size_of};
 
-use super::voice::Manner;
+use super::show::say;
+use super::voice::{Manner, Voice};
 use crate::base::watch::{Phase, Progress};
 
 /// Steps of a bar; finer than any terminal is wide.
 const BAR_STEPS: u64 = 1000;
 /// Time between two drawings of a bar. A slower one looks stuck, a faster one costs time.
 const TICK: Duration = Duration::from_millis(120);
+/// The columns of a terminal below which the bar is left out.
+const MIN_BAR_COLUMNS: u16 = 70;
 
 /// The share of a run below which no time left is shown: it would be wrong by whole factors.
 const MIN_TIMED_SHARE: f64 = 0.2;
+/// Time in which a new estimate of the end takes over from the old ones, s.
+const CALM_S: f64 = 6.0;
 
 /// Returns the words for a phase, short enough to stand beside a bar.
-fn words(phase: Phase) -> &'static str {
+pub fn words(phase: Phase) -> &'static str {
     match phase {
         Phase::Load => "reading the model",
-        Phase::Waterline => "waterline",
-        Phase::Hardware => "hardware",
-        Phase::Columns => "measuring columns",
-        Phase::Solve => "solving",
-        Phase::Ballast => "placing ballast",
+        Phase::Waterline => "finding the waterline",
+        Phase::Hardware => "fitting the hardware",
+        Phase::Columns => "measuring the inside",
+        Phase::Solve => "finding the best void",
+        Phase::Ballast => "placing the ballast",
         Phase::Advise => "trying remedies",
         Phase::Shell => "drawing the wall",
-        Phase::Voids => "drawing voids",
-        Phase::Plan => "planning cuts",
-        Phase::Bosses => "placing pins",
-        Phase::Parts => "cutting parts",
-        Phase::Verify => "judging the files",
+        Phase::Voids => "drawing the voids",
+        Phase::Plan => "planning the cuts",
+        Phase::Bosses => "placing the pins",
+        Phase::Parts => "cutting the parts",
+        Phase::Verify => "checking the files",
         Phase::Report => "writing the sheet",
     }
 }
 
-/// The progress of a run: one bar on a terminal, else nothing.
+/// The progress of a run: one bar on a terminal, else a line for each stage.
 ///
 /// ```
-/// # use equipoise::{base::watch::{Phase, Watch}, cli::{bars::Bars, voice::Manner}};
-/// let bars = Bars::new(Manner::of_process(true, 0));
+/// # use equipoise::base::watch::{Phase, Watch};
+/// # use equipoise::cli::{bars::Bars, voice::{Manner, Voice}};
+/// let bars = Bars::new(Voice { manner: Manner::of_process(true, 0), json: false });
 /// let watch = Watch::observed(bars.observer());
 /// watch.enter(Phase::Solve);
 /// bars.finish();
@@ -51,10 +57,12 @@ fn words(phase: Phase) -> &'static str {
 pub struct Bars {
     bar: ProgressBar,
     course: Arc<Mutex<Course>>,
+    /// True if each new stage is a line on the standard error.
+    says_stages: bool,
 }
 
 /// The last report of a run, and its times.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 struct Course {
     /// The start of the run.
     since: Instant,
@@ -62,6 +70,10 @@ struct Course {
     progress: Option<Progress>,
     /// The time of the last report.
     at: Instant,
+    /// The estimated time of the whole run, s; `None` if too little is done for one.
+    whole_s: Option<f64>,
+    /// The stages that were said.
+    said: BTreeSet<Phase>,
 }
 
 impl Course {
@@ -71,7 +83,24 @@ impl Course {
             since: now,
             progress: None,
             at: now,
+            whole_s: None,
+            said: BTreeSet::new(),
         }
+    }
+
+    /// Takes a report. Returns true if it is the first of its stage.
+    fn take(&mut self, progress: Progress, now: Instant) -> bool {
+        let since_last_s = (now - self.at).as_secs_f64();
+        self.progress = Some(progress);
+        self.at = now;
+        let share = self.share();
+        if share >= MIN_TIMED_SHARE {
+            let whole_s = (now - self.since).as_secs_f64() / share;
+            let known_s = self.whole_s.unwrap_or(whole_s);
+            let weight = (since_last_s / CALM_S).min(1.0);
+            self.whole_s = Some(known_s + weight * (whole_s - known_s));
+        }
+        self.said.insert(progress.phase)
     }
 
     /// Returns the done share of the whole run, 0 to 1.
@@ -81,36 +110,47 @@ impl Course {
 
     /// Returns an estimate of the time left, s; `None` if too little is done for one.
     fn remaining_s(&self, now: Instant) -> Option<f64> {
-        let share = self.share();
-        let whole_s = (self.at - self.since).as_secs_f64() / share;
         let elapsed_s = (now - self.since).as_secs_f64();
-        (share >= MIN_TIMED_SHARE).then(|| (whole_s - elapsed_s).max(0.0))
+        self.whole_s.map(|whole_s| (whole_s - elapsed_s).max(0.0))
     }
 
-    /// Returns the words for the phase, with its number among all phases.
+    /// Returns the words for the phase.
     fn words(&self) -> String {
         let phase = self.progress.map_or(Phase::Load, |progress| progress.phase);
-        let number = Phase::ALL.iter().filter(|other| **other <= phase).count();
-        format!("{number}/{} {:<17}", Phase::ALL.len(), words(phase))
+        format!("{:<21}", words(phase))
     }
 
     fn remaining_words(&self, now: Instant) -> String {
-        let words = |remaining_s: f64| format!("about {:.0} s left", remaining_s.ceil());
-        self.remaining_s(now)
-            .map_or("time left unknown".to_owned(), words)
+        self.remaining_s(now).map_or(String::new(), left_words)
+    }
+}
+
+/// Returns a time left, no more exactly than it is known.
+fn left_words(left_s: f64) -> String {
+    match left_s {
+        left_s if left_s < 10.0 => "a few seconds left".to_owned(),
+        left_s if left_s < 90.0 => format!("about {:.0} s left", 5.0 * (left_s / 5.0).ceil()),
+        left_s => format!("about {:.0} min left", (left_s / 60.0).ceil()),
     }
 }
 
 impl Bars {
     /// Returns a bar that begins now.
-    pub fn new(manner: Manner) -> Self {
+    pub fn new(voice: Voice) -> Self {
         let course = Arc::new(Mutex::new(Course::start()));
-        let bar = if manner.shows_bars() {
-            draw(&course, manner)
+        let bar = if voice.manner.shows_bars() {
+            draw(&course, voice.manner)
         } else {
             ProgressBar::hidden()
         };
-        Self { bar, course }
+        let Manner {
+            quiet, is_terminal, ..
+        } = voice.manner;
+        Self {
+            bar,
+            course,
+            says_stages: !quiet && !is_terminal && !voice.json,
+        }
     }
 
     /// Returns the observer for a [`Watch`](crate::base::watch::Watch), which advances the bar.
@@ -122,11 +162,15 @@ impl Bars {
     /// Shows a report of progress.
     pub fn advance(&self, progress: Progress) {
         let mut course = self.course.lock().unwrap_or_else(PoisonError::into_inner);
-        course.progress = Some(progress);
-        course.at = Instant::now();
+        let now = Instant::now();
+        let is_new = course.take(progress, now);
         let position = (course.share() * BAR_STEPS as f64) as u64;
+        let elapsed_s = (now - course.since).as_secs_f64();
         drop(course);
         self.bar.set_position(position);
+        if is_new && self.says_stages {
+            say(&format!("{elapsed_s:6.1} s  {}", words(progress.phase)));
+        }
     }
 
     /// Clears the bar.
@@ -137,16 +181,21 @@ impl Bars {
 
 /// Returns a bar on the standard error that shows the course whenever it is drawn.
 fn draw(course: &Arc<Mutex<Course>>, manner: Manner) -> ProgressBar {
+    let columns = terminal_size_of(std::io::stderr()).map(|(Width(columns), _)| columns);
+    let is_wide = columns.is_none_or(|columns| columns >= MIN_BAR_COLUMNS);
     let bar = ProgressBar::with_draw_target(Some(BAR_STEPS), ProgressDrawTarget::stderr());
-    let template = if manner.is_coloured {
-        "{stage} {bar:24.green} {percent:>3} % {elapsed} {left}"
-    } else {
-        "{stage} {bar:24} {percent:>3} % {elapsed} {left}"
+    let template = match (is_wide, manner.is_coloured) {
+        (true, true) => "{stage} {bar:24.green} {left}",
+        (true, false) => "{stage} {bar:24} {left}",
+        (false, _) => "{stage} {left}",
     };
     let shown = |words: fn(&Course, Instant) -> String| {
         let course = Arc::clone(course);
         move |_: &ProgressState, line: &mut dyn std::fmt::Write| {
-            let course = *course.lock().unwrap_or_else(PoisonError::into_inner);
+            let course = course
+                .lock()
+                .unwrap_or_else(PoisonError::into_inner)
+                .clone();
             // A line that cannot be drawn is not a reason to stop.
             let _ = line.write_str(&words(&course, Instant::now()));
         }
@@ -171,30 +220,29 @@ mod tests {
         quiet: true,
         verbose: 0,
         is_terminal: false,
+        may_ask: false,
         is_coloured: false,
         is_output_coloured: false,
     };
 
-    fn course(phase: Phase, whole_ratio: f64, elapsed_s: u64) -> Course {
-        let start = Course::start();
-        let progress = Progress {
-            phase,
+    fn at_share(whole_ratio: f64) -> Progress {
+        Progress {
+            phase: Phase::Parts,
             phase_ratio: 0.5,
             whole_ratio,
-        };
-        Course {
-            progress: Some(progress),
-            at: start.since + Duration::from_secs(elapsed_s),
-            ..start
         }
     }
 
     #[test]
     fn bars_take_any_report_and_end_twice_without_harm() {
-        let bars = Bars::new(Manner {
+        let manner = Manner {
             quiet: false,
             is_terminal: true,
             ..SILENT
+        };
+        let bars = Bars::new(Voice {
+            manner,
+            json: false,
         });
         let watch = Watch::observed(bars.observer());
         watch.enter(Phase::Solve);
@@ -209,17 +257,41 @@ mod tests {
 
     #[test]
     fn the_time_left_follows_from_the_done_share_and_is_not_shown_too_early() {
+        let mut course = Course::start();
+        let after = |s: u64| course.since + Duration::from_secs(s);
+        let [early, late] = [after(3), after(33)];
+        course.take(at_share(0.01), early);
+        assert_eq!(course.remaining_words(early), "");
         // After 33 s two thirds are done: 16.5 s are left of 49.5.
-        let late = course(Phase::Parts, 2.0 / 3.0, 33);
-        assert!((late.remaining_s(late.at).unwrap() - 16.5).abs() < 1e-6);
-        assert!(late.remaining_words(late.at).contains("about 17 s left"));
-        let early = course(Phase::Load, 0.01, 33);
-        assert_eq!(early.remaining_s(early.at), None);
+        course.take(at_share(2.0 / 3.0), late);
+        assert!((course.remaining_s(late).unwrap() - 16.5).abs() < 1e-6);
+        assert_eq!(course.remaining_words(late), "about 20 s left");
     }
 
     #[test]
-    fn the_phase_is_shown_with_its_number() {
-        let words = course(Phase::Columns, 0.03, 5).words();
-        assert!(words.contains("4/14 measuring columns"), "{words}");
+    fn one_slow_stage_does_not_throw_the_time_left_about() {
+        let mut course = Course::start();
+        let after = |tenths: u64| course.since + Duration::from_millis(100 * tenths);
+        let [half, stuck] = [after(100), after(110)];
+        course.take(at_share(0.5), half);
+        // A second without progress would lead to 12 s left in place of 9.
+        course.take(at_share(0.5), stuck);
+        let left_s = course.remaining_s(stuck).unwrap();
+        assert!((9.0..10.0).contains(&left_s), "{left_s}");
+    }
+
+    #[test]
+    fn each_stage_is_new_only_once() {
+        let mut course = Course::start();
+        let now = course.since;
+        assert!(course.take(at_share(0.1), now));
+        assert!(!course.take(at_share(0.2), now));
+    }
+
+    #[test]
+    fn a_time_left_is_said_in_steps_that_it_can_keep() {
+        assert_eq!(left_words(3.2), "a few seconds left");
+        assert_eq!(left_words(41.0), "about 45 s left");
+        assert_eq!(left_words(130.0), "about 3 min left");
     }
 }

@@ -74,6 +74,7 @@ fn name(key: Key) -> String {
     match key {
         Key::Plan => "cut".to_owned(),
         Key::Factor => "scale".to_owned(),
+        Key::Goal => "goal".to_owned(),
         Key::Speed => "speed".to_owned(),
         Key::Grade => "grade".to_owned(),
         Key::HardwareMass => "hardware-mass".to_owned(),

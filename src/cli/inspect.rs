@@ -9,18 +9,19 @@ use super::exit::Exit;
 use super::flags::{flag, flags, with_flags};
 use super::show::{say, table};
 use super::voice::Voice;
-use crate::advice::{Case, Prospect, prospects};
+use crate::advice::{Case, Prospect, name_direction, prospects};
 use crate::base::numbers::quantity;
 use crate::base::setting::{Key, Setting};
 use crate::base::units::{format_count, show_mm};
-use crate::base::watch::Watch;
+use crate::base::watch::{Cancelled, Watch};
 use crate::geom::Vector;
-use crate::goal::{Contact, GoalKind, Request, Up};
+use crate::goal::{Contact, GoalKind, Request, Up, find_upright};
 use crate::io::{ReadError, read_model};
 use crate::mass::{Body, moments_of_mesh};
 use crate::mesh::{Defects, MeshFacts, Solid, TriMesh, scaled};
-use crate::printer::{Printer, ProfileError, WallError};
+use crate::printer::{MaterialError, Printer, ProfileError, WallError};
 use crate::repair::{one_body, repair};
+use crate::run::NaturalUp;
 
 /// A reason why `inspect` could not run.
 #[derive(Debug, thiserror::Error)]
@@ -32,9 +33,15 @@ pub enum InspectError {
     /// The printer's profile cannot be used.
     #[error(transparent)]
     Profile(#[from] ProfileError),
+    /// The printer has no material.
+    #[error(transparent)]
+    Material(#[from] MaterialError),
     /// The wall cannot be printed.
     #[error(transparent)]
     Wall(#[from] WallError),
+    /// The command was stopped.
+    #[error(transparent)]
+    Stopped(#[from] Cancelled),
     /// The standard output is closed.
     #[error("cannot write to the standard output")]
     Output(#[from] std::io::Error),
@@ -70,6 +77,8 @@ struct Findings {
 #[derive(Debug, Serialize)]
 struct Becoming {
     wall_mm: f64,
+    /// The natural up in words, with its reasons.
+    natural_up: String,
     prospects: Vec<Prospect>,
 }
 
@@ -79,8 +88,10 @@ const MIN_SIZE_MM: f64 = 5.0;
 /// The greatest plausible longest side, mm. A longer one fits no printer.
 const MAX_SIZE_MM: f64 = 2000.0;
 
-/// The density of the model, g/cm³. No goal that is listed depends on it.
-const PLAIN_DENSITY_G_CM3: f64 = 1.0;
+/// The density of the print, g/cm³, without a printer: about that of PLA, PA and resins.
+const PLAIN_DENSITY_G_CM3: f64 = 1.2;
+/// The bore in what to type for a rotor.
+const EXAMPLE_BORE: &str = "8mm";
 /// The wall over the longest side, if neither a wall nor a printer is given.
 const PLAIN_WALL_RATIO: f64 = 0.01;
 
@@ -152,7 +163,7 @@ fn findings(facts: &MeshFacts, repairs: String, solid: &Result<Solid, Defects>) 
 }
 
 /// Returns a remedy for a longest side, mm, that nobody prints.
-fn size_hint(longest_mm: f64) -> Option<String> {
+pub(super) fn size_hint(longest_mm: f64) -> Option<String> {
     let is_plausible = (MIN_SIZE_MM..=MAX_SIZE_MM).contains(&longest_mm);
     (!is_plausible).then(|| {
         format!(
@@ -169,26 +180,31 @@ fn size_hint(longest_mm: f64) -> Option<String> {
 fn becoming(args: &InspectArgs, solid: &Solid) -> Result<Becoming, InspectError> {
     let ordered_mm = args.wall.map(|wall| wall.mm());
     let size_mm = solid.mesh().longest_side_mm();
-    let wall_mm = match &args.printer {
-        Some(id) => {
-            Printer::find(id)?
-                .quantise_wall(ordered_mm, size_mm)?
-                .wall_mm
-        }
+    let printer = args.printer.as_deref().map(Printer::find).transpose()?;
+    let wall_mm = match &printer {
+        Some(printer) => printer.quantise_wall(ordered_mm, size_mm)?.wall_mm,
         None => ordered_mm.unwrap_or(PLAIN_WALL_RATIO * size_mm),
     };
+    let material = printer.as_ref().map(|printer| printer.material(None));
     let case = Case {
         solid,
-        request: Request::new(GoalKind::Top),
+        request: Request::new(GoalKind::Stand),
         wall_mm,
         least_wall_mm: wall_mm,
         wall_step_mm: wall_mm,
-        density_g_cm3: PLAIN_DENSITY_G_CM3,
+        density_g_cm3: material
+            .transpose()?
+            .map_or(PLAIN_DENSITY_G_CM3, |material| material.density_g_cm3.value),
         greatest_size_mm: f64::INFINITY,
     };
+    let watch = Watch::silent();
+    let poses = find_upright(solid, &watch)?;
+    let natural = NaturalUp::of(&poses, |pose| name_direction(&case, &pose.up));
+    let up = natural.up.direction().unwrap_or_else(Vector::z);
     Ok(Becoming {
         wall_mm,
-        prospects: prospects(&case),
+        natural_up: natural.to_string(),
+        prospects: prospects(&case, &up, &watch)?,
     })
 }
 
@@ -267,36 +283,63 @@ fn plain(value: f64, unit: &str) -> String {
     quantity(value, unit).replace('\u{a0}', " ")
 }
 
-/// Returns a line for each goal and axis.
+/// Returns the natural up, and a line for each goal with what to type, the best first.
 fn becoming_text(becoming: &Becoming) -> String {
     let line = |prospect: &Prospect| {
-        let tip = prospect.tip.map_or(String::new(), |tip| {
-            format!(" on a tip ({})", flag(&Setting::new(Key::Tip, tip)))
-        });
-        let reached = prospect.reached.map(|reached| format!("it {reached}{tip}"));
-        let verdict = reached.unwrap_or_else(|| format!("impossible: {}", prospect.reason));
-        [
-            prospect.kind.to_string(),
-            flags(&settings(prospect)),
-            verdict,
-        ]
+        let result = prospect.reached.map_or_else(
+            || format!("cannot: {}", prospect.reason),
+            |reached| format!("{reached}{}", needs(prospect)),
+        );
+        [prospect.kind.to_string(), result]
     };
-    let rows: Vec<[String; 3]> = becoming.prospects.iter().map(line).collect();
+    let typed = |prospect: &Prospect| {
+        let is_possible = Some(prospect).filter(|prospect| prospect.possible);
+        is_possible.map(|prospect| format!("           {}\n", flags(&settings(prospect))))
+    };
+    let rows: Vec<[String; 2]> = becoming.prospects.iter().map(line).collect();
+    let rows = table(&rows).replace('\u{a0}', " ");
+    // What to type has a line of its own: both do not fit into 80 columns.
+    let rows = rows.lines().zip(&becoming.prospects);
+    let rows: String = rows
+        .map(|(row, prospect)| format!("{row}\n{}", typed(prospect).unwrap_or_default()))
+        .collect();
     format!(
-        "hollowed with a wall of {}, as\n{}",
-        show_mm(becoming.wall_mm),
-        table(&rows)
+        "{}\nhollowed with a wall of {}, as (best first)\n{rows}",
+        with_flags(&becoming.natural_up),
+        show_mm(becoming.wall_mm)
     )
 }
 
-/// Returns the axis, and the contact of a top if it is not its lowest point.
+/// Returns what a goal needs besides the hollowing, in words.
+fn needs(prospect: &Prospect) -> String {
+    if prospect.kind == GoalKind::Balance {
+        return ", on a shaft".to_owned();
+    }
+    let tip = if prospect.tip.is_some() {
+        ", on a steel tip"
+    } else {
+        ""
+    };
+    let turned = if prospect.off_deg > 0.0 {
+        format!(", turned by {:.0}°", prospect.off_deg)
+    } else {
+        String::new()
+    };
+    format!("{tip}{turned}")
+}
+
+/// Returns the options that order a goal: its axis, and the contact and tip of a top.
 fn settings(prospect: &Prospect) -> Vec<Setting> {
-    let other = prospect
-        .contact
-        .filter(|contact| *contact == Contact::Center);
+    let goal = Setting::new(Key::Goal, prospect.kind);
     let up = Setting::new(Key::Up, prospect.up);
-    let contact = other.map(|contact| Setting::new(Key::Contact, contact));
-    std::iter::once(up).chain(contact).collect()
+    let is_tipped = |_: &Contact| prospect.tip.is_some();
+    let contact = prospect.contact.filter(is_tipped);
+    let contact = contact.map(|contact| Setting::new(Key::Contact, contact));
+    let tip = prospect.tip.map(|tip| Setting::new(Key::Tip, tip));
+    let bore = prospect.kind == GoalKind::Balance;
+    let bore = bore.then(|| Setting::new(Key::Bore, EXAMPLE_BORE));
+    let all = [Some(goal), Some(up), contact, tip, bore];
+    all.into_iter().flatten().collect()
 }
 
 fn mass_text(mass: &Mass) -> String {
@@ -307,13 +350,16 @@ fn mass_text(mass: &Mass) -> String {
         plain(mass.volume_mm3, "mm³"),
         flag(&Setting::new(Key::Up, Up::Principal))
     );
-    for (axis, ratio) in ["x", "y", "z"].iter().zip(mass.dominance_ratio_by_axis) {
-        let word = if ratio < 1.0 {
-            "it can spin about this axis as it is"
-        } else {
-            "only hollowing could make it spin"
-        };
-        text += &format!("about {axis}: I_b/I_c {ratio:.3}, {word}\n");
+    let axes = ["x", "y", "z"].iter().zip(mass.dominance_ratio_by_axis);
+    let (steady, shaky): (Vec<_>, Vec<_>) = axes.partition(|(_, ratio)| *ratio < 1.0);
+    for (axes, words) in [
+        (steady, "spins steadily"),
+        (shaky, "does not spin steadily"),
+    ] {
+        let names: Vec<&str> = axes.iter().map(|(axis, _)| **axis).collect();
+        if !names.is_empty() {
+            text += &format!("solid, it {words} about {}\n", names.join(", "));
+        }
     }
     text
 }

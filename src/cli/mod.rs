@@ -12,6 +12,7 @@ pub mod prepare;
 pub mod printers;
 pub mod printers_markdown;
 pub mod profiles;
+pub mod questions;
 pub mod shop;
 pub mod show;
 pub mod signals;

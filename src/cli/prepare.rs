@@ -6,15 +6,22 @@ use super::args::{ArgsError, PrepareArgs, Request};
 use super::bars::Bars;
 use super::exit::Exit;
 use super::flags::{flags, with_flags};
+use super::inspect::size_hint;
+use super::questions::{AskError, Unanswered, ask};
 use super::show::say;
 use super::signals::Stop;
 use super::summary::{broken, details, ten_lines};
+use super::values::show_box;
 use super::voice::Voice;
 use crate::advice::Remedy;
+use crate::base::units::{Length, show_mm};
 use crate::base::watch::Watch;
 use crate::error::Error;
+use crate::io::read_model;
+use crate::job::{Job, Scaling};
 use crate::kit::Existing;
 use crate::prepare::{self, Failure, Impossible, Outcome, Prepared};
+use crate::printer::Printer;
 
 /// A reason why `prepare` could not run.
 #[derive(Debug, thiserror::Error)]
@@ -23,6 +30,9 @@ pub enum PrepareError {
     /// The arguments make no job.
     #[error(transparent)]
     Args(#[from] ArgsError),
+    /// The questions made no order.
+    #[error(transparent)]
+    Ask(#[from] AskError),
     /// A stage failed.
     #[error(transparent)]
     Run(#[from] Error),
@@ -41,8 +51,16 @@ pub fn prepare(
     stop: &Stop,
     out: &mut dyn Write,
 ) -> Result<Exit, PrepareError> {
-    let request = args.request()?;
-    let bars = Bars::new(voice.manner);
+    let request = match complete(args, voice) {
+        Err(PrepareError::Ask(AskError::Unanswered(Unanswered::Stopped))) => {
+            return Ok(stop.interrupt());
+        }
+        args => args?.request()?,
+    };
+    if !voice.manner.quiet && !voice.json {
+        beyond_plate(&request.job).iter().for_each(|note| say(note));
+    }
+    let bars = Bars::new(voice);
     let watch = Watch::observed_until(bars.observer(), stop.flag());
     let outcome = run(&request, &watch);
     bars.finish();
@@ -50,6 +68,9 @@ pub fn prepare(
     let is_written = matches!(outcome, Ok(Outcome::Prepared(_)));
     if !is_written && let Some(exit) = stop.end() {
         return Ok(exit);
+    }
+    if outcome.is_err() {
+        unit_hint(&request.job).iter().for_each(|hint| say(hint));
     }
     match outcome? {
         Outcome::Prepared(prepared) => {
@@ -67,8 +88,20 @@ pub fn prepare(
     }
 }
 
+/// Asks for the arguments that are missing, if a person can be asked.
+fn complete(args: PrepareArgs, voice: Voice) -> Result<PrepareArgs, PrepareError> {
+    let may_ask = voice.manner.may_ask && !voice.manner.quiet && !voice.json && !args.no_questions;
+    match args.missing()? {
+        Some(missing) if may_ask => Ok(ask(args, missing.printer)?),
+        _ => Ok(args),
+    }
+}
+
 /// Runs the job, and writes its kit if it has one.
+///
+/// What the arguments alone decide is checked before the folder, and that before the model is read.
 fn run(request: &Request, watch: &Watch) -> Result<Outcome, Error> {
+    check_arguments(&request.job)?;
     let existing = if request.force {
         Existing::Replace
     } else {
@@ -81,6 +114,43 @@ fn run(request: &Request, watch: &Watch) -> Result<Outcome, Error> {
         kit.write_watched(&request.out, existing, watch)?;
     }
     Ok(outcome)
+}
+
+/// Checks what the arguments alone decide: the printer, its material, the size and the wall.
+fn check_arguments(job: &Job) -> Result<(), Error> {
+    let printer = Printer::find(&job.printer.id)?;
+    printer.material(job.printer.material.as_deref())?;
+    if let Scaling::Size(size) = job.model.scaling {
+        printer.check_length(size.mm())?;
+        printer.quantise_wall(job.wall.map(Length::mm), size.mm())?;
+    }
+    Ok(())
+}
+
+/// Returns a remark if the model is longer than the printer's build volume; `None` if it is not, or
+/// if that is not known yet.
+fn beyond_plate(job: &Job) -> Option<String> {
+    let Scaling::Size(size) = job.model.scaling else {
+        return None;
+    };
+    let volume_mm = Printer::find(&job.printer.id).ok()?.build_volume_mm?.value;
+    let longest_mm = volume_mm.into_iter().fold(0.0, f64::max);
+    (size.mm() > longest_mm).then(|| {
+        format!(
+            "note: {} is longer than the printer ({}); its parts are cut to fit, or refused",
+            show_mm(size.mm()),
+            show_box(volume_mm)
+        )
+    })
+}
+
+/// Returns a warning if the model has a size that nobody prints, as `inspect` does; `None` if its
+/// size is plausible.
+fn unit_hint(job: &Job) -> Option<String> {
+    let mesh = read_model(&job.model.path).ok()?;
+    let longest = mesh.longest_side_mm();
+    let hint = size_hint(job.model.scaling.factor(longest) * longest)?;
+    Some(format!("warning: {}", with_flags(&hint)))
 }
 
 fn print_prepared(
@@ -170,7 +240,7 @@ fn failure_text(failure: &Failure) -> String {
     with_flags(&format!("{}\n{remedies}", failure.reason))
 }
 
-/// Returns the remedies that help, with what to type, then hints, then remedies that do not help.
+/// Returns the remedies that help, with what to type, then hints, then what was tried in vain.
 fn remedies_text(remedies: &[Remedy], hints: &[String]) -> String {
     let (helpful, useless): (Vec<&Remedy>, Vec<&Remedy>) =
         remedies.iter().partition(|remedy| remedy.helps());
@@ -185,8 +255,11 @@ fn remedies_text(remedies: &[Remedy], hints: &[String]) -> String {
         .into_iter()
         .map(|remedy| format!("  remedy: {}{}\n", typed(remedy), remedy.words));
     let hints = hints.iter().map(|hint| format!("  perhaps: {hint}\n"));
-    let useless = useless
-        .into_iter()
-        .map(|remedy| format!("  no remedy: {}\n", remedy.words));
-    helpful.chain(hints).chain(useless).collect()
+    let tried: Vec<&str> = useless.iter().map(|remedy| remedy.words.as_str()).collect();
+    let tried = if tried.is_empty() {
+        String::new()
+    } else {
+        format!("  also tried, without success: {}\n", tried.join("; "))
+    };
+    helpful.chain(hints).chain([tried]).collect()
 }

@@ -8,7 +8,7 @@ use super::args::PrintersAction;
 use super::printers_markdown::markdown;
 use super::profiles::{self, ProfilesError};
 use super::show::table;
-use super::values::{kebab, show_box, show_number, show_pixel, show_step};
+use super::values::{kebab, show_box, show_number};
 use crate::base::units::{show_mm, show_percent};
 use crate::printer::{Printer, ProfileError, Quantity, Sourced, Sure, Unknown};
 
@@ -53,35 +53,44 @@ fn list(printers: &[Printer], json: bool, out: &mut dyn Write) -> Result<(), Pri
     if json {
         return write_json(printers, out);
     }
-    let head = [
-        "id",
-        "printer",
-        "process",
-        "pixel or line",
-        "layer",
-        "build volume",
-        "least wall",
-    ];
+    let head = ["id", "printer", "process", "volume, mm"];
     let rows: Vec<_> = std::iter::once(head.map(str::to_owned))
         .chain(printers.iter().map(list_row))
         .collect();
     Ok(out.write_all(table(&rows).as_bytes())?)
 }
 
-fn list_row(printer: &Printer) -> [String; 7] {
-    let volume = printer
-        .build_volume_mm
-        .as_ref()
-        .map_or_else(|| "not known".to_owned(), |v| show_box(v.value));
+/// Returns the columns that fit on a terminal of 80; `show` has the others.
+fn list_row(printer: &Printer) -> [String; 4] {
+    let volume = printer.build_volume_mm.as_ref();
+    let volume = volume.map_or_else(
+        || "not known".to_owned(),
+        |volume| {
+            volume
+                .value
+                .map(|side| side.floor().to_string())
+                .join(" × ")
+        },
+    );
     [
         printer.id.clone(),
-        printer.name.clone(),
+        short_name(&printer.name),
         printer.process.clone().unwrap_or_default(),
-        show_pixel(printer),
-        show_step(printer.layer_mm.value),
         volume,
-        show_mm(printer.min_wall_mm.value),
     ]
+}
+
+/// The most characters of a printer's name in the list.
+const NAME_CHARS: usize = 31;
+
+/// Returns a name without its nozzle, cut to the width of its column.
+fn short_name(name: &str) -> String {
+    let name = name.split(',').next().unwrap_or(name);
+    if name.chars().count() <= NAME_CHARS {
+        return name.to_owned();
+    }
+    let cut: String = name.chars().take(NAME_CHARS - 1).collect();
+    format!("{}…", cut.trim_end())
 }
 
 fn show(printer: &Printer, json: bool, out: &mut dyn Write) -> Result<(), PrintersError> {
@@ -97,10 +106,20 @@ fn show(printer: &Printer, json: bool, out: &mut dyn Write) -> Result<(), Printe
     Ok(writeln!(out, "\n{SURE}")?)
 }
 
-/// The meanings of the words for how sure a number is.
+/// The meanings of the words for where a number is from.
 const SURE: &str = "\
-sure: measured = by the shop, on its own prints; read = seen in the source; paper = from a paper the method rests on; computed = from the source's numbers;
-third party = not from the maker; recalled = remembered, not read again; own choice = for the reason given";
+from: measured = by the shop, on its own prints; published = in the source named;
+third party = in the source named, which is not the maker's; ours = our own choice, for the reason given";
+
+/// Returns the word for where a number is from.
+fn origin(sure: Sure) -> &'static str {
+    match sure {
+        Sure::Measured => "measured",
+        Sure::Read | Sure::Computed | Sure::Paper => "published",
+        Sure::ThirdParty => "third party",
+        Sure::Recalled | Sure::OwnChoice => "ours",
+    }
+}
 
 fn words(printer: &Printer) -> Vec<[String; 2]> {
     let word = |name: &str, value: String| [name.to_owned(), value];
@@ -122,7 +141,7 @@ fn words(printer: &Printer) -> Vec<[String; 2]> {
 }
 
 fn numbers(printer: &Printer) -> Vec<[String; 4]> {
-    let mut rows = vec![["number", "value", "sure", "source"].map(str::to_owned)];
+    let mut rows = vec![["number", "value", "from", "source"].map(str::to_owned)];
     rows.extend(plate(printer));
     for wall in &printer.walls_by_part_size {
         let value = format!(
@@ -179,12 +198,17 @@ fn number_row<T>(key: &str, value: String, number: &Sourced<T>) -> [String; 4] {
         .as_ref()
         .map(|id| format!(" (default of {id})"));
     let source = format!("{}{}", number.source, default.unwrap_or_default());
-    [key.to_owned(), value, number.sure.to_string(), source]
+    [
+        key.to_owned(),
+        value,
+        origin(number.sure).to_owned(),
+        source,
+    ]
 }
 
 fn materials(printer: &Printer) -> Vec<[String; 6]> {
     let mut rows =
-        vec![["material", "name", "density", "± mass", "sure", "source"].map(str::to_owned)];
+        vec![["material", "name", "density", "± mass", "from", "source"].map(str::to_owned)];
     rows.extend(printer.materials.iter().map(|material| {
         [
             material.id.clone(),
@@ -194,7 +218,7 @@ fn materials(printer: &Printer) -> Vec<[String; 6]> {
                 || "not known".to_owned(),
                 |spread| show_percent(spread.value),
             ),
-            material.density_g_cm3.sure.to_string(),
+            origin(material.density_g_cm3.sure).to_owned(),
             material.density_g_cm3.source.clone(),
         ]
     }));
@@ -215,7 +239,7 @@ fn check(printer: &Printer, json: bool, out: &mut dyn Write) -> Result<(), Print
         .count();
     writeln!(
         out,
-        "{}: a profile that can be used; {} numbers, {inherited} of them process defaults, {} recalled or own choices",
+        "{}: a profile that can be used; {} numbers, {inherited} of them process defaults, {} our own choices",
         printer.id,
         numbers.len(),
         numbers.iter().filter(unsure).count()
@@ -251,10 +275,12 @@ mod tests {
             .find(|line| line.starts_with("objet-connex350"))
             .unwrap();
         assert!(
-            objet.contains("0.0423 mm") && objet.contains("not known"),
+            objet.contains("polyjet") && objet.contains("not known"),
             "{objet}"
         );
-        assert!(list.contains("250 × 210 × 220 mm"), "{list}");
+        assert!(list.contains("250 × 210 × 220"), "{list}");
+        let widest = list.lines().map(|line| line.chars().count()).max();
+        assert!(widest <= Some(80), "{list}");
     }
 
     #[test]
@@ -267,7 +293,7 @@ mod tests {
                 .find(|line| line.starts_with(quantity.key()))
                 .unwrap();
             assert!(
-                line.contains(&number.source) && line.contains(&number.sure.to_string()),
+                line.contains(&number.source) && line.contains(origin(number.sure)),
                 "{line}"
             );
         }
@@ -300,7 +326,7 @@ mod tests {
         let said = text(Some(PrintersAction::Check { file }), false);
         assert_eq!(
             said,
-            "shop-mk4: a profile that can be used; 26 numbers, 20 of them process defaults, 9 recalled or own choices\n"
+            "shop-mk4: a profile that can be used; 26 numbers, 20 of them process defaults, 9 our own choices\n"
         );
         let mut out = Vec::new();
         let error = run(

@@ -9,20 +9,22 @@ use crate::{
     printer::{CONFIGURATION, ShopDefaults},
 };
 
-/// Returns the printer and material that were ordered, or the shop's defaults.
+/// Returns the printer and material that were ordered, or the shop's defaults; `None` if there are
+/// neither.
 pub fn chosen_printer(
-    printer: Option<String>,
+    printer: Option<&str>,
     material: Option<String>,
     model: &Path,
-) -> Result<PrinterChoice, ArgsError> {
+) -> Result<Option<PrinterChoice>, ArgsError> {
     if let Some(id) = printer {
-        return Ok(PrinterChoice { id, material });
+        let id = id.to_owned();
+        return Ok(Some(PrinterChoice { id, material }));
     }
-    let shop = ShopDefaults::find_in(&shop_folders(model))?.ok_or(ArgsError::NoPrinter)?;
-    Ok(PrinterChoice {
+    let shop = ShopDefaults::find_in(&shop_folders(model))?;
+    Ok(shop.map(|shop| PrinterChoice {
         id: shop.printer,
         material: material.or(shop.material),
-    })
+    }))
 }
 
 /// Returns the folders that may hold `equipoise.toml`, in order: the current one, the model's, the

@@ -52,6 +52,12 @@ impl Stop {
         Arc::clone(&self.is_pressed)
     }
 
+    /// Presses the button for a Ctrl-C that came as a key, and returns how the command ends.
+    pub fn interrupt(&self) -> Exit {
+        self.is_pressed.store(true, Ordering::SeqCst);
+        self.end().unwrap_or(Exit::Interrupted)
+    }
+
     /// Returns how the command ends if the button is pressed, and says that nothing was written;
     /// else `None`.
     pub fn end(&self) -> Option<Exit> {

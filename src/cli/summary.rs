@@ -3,10 +3,12 @@
 
 use std::path::Path;
 
+use super::bars::words as stage_name;
 use super::show::{GREEN, RED, paint, table, verdict};
 use super::voice::Manner;
 use crate::base::numbers::{measured, measured_extent, quantity as figure};
 use crate::base::units::format_count;
+use crate::base::watch::Phase;
 use crate::goal::GoalKind;
 use crate::page::{promise, spins_on};
 use crate::sheet::{Checklist, Course, LogRow, PassRow};
@@ -199,9 +201,15 @@ fn times(total_s: f64, stages: &[(String, f64)]) -> String {
     let most: Vec<String> = longest
         .iter()
         .take(2)
-        .map(|(stage, seconds)| format!("{stage} {seconds:.1} s"))
+        .map(|(stage, seconds)| format!("{} {seconds:.1} s", stage_words(stage)))
         .collect();
     format!("{total_s:.1} s, most of it {}", most.join(" and "))
+}
+
+/// Returns the plain words for the key of a phase.
+fn stage_words(key: &str) -> String {
+    let phase = Phase::ALL.into_iter().find(|phase| phase.key() == key);
+    phase.map_or(key, |phase| stage_name(phase)).to_owned()
 }
 
 /// Returns the number of promises kept and broken, in words.
@@ -374,6 +382,7 @@ mod tests {
         quiet: false,
         verbose: 0,
         is_terminal: false,
+        may_ask: false,
         is_coloured: false,
         is_output_coloured: false,
     };

@@ -18,6 +18,7 @@ pub(super) fn show_pixel(printer: &Printer) -> String {
 /// Returns a number of a profile with its unit.
 pub(super) fn show_number(quantity: Quantity, value: f64) -> String {
     match quantity {
+        Quantity::LayerLeastMm | Quantity::LayerMostMm => show_step(value),
         _ if quantity.is_grid_step() => show_step(value),
         _ if quantity.is_ratio() => value.to_string(),
         _ if quantity.is_angle() => format!("{value}°"),

@@ -83,5 +83,17 @@ fn text(checks: &[Check], changes: &[FileChange], manner: Manner) -> String {
     } else if !broken.is_empty() {
         text += &checks_table(&broken, manner);
     }
-    text + &summary(checks, manner) + "\n"
+    // A kit whose files cannot be read has no promise that could be kept.
+    let is_unjudged = !changes.is_empty() && checks.iter().all(is_of_files);
+    let sum = if is_unjudged {
+        paint("could not be judged", RED, manner.is_output_coloured)
+    } else {
+        summary(checks, manner)
+    };
+    text + &sum + "\n"
+}
+
+/// Returns true for the check that the files are those that were made.
+fn is_of_files(check: &Check) -> bool {
+    check.kind == CheckKind::ChangedFiles
 }

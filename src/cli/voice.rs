@@ -11,6 +11,8 @@ pub struct Manner {
     pub verbose: u8,
     /// True if the standard error is a terminal.
     pub is_terminal: bool,
+    /// True if a person can be asked: input and outputs are a terminal that can show questions.
+    pub may_ask: bool,
     /// True if the standard error may have colours.
     pub is_coloured: bool,
     /// True if the standard output may have colours.
@@ -32,6 +34,10 @@ impl Manner {
             quiet,
             verbose,
             is_terminal,
+            may_ask: is_terminal
+                && !is_dumb
+                && std::io::stdin().is_terminal()
+                && std::io::stdout().is_terminal(),
             is_coloured: may && is_terminal,
             is_output_coloured,
         }

@@ -90,8 +90,9 @@ pub enum GoalError {
     },
     /// A support without area.
     #[error(
-        "with {up} up the {vertices} lowest vertices of the model support it on a point or a line \
-         only: try `{instead}`, or give it a flat foot"
+        "with {up} up it would stand on {}; which way is up? try `{instead}`, or give it a flat \
+         foot",
+        narrow_foot(*vertices)
     )]
     NoSupport {
         /// The direction that is up.
@@ -120,4 +121,13 @@ pub enum GoalError {
 /// Returns the setting that orders a bore where the model has none.
 fn bore_to_make() -> Setting {
     Setting::new(Key::Bore, "6mm")
+}
+
+/// Returns the words for the support of this many vertices, which has no area.
+fn narrow_foot(vertices: usize) -> &'static str {
+    if vertices == 1 {
+        "one point"
+    } else {
+        "an edge"
+    }
 }

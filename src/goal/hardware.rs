@@ -151,6 +151,18 @@ pub struct Hardware {
     pub stem: Option<Rod>,
 }
 
+/// Lengths of a tip or stem that are proposed, in its diameters.
+const PROPOSED_DIAMETERS: f64 = 5.0;
+
+/// Returns a rod with a usual length, for one that has none.
+fn with_length(rod: &Rod) -> Rod {
+    let length = Length::from_mm(PROPOSED_DIAMETERS * rod.diameter.mm());
+    Rod {
+        length: length.ok(),
+        ..*rod
+    }
+}
+
 /// The remedy for a rod that cannot be held.
 const DEPTH_REMEDY: &str = "remedy: give DIAMETERxLENGTHxDEPTH with a depth below the length, such \
                             as 4mmx12mmx6mm";
@@ -184,10 +196,22 @@ pub enum HardwareError {
     /// The mass is not positive.
     #[error("a mass of {0} g for the hardware cannot be used; remedy: give one in g, above zero")]
     Mass(f64),
-    /// The tip has no length, or nothing of it is inside or outside.
+    /// The tip has no length.
+    #[error(
+        "a tip of {} has no length; remedy: give one too (`{}`)", .0.diameter,
+        Setting::new(Key::Tip, with_length(.0))
+    )]
+    TipLength(Rod),
+    /// The stem has no length.
+    #[error(
+        "a stem of {} has no length; remedy: give one too (`{}`)", .0.diameter,
+        Setting::new(Key::Stem, with_length(.0))
+    )]
+    StemLength(Rod),
+    /// Nothing of the tip is inside or outside.
     #[error("a tip of {0} cannot be held; {DEPTH_REMEDY}")]
     TipDepth(Rod),
-    /// The stem has no length, or nothing of it is inside or outside.
+    /// Nothing of the stem is inside or outside.
     #[error("a stem of {0} cannot be held; {DEPTH_REMEDY}")]
     StemDepth(Rod),
     /// The tip stands out by less than the radius of its round end.
@@ -216,7 +240,14 @@ impl Hardware {
         if is_for_yoyo {
             self.check_axle()?;
         }
-        let unheld = |rod: &Rod| rod.length.is_none() || rod.depth_mm() >= rod.length_mm();
+        let endless = |rod: &Rod| rod.length.is_none();
+        if let Some(tip) = self.tip.filter(endless) {
+            return Err(HardwareError::TipLength(tip));
+        }
+        if let Some(stem) = self.stem.filter(endless) {
+            return Err(HardwareError::StemLength(stem));
+        }
+        let unheld = |rod: &Rod| rod.depth_mm() >= rod.length_mm();
         if let Some(tip) = self.tip.filter(unheld) {
             return Err(HardwareError::TipDepth(tip));
         }
@@ -356,10 +387,9 @@ mod tests {
             tip: Some(rod("4mm")),
             ..top()
         };
-        assert!(matches!(
-            refusal(GoalKind::Top, endless),
-            HardwareError::TipDepth(_)
-        ));
+        let endless = refusal(GoalKind::Top, endless);
+        assert!(matches!(endless, HardwareError::TipLength(_)));
+        assert!(endless.to_string().contains("`tip = \"4mmx20mm\"`"));
         let sunk = Hardware {
             stem: Some(rod("4x12x12")),
             ..top()

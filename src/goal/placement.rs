@@ -87,9 +87,9 @@ impl Footing {
 pub enum Warning {
     /// The contact point hangs below the surface.
     #[error(
-        "the contact point is in the air: the model begins {missing_mm:.3} mm above it, so that as \
-         printed it cannot spin there; put in a tip piece (`{}`), or give another contact (`{}`)",
-        any_tip(),
+        "the point it should spin on is {missing_mm:.1} mm below the model; add a tip (`{}`), or \
+         give another contact (`{}`)",
+        Setting::new(Key::Tip, "auto"),
         Setting::open(Key::Contact)
     )]
     ContactInAir {
@@ -140,7 +140,7 @@ pub enum Warning {
     AxisMissesModel,
     /// A part of the model lies lower than the contact.
     #[error(
-        "the model reaches {depth_mm:.3} mm below the contact point and will touch a flat floor \
+        "the model reaches {depth_mm:.1} mm below the contact point and will touch a flat floor \
          first"
     )]
     BelowContact {

@@ -110,11 +110,7 @@ impl Status {
                 obstacle,
                 least_miss,
                 ..
-            } => format!(
-                "no hollowing with this wall can {} (it misses by {:.1} %)",
-                obstacle.task(goal.kind),
-                100.0 * least_miss
-            ),
+            } => explain_imbalance(obstacle, least_miss, goal.kind),
             Self::NotDominant { least_ratio } => format!(
                 "{}, so the spin about this axis is not stable",
                 compare_moments(least_ratio)
@@ -244,6 +240,19 @@ fn explain_limit(gap_ratio: f64, residual: f64) -> String {
     format!(
         "Not solved within the allowed passes: the gap is {gap_ratio:.1e} and the constraints are \
          missed by {residual:.1e}. Allow more passes."
+    )
+}
+
+fn explain_imbalance(obstacle: Obstacle, least_miss: f64, kind: GoalKind) -> String {
+    let wobbles = if matches!(kind, GoalKind::Stand | GoalKind::Float) {
+        ""
+    } else {
+        "it would wobble about this axis however it is hollowed: "
+    };
+    format!(
+        "{wobbles}no hollowing with this wall can {} (it misses by {:.1} %)",
+        obstacle.task(kind),
+        100.0 * least_miss
     )
 }
 

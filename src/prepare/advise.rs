@@ -1,23 +1,23 @@
-//! Advice: remedies for an impossible goal, and hints for a kit that breaks a promise.
+//! Advice: remedies for an impossible goal, each carried out before it is told.
 
-use super::hints::hint;
-use super::outcome::{Failure, Impossible, Prepared};
+use super::outcome::Impossible;
+use super::solve::workshop;
 use crate::advice::{self, Case, Kind, Remedy};
+use crate::ballast::{Found, Load, Order, Search};
 use crate::base::numbers::quantity;
 use crate::base::setting::{Key, Setting};
-use crate::base::watch::{Cancelled, Phase, Watch};
+use crate::base::units::format_count;
+use crate::base::watch::{Phase, Watch};
 use crate::error::Error;
-use crate::goal::{PrintStock, Request, TipChoice, place_in_material};
+use crate::goal::Request;
+use crate::hollow::{Certificate, Figure};
 use crate::run::{Model, Placed, Shop};
-use crate::verify::{Check, CheckKind, FigureName};
 
 /// Hint for models with hardware: remedies are searched for the bare model only.
 const BARE: &str =
     "leave the hardware out, to be told by how much the model as it is can or cannot";
-/// Steps of a degree in which a smaller promise is advised: it is rounded down to tenths.
-const PROMISES_PER_DEG: f64 = 10.0;
-/// The hint that helps most goals a little.
-const MORE_ROOM: &str = "make it larger with the same wall, or the wall thinner: either leaves the solver more to choose from";
+/// The most balls that are tried before ballast is advised: more take minutes.
+const MOST_BALLS: u32 = 3;
 
 /// Returns the case that advice is sought for.
 pub fn case<'a>(model: &'a Model, shop: &Shop, request: Request) -> Case<'a> {
@@ -52,117 +52,61 @@ pub fn remedies(
     }
     let case = case(&placed.model, &placed.shop, placed.request);
     let remedies = advice::remedies(&case, watch)?;
-    let hints = if remedies.iter().any(Remedy::helps) {
-        Vec::new()
-    } else {
-        impossible.hints
-    };
+    // Every hint of the solver was tried as a remedy.
     Ok(Impossible {
-        remedies,
-        hints,
+        remedies: with_ballast_carried_out(placed, remedies, watch)?,
+        hints: Vec::new(),
         ..impossible
     })
 }
 
-/// Adds the reason why a kit breaks a promise, and what helps.
-pub fn on_failure(placed: &Placed, prepared: Prepared, watch: &Watch) -> Result<Prepared, Error> {
-    if prepared.passes() {
-        return Ok(prepared);
+/// Lays in the ballast that a remedy calls for, and keeps the remedy only if that does. Drops it if
+/// ballast was ordered: that was just refused.
+fn with_ballast_carried_out(
+    placed: &Placed,
+    remedies: Vec<Remedy>,
+    watch: &Watch,
+) -> Result<Vec<Remedy>, Error> {
+    let is_ballast = |remedy: &Remedy| remedy.kind == Kind::LeastBallast;
+    let (ballast, mut remedies): (Vec<Remedy>, Vec<Remedy>) =
+        remedies.into_iter().partition(is_ballast);
+    if !placed.job.ballast.is_none() {
+        return Ok(remedies);
     }
-    watch.enter(Phase::Advise);
-    let checks = prepared.checklist.checks.iter();
-    let broken: Vec<&Check> = checks.filter(|check| !check.pass).collect();
-    let mut hints: Vec<String> = Vec::new();
-    for hint in broken.iter().filter_map(|check| hint(&check.kind)) {
-        if !hints.contains(&hint) {
-            hints.push(hint);
-        }
-    }
-    hints.extend(longer_tip(placed, &broken));
-    hints.extend(broken.iter().copied().find_map(smaller_promise));
-    hints.push(MORE_ROOM.to_owned());
-    let falls_over = broken.iter().any(|check| check.kind == CheckKind::Standing);
-    let failure = Failure {
-        reason: reason(&prepared, &broken),
-        hints,
-        remedies: if falls_over {
-            other_faces(placed, watch)?
+    for remedy in ballast {
+        let found = if remedy.helps() {
+            Search::new(workshop(placed), watch)?.of_few_balls(MOST_BALLS)?
         } else {
-            Vec::new()
-        },
-    };
-    Ok(Prepared {
-        failure: Some(failure),
-        ..prepared
-    })
-}
-
-/// Names the stock tip that keeps the promise of a top on a given tip that breaks it.
-fn longer_tip(placed: &Placed, broken: &[&Check]) -> Option<String> {
-    let is_contact = |check: &&Check| matches!(check.kind, CheckKind::Contact | CheckKind::Lean);
-    placed.request.ordered_tip().rod()?;
-    broken.iter().copied().find(|check| is_contact(check))?;
-    let request = Request {
-        tip: TipChoice::Auto,
-        hardware: Some(placed.request.hardware_with(None)),
-        ..placed.request
-    };
-    let stock = PrintStock {
-        wall_mm: placed.shop.wall.wall_mm,
-        density_g_cm3: placed.density_g_cm3(),
-    };
-    let placement = place_in_material(&placed.model.solid, &stock, &request).ok()?;
-    let pin = placement.footing?.tip()?;
-    let setting = Setting::new(Key::Tip, pin);
-    Some(format!("take a longer tip (`{setting}`)"))
-}
-
-/// Names the promise that a standing object, or a top on its foot, keeps as it is.
-fn smaller_promise(broken: &Check) -> Option<String> {
-    let key = match broken.kind {
-        CheckKind::Standing => Key::LeastAngle,
-        CheckKind::Lean => Key::LeastLean,
-        _ => return None,
-    };
-    let kept_deg = (broken.value? * PROMISES_PER_DEG).floor() / PROMISES_PER_DEG;
-    let setting = Setting::new(key, kept_deg);
-    (kept_deg > 0.0).then(|| format!("promise no more than it keeps (`{setting}`)"))
-}
-
-/// Explains what the goal could have reached, and what the parts keep of it.
-fn reason(prepared: &Prepared, broken: &[&Check]) -> String {
-    let proof = &prepared.checklist.certificate;
-    let names: Vec<String> = broken.iter().map(|check| check.kind.to_string()).collect();
-    let unit = proof.figure.unit();
-    let shaky = broken.iter().find(|check| {
-        check.kind == CheckKind::Standing
-            && proof.figure == FigureName::TopplesDeg
-            && !check.comparison.holds(proof.bound, check.limit)
-    });
-    if let Some(check) = shaky {
-        return format!(
-            "it topples too early: no hollowing with this wall reaches more than {}, and {} are promised",
-            quantity(proof.bound, unit),
-            quantity(check.limit, unit)
-        );
+            None
+        };
+        let firm = |found: &Found| stands_as_promised(placed, &found.solution.certificate);
+        let found = found.filter(firm);
+        remedies.push(match found {
+            Some(found) => laid_in(remedy, &found.load),
+            None => Remedy::dead_end(Kind::LeastBallast, "steel inside".to_owned()),
+        });
     }
-    match proof.written_value {
-        Some(written) => format!(
-            "the kit breaks {}: the best void there is reaches a {} of {}, and of that the parts that can be made keep {}; what \
-             pins, cuts and cleaning take is more than there is to spare",
-            names.join(", "),
-            proof.figure.name(),
-            quantity(proof.bound, unit),
-            quantity(written, unit)
+    Ok(remedies)
+}
+
+/// Returns whether a solution topples no sooner than the job promises.
+fn stands_as_promised(placed: &Placed, proof: &Certificate) -> bool {
+    let least_deg = placed.request.promised_angle_deg().unwrap_or(0.0);
+    proof.figure != Figure::TopplingAngleRad || proof.value.to_degrees() >= least_deg
+}
+
+/// Returns the remedy of ballast with the parts that were placed.
+fn laid_in(remedy: Remedy, load: &Load) -> Remedy {
+    let count = load.parts.len();
+    let mass_g: f64 = load.parts.iter().map(|part| part.part.mass_g).sum();
+    Remedy {
+        amount: Some(mass_g),
+        settings: vec![Setting::new(Key::Ballast, Order::Auto)],
+        words: format!(
+            "lay in {}, {} in all",
+            format_count(count, "steel ball"),
+            quantity(mass_g, "g")
         ),
-        None => format!("the kit breaks {}", names.join(", ")),
+        ..remedy
     }
-}
-
-/// Returns the nearest other faces that the object surely stands on.
-fn other_faces(placed: &Placed, watch: &Watch) -> Result<Vec<Remedy>, Cancelled> {
-    let case = case(&placed.model, &placed.shop, placed.request);
-    let found = advice::remedies(&case, watch)?.into_iter();
-    let is_face = |remedy: &Remedy| remedy.kind == Kind::NearestFace && remedy.helps();
-    Ok(found.filter(is_face).collect())
 }

@@ -2,6 +2,7 @@
 
 mod advise;
 mod faces;
+mod failure;
 mod hardware;
 mod hints;
 mod judge;
@@ -52,7 +53,7 @@ pub fn prepare(job: &Job, watch: &Watch) -> Result<Outcome, Error> {
         judge::draft(&placed, made, watch)
     })?;
     let prepared = papers::finish(&placed, draft, watch)?;
-    let prepared = advise::on_failure(&placed, prepared, watch)?;
+    let prepared = failure::on_failure(&placed, prepared, watch)?;
     Ok(Outcome::Prepared(Box::new(prepared)))
 }
 

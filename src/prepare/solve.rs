@@ -32,7 +32,7 @@ fn with_ballast(
 ) -> Result<Answer, Error> {
     watch.enter(Phase::Ballast);
     let order = &placed.job.ballast;
-    let found = Search::new(shop(placed), watch)?.of_order(order)?;
+    let found = Search::new(workshop(placed), watch)?.of_order(order)?;
     if let Some(found) = found {
         return with_load(placed, found.load, watch);
     }
@@ -53,7 +53,8 @@ fn with_ballast(
     }
 }
 
-fn shop(placed: &Placed) -> Workshop<'_> {
+/// Returns the model of a run as one in which ballast is searched.
+pub fn workshop(placed: &Placed) -> Workshop<'_> {
     let printer = &placed.shop.printer;
     Workshop {
         solid: placed.solid(),

@@ -9,13 +9,11 @@ use crate::base::toml_text::{Place, TextFault};
 #[non_exhaustive]
 pub enum ProfileError {
     /// Neither a known id nor a file.
-    #[error("there is no printer `{id}`; the known ones are {known}; remedy: {remedy}")]
+    #[error("there is no printer `{id}`; remedy: {remedy}")]
     Unknown {
         /// The id asked for.
         id: String,
-        /// The ids of the built-in set.
-        known: String,
-        /// The nearest id, or how to give a file.
+        /// The nearest id, or all of them.
         remedy: String,
     },
     /// The file cannot be read.

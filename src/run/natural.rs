@@ -61,6 +61,12 @@ impl fmt::Display for NaturalUp {
     }
 }
 
+/// Returns the weightiest reasons for a pose, in words.
+pub fn reasons(pose: &UprightPose) -> Vec<String> {
+    let reasons = pose.reasons.iter().take(MOST_REASONS);
+    reasons.map(words).collect()
+}
+
 /// Returns the words for a reason; "there" is the pose.
 fn words(reason: &UprightReason) -> String {
     match reason {

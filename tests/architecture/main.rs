@@ -131,7 +131,7 @@ const ARROWS: &[(&str, &[&str])] = &[
         "cli",
         &[
             "repair", "advice", "ballast", "coupon", "cut", "error", "geom", "goal", "io", "job",
-            "kit", "mass", "mesh", "page", "prepare", "printer", "base", "sheet", "verify",
+            "kit", "mass", "mesh", "page", "prepare", "printer", "base", "run", "sheet", "verify",
         ],
     ),
     ("guide", &[]),

@@ -9,9 +9,10 @@ use crate::job::Filling;
 #[derive(Debug, Clone, Args)]
 #[command(next_help_heading = "Method")]
 pub struct BallastArgs {
-    /// Lay stock parts into pockets: none, auto (the fewest steel balls, if hollowing alone is not
-    /// enough), or a part and its number. Parts are such as ball-4, nut-m5x2 or coin-euro-1-cent
-    /// [default: none]
+    /// Add steel parts as ballast: auto, none, or a part such as ball-4 [default: none]
+    ///
+    /// Auto lays in the fewest balls if hollowing alone is not enough. A part may have its number,
+    /// such as nut-m5x2 or coin-euro-1-cent.
     #[arg(long, value_name = "auto|ID[xN]|none")]
     pub ballast: Option<Order>,
     /// Fill the voids with a material of this density, such as 2.3 for plaster, instead of air

@@ -1,5 +1,6 @@
 //! The faults of arguments.
 
+use super::missing::Missing;
 use crate::goal::RequestError;
 use crate::job::{JobError, PlanError};
 use crate::printer::ShopError;
@@ -16,16 +17,9 @@ pub enum ArgsError {
     /// The plan of the cuts cannot be used.
     #[error(transparent)]
     Plan(#[from] PlanError),
-    /// An argument is missing; the parser already refuses that.
-    #[error("{0} is missing; remedy: give it, or replay a job with --job")]
-    Missing(&'static str),
-    /// Neither the command line nor equipoise.toml names a printer.
-    #[error(
-        "--printer is missing; remedy: give an id (`equipoise printers list` shows them), or write \
-         printer = \"ID\" into an equipoise.toml here, beside the model or in your configuration \
-         folder"
-    )]
-    NoPrinter,
+    /// Arguments are missing.
+    #[error("{0}")]
+    Missing(Missing),
     /// The file equipoise.toml cannot be used.
     #[error(transparent)]
     Shop(#[from] ShopError),

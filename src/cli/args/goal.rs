@@ -3,7 +3,7 @@
 
 use clap::Args;
 
-use super::values::{angle, factor};
+use super::values::{angle, grade, mass, speed};
 use crate::base::units::Length;
 use crate::goal::{Hardware, Liquid, Rod, Rotor, TipChoice, Water, Waterline};
 
@@ -11,12 +11,12 @@ use crate::goal::{Hardware, Liquid, Rod, Rotor, TipChoice, Water, Waterline};
 #[derive(Debug, Clone, Args)]
 #[command(next_help_heading = "Goal")]
 pub struct RotorArgs {
-    /// The speed of the rotor, in turns per minute [default: 3000]
-    #[arg(long, value_name = "RPM", value_parser = factor, allow_hyphen_values = true)]
+    /// The speed of the rotor, such as 3000rpm or 50Hz [default: 3000rpm]
+    #[arg(long, value_name = "RPM", value_parser = speed, allow_hyphen_values = true)]
     pub speed: Option<f64>,
     /// The balance quality grade G to reach at that speed (ISO 21940-11), in mm/s [default:
     /// 2.5]
-    #[arg(long, value_name = "MM/S", value_parser = factor, allow_hyphen_values = true)]
+    #[arg(long, value_name = "MM/S", value_parser = grade, allow_hyphen_values = true)]
     pub grade: Option<f64>,
     /// The diameter of a bore that is made along the axis after printing; a hub stays solid around
     /// it [default: none; the model has a bore or a shaft, which is found]
@@ -82,19 +82,22 @@ pub struct HardwareArgs {
     /// Cut a yo-yo into two halves at the spin point, across its axis, and set them this far apart
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
     pub string_gap: Option<Length>,
-    /// The axle that joins a yo-yo's halves: DIAMETER or DIAMETERxLENGTH, with :G_PER_CM3 after it
-    /// if it is not of steel. Its mass counts [default: up to two diameters into each half]
+    /// The axle that joins a yo-yo's halves: DIAMETER or DIAMETERxLENGTH [default: up to two
+    /// diameters into each half]
+    ///
+    /// If it is not of steel, add :DENSITY (g/cm³), such as 6mmx30mm:2.7.
     #[arg(long, value_name = "ROD", allow_hyphen_values = true)]
     pub axle: Option<Rod>,
     /// The mass of nuts, washers or a bearing on the axle in the gap, in g
-    #[arg(long, value_name = "G", value_parser = factor, allow_hyphen_values = true)]
+    #[arg(long, value_name = "G", value_parser = mass, allow_hyphen_values = true)]
     pub hardware_mass: Option<f64>,
-    /// A round-ended pin at a top's contact, on which it spins: auto, none, or a ROD. With auto it
-    /// is a stock pin, if the top does not spin on its own foot. A ROD is DIAMETERxLENGTH or
-    /// DIAMETERxLENGTHxDEPTH, with :G_PER_CM3 after it if it is not of steel [default: auto]
+    /// The steel pin a top spins on: auto, none or a size such as 4mmx26mm [default: auto]
+    ///
+    /// Auto takes a stock pin if the top does not spin on its own foot. A size is DIAMETERxLENGTH
+    /// or DIAMETERxLENGTHxDEPTH. If it is not of steel, add :DENSITY (g/cm³), as 4mmx26mm:2.7.
     #[arg(long, value_name = "auto|none|ROD", allow_hyphen_values = true)]
     pub tip: Option<TipChoice>,
-    /// A stem at the upper end of a top's axis to spin it by, a ROD like the tip
+    /// A stem at the upper end of a top's axis to spin it by: a ROD, same form as the tip
     #[arg(long, value_name = "ROD", allow_hyphen_values = true)]
     pub stem: Option<Rod>,
 }

@@ -4,11 +4,15 @@ mod ballast;
 mod cut;
 mod error;
 mod goal;
+mod missing;
 mod prepare;
 mod printers;
+mod quote;
+mod read;
 mod scaling;
 #[cfg(test)]
 mod tests;
+mod typed;
 mod values;
 
 use std::path::PathBuf;
@@ -17,17 +21,27 @@ use clap::{Args, Parser, Subcommand};
 use clap_complete::Shell;
 
 pub use error::ArgsError;
+pub use missing::Missing;
 pub use prepare::{DEFAULT_PLANS, PrepareArgs, Request};
 pub use printers::{CalibrateArgs, CouponArgs, ImportArgs, NewArgs, PrintersAction, PrintersArgs};
+pub use quote::quoted;
+pub use read::ReadError;
 pub use scaling::ScalingArgs;
-pub use values::FactorError;
+pub use typed::SplitUnit;
+pub use values::NumberError;
 
 use crate::base::units::Length;
-use values::EXIT_CODES;
+use values::{EXAMPLES, EXIT_CODES};
 
 /// Hollow a 3D model so that its printed, glued parts spin, stand, float or run true as asked.
 #[derive(Debug, Parser)]
-#[command(name = "equipoise", version, after_help = EXIT_CODES)]
+#[command(
+    name = "equipoise",
+    version,
+    after_help = EXAMPLES,
+    after_long_help = [EXAMPLES, EXIT_CODES].join("\n\n"),
+    override_usage = USAGE
+)]
 pub struct Cli {
     /// The options of every command.
     #[command(flatten)]
@@ -37,6 +51,9 @@ pub struct Cli {
     pub command: Command,
 }
 
+/// The usage: a model alone is prepared.
+const USAGE: &str = "equipoise <MODEL|COMMAND> [OPTIONS]";
+
 /// The most threads. With far more threads than cores, the waiting ones slow the others down.
 const MAX_THREADS: i64 = 256;
 
@@ -44,13 +61,13 @@ const MAX_THREADS: i64 = 256;
 #[derive(Debug, Clone, Args)]
 #[command(next_help_heading = "Everywhere")]
 pub struct GlobalArgs {
-    /// Print nothing but errors
+    /// Print errors only
     #[arg(short, long, global = true, conflicts_with = "verbose")]
     pub quiet: bool,
-    /// Print more: every check, the certificate, the time of each stage and the solver's steps
+    /// Print more: every check, the proof, the time of each stage and the solver's steps
     #[arg(short, long, global = true, action = clap::ArgAction::Count)]
     pub verbose: u8,
-    /// Use this many threads, up to 256; the result does not depend on it [default: one per core]
+    /// Number of threads, up to 256 [default: one per core]
     #[arg(
         long,
         global = true,
@@ -66,19 +83,19 @@ pub struct GlobalArgs {
 /// A command.
 #[derive(Debug, Subcommand)]
 pub enum Command {
-    /// Turn a model into a kit of printable parts that does what the goal says
+    /// Turn a model into a kit of printable parts
     Prepare(Box<PrepareArgs>),
     /// Show plans of cuts side by side, to choose one for prepare
     ///
     /// It takes the arguments of prepare, and writes plan1.toml and so on with pictures of each.
     Cuts(Box<PrepareArgs>),
-    /// Show a model's facts, defects and mass, and what it could become
+    /// Show a model's facts, and which of the five goals it can reach
     Inspect(InspectArgs),
     /// List the known printers, show one, or check a profile of your own
     Printers(PrintersArgs),
-    /// Make coupons to print, weigh and try, so that a profile matches the machine
+    /// Make coupons to weigh and try, to fit a profile to the machine
     Coupon(CouponArgs),
-    /// Judge the files of a kit again, without the solver, and name those that changed
+    /// Check a kit's files, and name those that changed
     Verify(VerifyArgs),
     /// Print the completion script of a shell
     ///
@@ -108,7 +125,7 @@ pub struct InspectArgs {
     )]
     pub wall: Option<Length>,
     /// The size of the model.
-    #[command(flatten)]
+    #[command(flatten, next_help_heading = "Size")]
     pub scaling: ScalingArgs,
 }
 

@@ -1,7 +1,7 @@
 //! The arguments of `prepare`, and the job they make.
 
 use std::ffi::OsString;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
 
@@ -9,29 +9,63 @@ use super::ballast::BallastArgs;
 use super::cut::{CutArg, CutArgs};
 use super::error::ArgsError;
 use super::goal::{HardwareArgs, PromiseArgs, RotorArgs, WaterArgs};
+use super::missing::Missing;
 use super::scaling::ScalingArgs;
-use super::values::{EXIT_CODES, words};
+use super::values::{EXIT_CODES, GoalReader, PREPARE_EXAMPLES, words};
 use crate::base::units::Length;
 use crate::cli::shop::chosen_printer;
 use crate::goal::{self, Contact, GoalKind, Objective, SpinPoint, Up};
 use crate::job::{Job, ModelChoice, PartFormat};
 
 /// The usage: the required arguments, and the options.
-const USAGE: &str = "equipoise prepare <MODEL> --goal <GOAL> [--printer <ID|FILE>] [OPTIONS]
-       equipoise prepare --job <FILE> [MODEL] [OPTIONS]";
+const USAGE: &str = "equipoise prepare <MODEL> --goal <GOAL> --printer <ID|FILE> [OPTIONS]";
+
+/// The heading of the arguments that come first in the help.
+const FIRST: &str = "What to make";
 
 /// The arguments of `prepare`.
 #[derive(Debug, Args)]
-#[command(after_help = EXIT_CODES, override_usage = USAGE)]
+#[command(
+    after_help = PREPARE_EXAMPLES,
+    after_long_help = [PREPARE_EXAMPLES, EXIT_CODES].join("\n\n"),
+    override_usage = USAGE
+)]
 pub struct PrepareArgs {
     /// The model: an STL, OBJ, PLY or 3MF file that bounds a solid
-    #[arg(required_unless_present = "job")]
+    #[arg(value_name = "MODEL")]
     pub model: Option<PathBuf>,
 
-    /// A known printer's id (see `equipoise printers`), or a profile file [default: the printer in
-    /// equipoise.toml]
-    #[arg(long, value_name = "ID|FILE", help_heading = "Printer")]
+    /// What it does: top, yoyo, stand, float or balance
+    ///
+    /// A top spins on the table, a yo-yo freely about an axis. A rotor in balance runs true on its
+    /// shaft.
+    #[arg(long, value_parser = GoalReader, hide_possible_values = true, help_heading = FIRST)]
+    pub goal: Option<GoalKind>,
+    /// A printer's id, or a profile file
+    ///
+    /// `equipoise printers` lists the ids. Without one the printer in equipoise.toml is taken.
+    #[arg(long, value_name = "ID|FILE", help_heading = FIRST)]
     pub printer: Option<String>,
+    /// The size of the model.
+    #[command(flatten, next_help_heading = FIRST)]
+    pub scaling: ScalingArgs,
+    /// The side up, such as y or -x [default: natural]
+    ///
+    /// It is x, y, z, -x, -y, -z, a vector X,Y,Z, natural, principal or auto. Natural is the way
+    /// the model stands by itself. Tops and yo-yos take the axis nearest to it that works.
+    /// Rotors turn on their bore or shaft. Principal is the axis easiest to spin about, auto the
+    /// best of all.
+    #[arg(
+        long,
+        value_name = "AXIS",
+        allow_hyphen_values = true,
+        help_heading = FIRST
+    )]
+    pub up: Option<Up>,
+    /// Never ask, not even on a terminal
+    #[arg(long, help_heading = FIRST)]
+    pub no_questions: bool,
+
     /// A material that the printer offers [default: the printer's]
     #[arg(long, value_name = "ID", help_heading = "Printer")]
     pub material: Option<String>,
@@ -44,25 +78,6 @@ pub struct PrepareArgs {
     )]
     pub wall: Option<Length>,
 
-    /// The goal: the object spins (top, yoyo), stands, floats, or runs true (balance)
-    #[arg(
-        long,
-        value_parser = words::<GoalKind>(GoalKind::WORDS),
-        required_unless_present = "job",
-        help_heading = "Goal"
-    )]
-    pub goal: Option<GoalKind>,
-    /// The spin axis or the direction up: x, y, z, -x, -y, -z or a vector X,Y,Z. Or principal (the
-    /// axis easiest to spin about), or auto (the best of all). Or natural: the way the model stands
-    /// by itself; tops and yo-yos take the nearest that works; rotors turn on their bore or shaft
-    /// [default: natural]
-    #[arg(
-        long,
-        value_name = "AXIS",
-        allow_hyphen_values = true,
-        help_heading = "Goal"
-    )]
-    pub up: Option<Up>,
     /// The point where a top touches the ground: lowest, center, X,Y,Z in mm, or auto. Center is
     /// below the centre of mass; auto is lowest if it spins there, else center [default: auto]
     #[arg(
@@ -105,12 +120,7 @@ pub struct PrepareArgs {
     #[command(flatten)]
     pub hardware: HardwareArgs,
 
-    /// The size of the model.
-    #[command(flatten)]
-    pub scaling: ScalingArgs,
-
-    /// The distance between the solver's columns [default: the printer's pixel, at most a quarter
-    /// of the wall]
+    /// Grid spacing of the solver [default: the printer's pixel, at most a quarter of the wall]
     #[arg(
         long,
         value_name = "LENGTH",
@@ -125,10 +135,10 @@ pub struct PrepareArgs {
     #[command(flatten)]
     pub load: BallastArgs,
 
-    /// Write the kit to this folder [default: the model's name and -kit]
-    #[arg(long, value_name = "DIR", help_heading = "Kit")]
+    /// The folder of the kit [default: such as elephant-top]
+    #[arg(long, value_name = "DIR", help_heading = FIRST)]
     pub out: Option<PathBuf>,
-    /// Replace the folder if it exists
+    /// Overwrite an existing folder
     #[arg(long, help_heading = "Kit")]
     pub force: bool,
     /// Write this many plans of cuts side by side, 1 to 4, in place of a kit [default: 3 with the
@@ -202,31 +212,55 @@ pub struct Request {
 }
 
 impl PrepareArgs {
+    /// Returns the arguments that are missing and cannot be done without; `None` if there are none.
+    ///
+    /// # Errors
+    /// The file equipoise.toml cannot be used.
+    pub fn missing(&self) -> Result<Option<Missing>, ArgsError> {
+        if self.job.is_some() {
+            return Ok(None);
+        }
+        let near = self.model.clone().unwrap_or_default();
+        let chosen = chosen_printer(self.printer.as_deref(), None, &near)?;
+        let missing = Missing {
+            model: self.model.clone(),
+            goal: self.goal,
+            printer: chosen.map(|printer| printer.id),
+            is_size_open: self.scaling.is_open(),
+        };
+        Ok(Some(missing).filter(Missing::is_any))
+    }
+
     /// Returns the job that was ordered, and the target of its kit.
     ///
     /// # Errors
-    /// The arguments contradict each other, or a file they name cannot be used.
+    /// Arguments are missing or contradict each other, or a file they name cannot be used.
     pub fn request(self) -> Result<Request, ArgsError> {
+        if let Some(missing) = self.missing()? {
+            return Err(ArgsError::Missing(missing));
+        }
         let (out, force, plans) = (self.out.clone(), self.force, self.plans);
         let job = match &self.job {
             Some(path) => replay(Job::read(path)?, self.model),
             None => self.new_job()?,
         };
-        let ending = if plans.is_some() { "-plans" } else { "-kit" };
-        let out = out.unwrap_or_else(|| default_out(&job.model.path, ending));
+        let out = out.unwrap_or_else(|| default_out(&job, plans));
         Ok(Request { job, out, force })
     }
 
     fn new_job(self) -> Result<Job, ArgsError> {
-        let goal = self.goal()?;
-        let path = self.model.ok_or(ArgsError::Missing("MODEL"))?;
+        let path = self.model.clone().unwrap_or_default();
+        let printer = chosen_printer(self.printer.as_deref(), self.material.clone(), &path)?;
+        let (Some(kind), Some(printer)) = (self.goal, printer) else {
+            // Asked for before.
+            return Err(ArgsError::Missing(Missing::of_nothing()));
+        };
         let model = ModelChoice {
             path,
             sha256: None,
             scaling: self.scaling.scaling(),
         };
-        let printer = chosen_printer(self.printer, self.material, &model.path)?;
-        let default = Job::new(model, printer, goal);
+        let default = Job::new(model, printer, self.goal(kind)?);
         let (cut, plan) = self
             .cutting
             .cut
@@ -255,8 +289,8 @@ impl PrepareArgs {
         })
     }
 
-    fn goal(&self) -> Result<goal::Request, ArgsError> {
-        let default = goal::Request::new(self.goal.ok_or(ArgsError::Missing("--goal"))?);
+    fn goal(&self, kind: GoalKind) -> Result<goal::Request, ArgsError> {
+        let default = goal::Request::new(kind);
         let request = goal::Request {
             up: self.up.unwrap_or(Up::Natural),
             contact: self.contact.or(default.contact),
@@ -283,11 +317,10 @@ fn replay(job: Job, model: Option<PathBuf>) -> Job {
     }
 }
 
-/// Returns the model's name with an ending, in the current folder.
-fn default_out(model: &Path, ending: &str) -> PathBuf {
-    let mut name = model
-        .file_stem()
-        .map_or_else(|| OsString::from("model"), ToOwned::to_owned);
-    name.push(ending);
+/// Returns `<model>-<goal>` in the current folder, or `<model>-plans` for plans of cuts.
+fn default_out(job: &Job, plans: Option<u8>) -> PathBuf {
+    let stem = job.model.path.file_stem();
+    let mut name = stem.map_or_else(|| OsString::from("model"), ToOwned::to_owned);
+    name.push(plans.map_or_else(|| format!("-{}", job.goal.kind), |_| "-plans".to_owned()));
     PathBuf::from(name)
 }

@@ -89,7 +89,7 @@ fn the_readme_command_makes_the_job_it_says() {
     assert_eq!(job.wall.unwrap().mm(), 1.0);
     assert_eq!(
         (request.out.as_path(), request.force),
-        (Path::new("elephant-kit"), false)
+        (Path::new("elephant-top"), false)
     );
 }
 
@@ -178,14 +178,32 @@ fn bad_arguments_are_refused_with_exit_code_2_and_clear_words() {
 #[test]
 fn required_arguments_are_asked_for() {
     for (line, says) in [
-        ("equipoise prepare m.stl --printer prusa-mk4", "--goal"),
+        ("equipoise prepare m.stl --printer prusa-mk4", "the goal"),
         (
             "equipoise prepare --printer prusa-mk4 --goal top",
-            "<MODEL>",
+            "the model",
+        ),
+    ] {
+        let Command::Prepare(args) = parse(line).unwrap().command else {
+            panic!("{line}")
+        };
+        let error = args.request().unwrap_err().to_string();
+        assert!(error.contains(says), "{line}: {error}");
+        let typed = "type equipoise prepare";
+        assert!(error.contains(typed), "{line}: {error}");
+    }
+    for (line, says) in [
+        (
+            "equipoise prepare m.stl --printer prusa-mk4 --goal chair",
+            "possible values: top, yoyo, stand, float, balance",
         ),
         (
-            "equipoise prepare m.stl --printer prusa-mk4 --goal swim",
-            "possible values: top, yoyo, stand, float, balance",
+            "equipoise prepare m.stl --printer prusa-mk4 --goal spin",
+            "did you mean top or yoyo?",
+        ),
+        (
+            "equipoise prepare m.stl --goal stnad",
+            "did you mean `stand`?",
         ),
         ("equipoise frobnicate", "unrecognized subcommand"),
     ] {
@@ -276,7 +294,7 @@ fn a_job_is_replayed_and_its_model_may_lie_elsewhere() {
     assert_eq!(moved.job.model.path, Path::new("other/b.obj"));
     assert_eq!(
         (moved.job.wall, moved.out.as_path()),
-        (original.wall, Path::new("b-kit"))
+        (original.wall, Path::new("b-top"))
     );
 }
 
@@ -315,9 +333,60 @@ fn the_rules_for_seams_reach_the_job() {
 fn plans_are_written_beside_the_model_and_not_over_its_kit() {
     let kit = request(PREPARE).out;
     let plans = request(&format!("{PREPARE} --plans 2")).out;
-    assert_eq!(kit, Path::new("elephant-kit"));
+    assert_eq!(kit, Path::new("elephant-top"));
     assert_eq!(plans, Path::new("elephant-plans"));
     let line = PREPARE.replace("prepare", "cuts");
     assert!(matches!(parse(&line).unwrap().command, Command::Cuts(_)));
     assert!(parse(&format!("{PREPARE} --plans 9")).is_err());
+}
+
+#[test]
+fn numbers_take_the_units_that_people_type() {
+    let rotor =
+        request("equipoise prepare m.stl --printer a --goal balance --speed 3000rpm --grade G1")
+            .job
+            .goal
+            .rotor
+            .unwrap();
+    assert_eq!((rotor.speed_rpm, rotor.grade_mm_s), (3000.0, 1.0));
+    let apart = ["equipoise", "m.stl", "--size", "100 mm"].map(Into::into);
+    let Command::Prepare(args) = Cli::read(apart.to_vec()).unwrap().command else {
+        panic!("a model is prepared")
+    };
+    assert_eq!(args.scaling.size, "100mm".parse().ok());
+    let split = "equipoise m.stl --size 100 mm".split_whitespace();
+    let error = Cli::read(split.map(Into::into).collect()).unwrap_err();
+    assert!(error.to_string().ends_with("--size 100mm"), "{error}");
+}
+
+#[test]
+fn the_short_helps_fit_on_a_screen_and_show_three_examples() {
+    let mut program = Cli::program().term_width(80);
+    program.build();
+    let prepare = program.find_subcommand("prepare").unwrap().clone();
+    for mut command in [program.clone(), prepare] {
+        let help = command.render_help().to_string();
+        assert!(help.lines().count() <= 24, "{help}");
+        let (_, examples) = help.split_once("Examples:").unwrap();
+        assert_eq!(examples.matches("  equipoise ").count(), 3, "{help}");
+        assert!(
+            help.lines().all(|line| line.chars().count() <= 80),
+            "{help}"
+        );
+    }
+}
+
+#[test]
+fn the_long_help_has_every_option_and_begins_with_what_is_needed() {
+    let mut prepare = Cli::program().find_subcommand("prepare").unwrap().clone();
+    let help = prepare.render_long_help().to_string();
+    for argument in prepare
+        .get_arguments()
+        .filter_map(|argument| argument.get_long())
+    {
+        assert!(help.contains(&format!("--{argument}")), "{argument}");
+    }
+    let at = |option: &str| help.find(&format!("      --{option} ")).unwrap();
+    assert!(at("goal") < at("printer") && at("printer") < at("size"));
+    assert!(at("size") < at("material") && at("size") < at("contact"));
 }

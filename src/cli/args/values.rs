@@ -1,10 +1,28 @@
 //! Readers of single values, and the text that ends the help.
 
+use std::ffi::OsStr;
 use std::str::FromStr;
 
-use clap::builder::{PossibleValuesParser, TypedValueParser};
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use clap::error::ErrorKind;
+use clap::{Arg, Command};
 
 use crate::base::words::ChoiceError;
+use crate::goal::GoalKind;
+
+/// The examples in the help.
+pub(super) const EXAMPLES: &str = "\
+Examples:
+  equipoise humpty.obj
+  equipoise prepare humpty.obj --goal stand --printer prusa-mk4 --size 100mm
+  equipoise inspect humpty.obj --printer prusa-mk4 --size 100mm";
+
+/// The examples in the help of `prepare`.
+pub(super) const PREPARE_EXAMPLES: &str = "\
+Examples:
+  equipoise prepare humpty.obj                  (asks for the rest)
+  equipoise prepare humpty.obj --goal stand --printer prusa-mk4 --size 100mm
+  equipoise prepare wheel.stl --goal balance --up x --printer eos-p396";
 
 /// The text below the options in the help of a command.
 pub(super) const EXIT_CODES: &str = "\
@@ -21,21 +39,145 @@ where
     PossibleValuesParser::new(words).try_map(|word| word.parse::<T>())
 }
 
-/// A factor that is not positive and finite.
+/// A text that is not the expected number.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("`{0}` is not a positive, finite factor; remedy: give a number above zero")]
-pub struct FactorError(String);
+#[error("`{text}` is not {what}; remedy: give {such_as}")]
+pub struct NumberError {
+    text: String,
+    what: &'static str,
+    such_as: &'static str,
+}
 
-/// An angle that is not finite, or below zero.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("`{0}` is not an angle in degrees; remedy: give a number of zero or more, without a unit")]
-pub struct AngleError(String);
+/// A number with the units that a person may type after it.
+struct Number {
+    what: &'static str,
+    such_as: &'static str,
+    /// The units in small letters, each with its value in the first one.
+    units: &'static [(&'static str, f64)],
+    /// The least value; zero itself is a number if it is `Some(0.0)`.
+    least: Option<f64>,
+}
+
+impl Number {
+    /// Reads a finite number, with or without a unit. Without a least value it is above zero.
+    fn read(&self, text: &str) -> Result<f64, NumberError> {
+        let small = text.trim().to_lowercase();
+        let with_unit = |(unit, value): &(&str, f64)| {
+            let number = small.strip_suffix(unit)?.trim_end();
+            Some(number.parse::<f64>().ok()? * value)
+        };
+        let read = small.parse().ok();
+        let number = read.or_else(|| self.units.iter().find_map(with_unit));
+        let is_sound = |number: &f64| {
+            number.is_finite() && self.least.map_or(*number > 0.0, |least| *number >= least)
+        };
+        number.filter(is_sound).ok_or_else(|| NumberError {
+            text: text.to_owned(),
+            what: self.what,
+            such_as: self.such_as,
+        })
+    }
+}
 
 /// Reads an angle in degrees.
-pub(super) fn angle(text: &str) -> Result<f64, AngleError> {
-    match text.trim().trim_end_matches('°').parse::<f64>() {
-        Ok(angle) if angle.is_finite() && angle >= 0.0 => Ok(angle),
-        _ => Err(AngleError(text.to_owned())),
+pub(super) fn angle(text: &str) -> Result<f64, NumberError> {
+    let angle = Number {
+        what: "an angle of zero or more",
+        such_as: "degrees, such as 5 or 5deg",
+        units: &[("°", 1.0), ("degrees", 1.0), ("degree", 1.0), ("deg", 1.0)],
+        least: Some(0.0),
+    };
+    angle.read(text)
+}
+
+/// Reads the factor from a file's numbers to mm.
+pub(super) fn scale(text: &str) -> Result<f64, NumberError> {
+    let factor = Number {
+        what: "a positive, finite factor",
+        such_as: "a number above zero, such as 2.5",
+        units: &[("x", 1.0)],
+        least: None,
+    };
+    factor.read(text)
+}
+
+/// Reads a speed in turns per minute.
+pub(super) fn speed(text: &str) -> Result<f64, NumberError> {
+    let speed = Number {
+        what: "a speed above zero",
+        such_as: "turns per minute, such as 3000 or 3000rpm",
+        units: &[("rpm", 1.0), ("/min", 1.0), ("hz", 60.0), ("rps", 60.0)],
+        least: None,
+    };
+    speed.read(text)
+}
+
+/// Reads a balance quality grade, mm/s, as `2.5` or `G2.5`.
+pub(super) fn grade(text: &str) -> Result<f64, NumberError> {
+    let grade = Number {
+        what: "a balance grade above zero",
+        such_as: "a number such as 2.5 or G2.5",
+        units: &[("mm/s", 1.0)],
+        least: None,
+    };
+    let number = text.trim().trim_start_matches(['g', 'G']);
+    grade.read(number)
+}
+
+/// Reads a mass in g.
+pub(super) fn mass(text: &str) -> Result<f64, NumberError> {
+    let mass = Number {
+        what: "a mass above zero",
+        such_as: "grams, such as 2.5 or 2.5g",
+        units: &[("kg", 1000.0), ("g", 1.0)],
+        least: None,
+    };
+    mass.read(text)
+}
+
+/// Words that people say for a goal, and the goals they may mean.
+const GOAL_HINTS: [(&str, &str); 12] = [
+    ("spin", "top or yoyo"),
+    ("spins", "top or yoyo"),
+    ("spinner", "top or yoyo"),
+    ("spinning", "top or yoyo"),
+    ("spinning-top", "top"),
+    ("stable", "stand"),
+    ("upright", "stand"),
+    ("boat", "float"),
+    ("swim", "float"),
+    ("rotor", "balance"),
+    ("wheel", "balance"),
+    ("runs-true", "balance"),
+];
+
+/// Reads a goal. For any other word it names those that may be meant.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct GoalReader;
+
+impl TypedValueParser for GoalReader {
+    type Value = GoalKind;
+
+    fn parse_ref(
+        &self,
+        command: &Command,
+        _arg: Option<&Arg>,
+        value: &OsStr,
+    ) -> Result<GoalKind, clap::Error> {
+        let text = value.to_string_lossy();
+        let refused = |error: ChoiceError| {
+            let known = GoalKind::WORDS.join(", ");
+            let ask = ask_for_goal(&text).map_or(error.to_string(), |meant| {
+                format!("`{text}` is not a goal; did you mean {meant}?")
+            });
+            let message = format!("{ask} [possible values: {known}]\n");
+            clap::Error::raw(ErrorKind::InvalidValue, message).with_cmd(command)
+        };
+        text.parse().map_err(refused)
+    }
+
+    fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
+        Some(Box::new(GoalKind::WORDS.iter().map(PossibleValue::new)))
     }
 }
 
@@ -56,10 +198,41 @@ pub(super) fn share(text: &str) -> Result<f64, ShareError> {
     }
 }
 
-/// Reads a factor.
-pub(super) fn factor(text: &str) -> Result<f64, FactorError> {
-    match text.trim().parse::<f64>() {
-        Ok(factor) if factor.is_finite() && factor > 0.0 => Ok(factor),
-        _ => Err(FactorError(text.to_owned())),
+/// Returns the goals that a word may mean.
+fn ask_for_goal(text: &str) -> Option<&'static str> {
+    let meant = GOAL_HINTS
+        .iter()
+        .find(|(word, _)| word.eq_ignore_ascii_case(text));
+    meant.map(|(_, goals)| *goals)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_read_with_the_units_that_people_type() {
+        for (text, rpm) in [
+            ("3000", 3000.0),
+            ("3000rpm", 3000.0),
+            ("3000 RPM", 3000.0),
+            ("50Hz", 3000.0),
+            ("1.2e3/min", 1200.0),
+        ] {
+            assert_eq!(speed(text), Ok(rpm), "{text}");
+        }
+        assert_eq!(grade("G2.5"), Ok(2.5));
+        assert_eq!(mass("2.5 g"), Ok(2.5));
+        assert_eq!(angle("0°"), Ok(0.0));
+        assert_eq!(angle("5 deg"), Ok(5.0));
+    }
+
+    #[test]
+    fn a_number_that_cannot_be_used_is_refused_with_an_example() {
+        let said = speed("fast").unwrap_err().to_string();
+        assert!(said.contains("such as 3000 or 3000rpm"), "{said}");
+        for text in ["", "rpm", "0rpm", "-3rpm", "nan", "inf rpm", "3000mm"] {
+            assert!(speed(text).is_err(), "{text}");
+        }
     }
 }

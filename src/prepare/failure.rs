@@ -1,0 +1,174 @@
+//! A kit that breaks a promise: the reason, and what surely helps.
+
+use super::advise::case;
+use super::hints::hint;
+use super::outcome::{Failure, Prepared};
+use crate::advice::{self, Kind, Remedy};
+use crate::base::numbers::quantity;
+use crate::base::setting::{Key, Setting};
+use crate::base::watch::{Cancelled, Phase, Watch};
+use crate::error::Error;
+use crate::goal::{
+    Contact, PrintStock, Request, TipChoice, Up, Water, Waterline, place_in_material,
+};
+use crate::run::Placed;
+use crate::verify::{Check, CheckKind, FigureName};
+
+/// Steps of a degree in which a smaller promise is advised: it is rounded down to tenths.
+const PROMISES_PER_DEG: f64 = 10.0;
+
+/// Adds the reason why a kit breaks a promise, and what helps.
+pub fn on_failure(placed: &Placed, prepared: Prepared, watch: &Watch) -> Result<Prepared, Error> {
+    if prepared.passes() {
+        return Ok(prepared);
+    }
+    watch.enter(Phase::Advise);
+    let checks = prepared.checklist.checks.iter();
+    let broken: Vec<&Check> = checks.filter(|check| !check.pass).collect();
+    let mut hints: Vec<String> = Vec::new();
+    for kind in broken.iter().map(|check| &check.kind) {
+        let Some(hint) = hint(kind).filter(|hint| !hints.contains(hint)) else {
+            continue;
+        };
+        if is_new(placed, kind) && does_help(placed, kind, watch)? {
+            hints.push(hint);
+        }
+    }
+    hints.extend(longer_tip(placed, &broken));
+    hints.extend(broken.iter().copied().find_map(smaller_promise));
+    let falls_over = broken.iter().any(|check| check.kind == CheckKind::Standing);
+    let failure = Failure {
+        reason: reason(&prepared, &broken),
+        hints,
+        remedies: if falls_over {
+            firmer(placed, watch)?
+        } else {
+            Vec::new()
+        },
+    };
+    Ok(Prepared {
+        failure: Some(failure),
+        ..prepared
+    })
+}
+
+/// Names the stock tip that keeps the promise of a top on a given tip that breaks it.
+fn longer_tip(placed: &Placed, broken: &[&Check]) -> Option<String> {
+    let is_contact = |check: &&Check| matches!(check.kind, CheckKind::Contact | CheckKind::Lean);
+    placed.request.ordered_tip().rod()?;
+    broken.iter().copied().find(|check| is_contact(check))?;
+    let request = Request {
+        tip: TipChoice::Auto,
+        hardware: Some(placed.request.hardware_with(None)),
+        ..placed.request
+    };
+    let stock = PrintStock {
+        wall_mm: placed.shop.wall.wall_mm,
+        density_g_cm3: placed.density_g_cm3(),
+    };
+    let placement = place_in_material(&placed.model.solid, &stock, &request).ok()?;
+    let pin = placement.footing?.tip()?;
+    let setting = Setting::new(Key::Tip, pin);
+    Some(format!("take a longer tip (`{setting}`)"))
+}
+
+/// Names the promise that a standing object, or a top on its foot, keeps as it is.
+fn smaller_promise(broken: &Check) -> Option<String> {
+    let key = match broken.kind {
+        CheckKind::Standing => Key::LeastAngle,
+        CheckKind::Lean => Key::LeastLean,
+        _ => return None,
+    };
+    let kept_deg = (broken.value? * PROMISES_PER_DEG).floor() / PROMISES_PER_DEG;
+    let setting = Setting::new(key, kept_deg);
+    (kept_deg > 0.0).then(|| format!("promise no more than it keeps (`{setting}`)"))
+}
+
+/// Explains what the goal could have reached, and what the parts keep of it.
+fn reason(prepared: &Prepared, broken: &[&Check]) -> String {
+    let proof = &prepared.checklist.certificate;
+    let names: Vec<String> = broken.iter().map(|check| check.kind.to_string()).collect();
+    let unit = proof.figure.unit();
+    let shaky = broken.iter().find(|check| {
+        check.kind == CheckKind::Standing
+            && proof.figure == FigureName::TopplesDeg
+            && !check.comparison.holds(proof.bound, check.limit)
+    });
+    if let Some(check) = shaky {
+        return format!(
+            "it topples too early: no hollowing with this wall reaches more than {}, and {} are promised",
+            quantity(proof.bound, unit),
+            quantity(check.limit, unit)
+        );
+    }
+    match proof.written_value {
+        Some(written) => format!(
+            "the kit breaks {}: the best void there is reaches a {} of {}, and of that the parts that can be made keep {}; what \
+             pins, cuts and cleaning take is more than there is to spare",
+            names.join(", "),
+            proof.figure.name(),
+            quantity(proof.bound, unit),
+            quantity(written, unit)
+        ),
+        None => format!("the kit breaks {}", names.join(", ")),
+    }
+}
+
+/// Returns the request that a hint for a broken check calls for; `None` if the hint changes none.
+fn hinted_request(placed: &Placed, kind: &CheckKind) -> Option<Request> {
+    let request = placed.request;
+    match kind {
+        CheckKind::Contact | CheckKind::Lean => Some(Request {
+            contact: Some(Contact::Center),
+            tip: TipChoice::Auto,
+            hardware: Some(request.hardware_with(None)),
+            ..request
+        }),
+        CheckKind::Dominance
+        | CheckKind::PromisedFigure {
+            figure: FigureName::DominanceRatio,
+        } => Some(Request {
+            up: Up::Principal,
+            ..request
+        }),
+        CheckKind::Waterline => Some(Request {
+            water: request.water.map(|water| Water {
+                waterline: Waterline::Auto,
+                ..water
+            }),
+            ..request
+        }),
+        _ => None,
+    }
+}
+
+/// Returns false if a hint for a broken check repeats what the job has.
+fn is_new(placed: &Placed, kind: &CheckKind) -> bool {
+    let hinted = hinted_request(placed, kind);
+    let is_tipped = placed.request.contact == Some(Contact::Center)
+        && placed.request.ordered_tip() == TipChoice::Auto;
+    match kind {
+        CheckKind::Contact | CheckKind::Lean => !is_tipped,
+        CheckKind::SocketWall => placed.job.pins.is_printed(),
+        _ => hinted != Some(placed.request),
+    }
+}
+
+/// Returns whether the change that a hint calls for was tried on proxies and keeps its promises.
+/// What only a whole kit can show, such as room for pins, counts as untried and is kept.
+fn does_help(placed: &Placed, kind: &CheckKind, watch: &Watch) -> Result<bool, Cancelled> {
+    let Some(request) = hinted_request(placed, kind) else {
+        return Ok(true);
+    };
+    let case = case(&placed.model, &placed.shop, request);
+    advice::keeps_promises(&case, watch)
+}
+
+/// Returns what surely makes the object stand as promised: another size, wall or face.
+fn firmer(placed: &Placed, watch: &Watch) -> Result<Vec<Remedy>, Cancelled> {
+    let case = case(&placed.model, &placed.shop, placed.request);
+    let found = advice::remedies(&case, watch)?.into_iter();
+    // Ballast is laid in only where nothing stands at all.
+    let is_firmer = |remedy: &Remedy| remedy.kind != Kind::LeastBallast && remedy.helps();
+    Ok(found.filter(is_firmer).collect())
+}
