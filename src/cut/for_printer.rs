@@ -2,7 +2,7 @@
 
 use crate::base::watch::Watch;
 use crate::cut::request::{GoalAxis, LabelStyle, PinSettings, PlanRequest, PosePreference};
-use crate::printer::{Grid, PrintPose, Printer, Quantity};
+use crate::printer::{Grid, PrintPose, Printer, Quantity, Support};
 
 impl PlanRequest {
     /// Least share of all voids' walls that a cut for cleaning alone must bring into sight. Below
@@ -42,13 +42,23 @@ impl PlanRequest {
                 0.0
             },
             layer_mm: printer.layer_mm.value,
-            pose: match printer.print_pose {
-                PrintPose::OpenHollowsUp => PosePreference::OpenHollowUp,
-                PrintPose::CutFaceDown => PosePreference::CutFaceDown,
-            },
+            pose: PosePreference::for_printer(printer),
             rods: Vec::new(),
             labels: Some(LabelStyle::for_printer(printer)),
             watch: Watch::silent(),
+        }
+    }
+}
+
+impl PosePreference {
+    /// Returns the pose that suits the printer's support. Powder carries every part, so that its
+    /// parts lie on their cut faces.
+    fn for_printer(printer: &Printer) -> Self {
+        match (printer.print_pose, printer.grid, printer.support) {
+            (PrintPose::OpenHollowsUp, ..) => Self::OpenHollowUp,
+            (_, _, Support::None) => Self::CutFaceDown,
+            (_, Grid::Line, _) => Self::LittleSupport,
+            (_, Grid::Pixel, _) => Self::Tilted,
         }
     }
 }

@@ -2,7 +2,8 @@
 
 use super::joints::FilmError;
 use super::{
-    Check, Figures, FileChange, Fit, PartFacts, PegFacts, SpinFacts, SurfaceFacts, VoidFacts,
+    Check, CupFacts, Figures, FileChange, Fit, PartFacts, PegFacts, SpinFacts, SurfaceFacts,
+    VoidFacts,
 };
 
 /// The judgement of a kit.
@@ -26,6 +27,9 @@ pub struct Judgement {
     pub spin: Option<SpinFacts>,
     /// The least gap around a part of ballast, mm; `None` without ballast.
     pub ballast_room_mm: Option<f64>,
+    /// The resin that each part encloses while it is printed; empty for other processes than resin
+    /// in a vat.
+    pub cups: Vec<CupFacts>,
     /// Every pin and its socket, as found in the files.
     pub pegs: Vec<PegFacts>,
     /// Number of sample points just under the parts' surfaces that lie in another part too.
