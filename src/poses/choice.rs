@@ -40,14 +40,18 @@ const TURNS_DEG: [f64; 2] = [6.0, 2.0];
 const WAYS: usize = 6;
 /// Least area of the first layer, mm²: a slicer refuses a part that begins with less than a line.
 const LEAST_FOOT_MM2: f64 = 1.0;
+/// Angle by which a surface is steeper than the rule and still counts in part, degrees, and that
+/// part. Without it, the cheapest poses have large surfaces that just need no support.
+const NEARLY_DEG: f64 = 3.0;
+const NEARLY_RATIO: f64 = 0.3;
 /// Height of a part over the side of a square on which it and its support hold, and the least area
 /// of that, mm².
 const SLENDERNESS: f64 = 5.0;
 const LEAST_BED_MM2: f64 = 20.0;
 /// Area of a first layer that holds on the plate by itself, mm².
-const GOOD_FOOT_MM2: f64 = 20.0;
+const GOOD_FOOT_MM2: f64 = 50.0;
 /// Price of a pose without any foot, over that of its support.
-const FOOT_RATIO: f64 = 0.05;
+const FOOT_RATIO: f64 = 0.08;
 
 /// Price of a visible area that support touches, over that of the material in its end layers, mm.
 const SEEN_MM: f64 = 0.1;
@@ -168,10 +172,14 @@ impl Judge<'_> {
                 let is_on_peg = self.shape.rests_on_peg(up, rule.layer_mm);
                 let bed_mm2 = (columns.height_mm / SLENDERNESS).powi(2).max(LEAST_BED_MM2);
                 let has_foot = support.foot_mm2 >= LEAST_FOOT_MM2 && support.bed_mm2 >= bed_mm2;
-                (
-                    2 * u8::from(is_on_peg) + u8::from(!has_foot),
-                    by_filament(&support, &columns),
-                )
+                let steeper = SupportRule {
+                    overhang_deg: rule.overhang_deg + NEARLY_DEG,
+                    ..*rule
+                };
+                let nearly = Support::of(self.shape, &columns, up, &steeper);
+                let price = (1.0 - NEARLY_RATIO) * by_filament(&support, &columns)
+                    + NEARLY_RATIO * by_filament(&nearly, &columns);
+                (2 * u8::from(is_on_peg) + u8::from(!has_foot), price)
             }
             Want::NoCup(rule) => {
                 let support = Support::of(self.shape, &columns, up, rule);

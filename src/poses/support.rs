@@ -14,6 +14,10 @@ pub struct SupportRule {
     pub layer_mm: f64,
 }
 
+/// Angle by which slicers support steeper surfaces than they are told to, degrees: PrusaSlicer adds
+/// it so that surfaces at the very angle count.
+const SLICER_DEG: f64 = 1.0;
+
 /// Share of a column of support that is material.
 ///
 /// This and the next two are fitted to PrusaSlicer 2.5 with the settings of the kit's packages.
@@ -48,7 +52,7 @@ impl Support {
     /// Estimates the support of a part along the lines of a grid. Its error is that of the grid:
     /// about a line along every rim.
     pub fn of(shape: &Shape, columns: &Columns, up: &Vector, rule: &SupportRule) -> Self {
-        let steepest = rule.overhang_deg.to_radians().cos();
+        let steepest = (rule.overhang_deg + SLICER_DEG).to_radians().cos();
         let cell_mm2 = columns.pitch_mm * columns.pitch_mm;
         let mut sum = Self::default();
         let needs = |triangle: u32| -shape.normals[triangle as usize].dot(up) > steepest;
