@@ -14,7 +14,7 @@
 //! | load | [`io`] reads, [`repair`] mends, [`mesh`] proves a solid, [`printer`] gives wall and pitch |
 //! | place | [`goal`] places the aim, [`hardware`] bores sockets, [`advice`] chooses an open axis |
 //! | solve | [`shell`] keeps the wall, [`interior`] measures columns, [`hollow`] solves, [`ballast`] adds mass |
-//! | open | [`voids`] draws the surfaces, [`cut`] plans cuts and pins, [`open`] resolves both |
+//! | open | [`voids`] draws the surfaces, [`cut`] plans cuts and pins, [`poses`] chooses poses, [`open`] resolves both |
 //! | make | [`make`] writes the parts and corrects them |
 //! | judge | [`verify`] judges the files without knowing how they were made |
 //! | kit | [`sheet`] and [`page`] make the job sheet with [`draw`], [`kit`] writes the folder |
@@ -75,7 +75,7 @@ pub mod solve {
 /// The stages of a run between the solver and the judge, and the facts that pass between them.
 pub mod stages {
     #[doc(inline)]
-    pub use crate::{advice, error, make, open, run};
+    pub use crate::{advice, error, make, open, poses, run};
 }
 
 /// Checklists, job sheets, drawings and coupons.
@@ -120,6 +120,8 @@ pub mod mesh;
 pub mod open;
 #[doc(hidden)]
 pub mod page;
+#[doc(hidden)]
+pub mod poses;
 #[doc(hidden)]
 pub mod repair;
 #[doc(hidden)]

@@ -4,7 +4,7 @@ use crate::base::watch::Watch;
 use crate::cut::least_part::LeastPart;
 use crate::cut::request::{GoalAxis, LabelStyle, PinSettings, PlanRequest, PosePreference};
 use crate::cut::seam::rules::Seams;
-use crate::printer::{Grid, PrintPose, Printer, Quantity};
+use crate::printer::{Grid, PrintPose, Printer, Quantity, Support};
 
 impl PlanRequest {
     /// Least share of all voids' walls that a cut for cleaning alone must bring into sight. Below
@@ -52,10 +52,7 @@ impl PlanRequest {
                 0.0
             },
             layer_mm: printer.layer_mm.value,
-            pose: match printer.print_pose {
-                PrintPose::OpenHollowsUp => PosePreference::OpenHollowUp,
-                PrintPose::CutFaceDown => PosePreference::CutFaceDown,
-            },
+            pose: PosePreference::for_printer(printer),
             rods: Vec::new(),
             labels: Some(LabelStyle::for_printer(printer)),
             seams: Seams::default(),
@@ -70,6 +67,19 @@ impl PlanRequest {
 fn snug_gap_mm(printer: &Printer) -> f64 {
     let press = printer.number(Quantity::ClearancePressPerSideMm);
     press.map_or(0.5 * printer.clearance_per_side_mm.value, |gap| gap.value)
+}
+
+impl PosePreference {
+    /// Returns the pose that suits the printer's support. Powder carries every part, so that its
+    /// parts lie on their cut faces.
+    fn for_printer(printer: &Printer) -> Self {
+        match (printer.print_pose, printer.grid, printer.support) {
+            (PrintPose::OpenHollowsUp, ..) => Self::OpenHollowUp,
+            (_, _, Support::None) => Self::CutFaceDown,
+            (_, Grid::Line, _) => Self::LittleSupport,
+            (_, Grid::Pixel, _) => Self::Tilted,
+        }
+    }
 }
 
 impl LabelStyle {

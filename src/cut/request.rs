@@ -93,6 +93,10 @@ pub enum PosePreference {
     CutFaceDown,
     /// The opened hollows face up, so that support can be washed out of them (PolyJet).
     OpenHollowUp,
+    /// As little support as can be, in any direction, but not on pins (filament).
+    LittleSupport,
+    /// Tilted, so that no layer encloses resin (a vat, whose slicer adds raft and supports).
+    Tilted,
 }
 
 /// The style in which ids are sunk into cut faces.

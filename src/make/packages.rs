@@ -5,9 +5,10 @@ use std::path::Path;
 use rayon::prelude::*;
 
 use crate::base::watch::Watch;
+use crate::cut::PinSite;
 use crate::draw::{Color, part_color};
 use crate::error::Error;
-use crate::geom::{Aabb, Matrix, Vector};
+use crate::geom::{Aabb, Matrix, Point, Vector};
 use crate::io::threemf::{Build, Object, Package, PrintSettings, Transform};
 use crate::io::{decode_model, stl};
 use crate::job::PartFormat;
@@ -26,6 +27,8 @@ const PERIMETERS: usize = 2;
 
 /// The colour of jigs: the grey of a tool.
 const JIG_COLOR: Color = [150, 150, 150];
+/// Distance by which a file's coordinates and the sides of a round wall differ from it, mm.
+const ROUNDING_MM: f64 = 1e-2;
 
 /// A file of the kit by its path, and its bytes.
 pub type File = (String, Vec<u8>);
@@ -41,7 +44,7 @@ pub fn repack(placed: &Placed, mut made: Made, watch: &Watch) -> Result<Made, Er
     let parts = parts.into_par_iter().enumerate().map(|(index, part)| {
         watch.check()?;
         let printed = stl::decode(&part.bytes)?;
-        let (file, bytes) = pack(placed, &part, &[object(index, &part, &printed)])?;
+        let (file, bytes) = pack(placed, &part, &[object(placed, index, &part, &printed)])?;
         let read_back = decode_model(&bytes)?;
         Ok(WrittenPart {
             file,
@@ -90,7 +93,7 @@ pub fn packages(placed: &Placed, made: &Made, watch: &Watch) -> Result<Vec<File>
         .collect::<Result<_, _>>()?;
     let objects: Vec<Object> = (0..parts.len())
         .into_par_iter()
-        .map(|i| object(i, &parts[i], &printed[i]))
+        .map(|i| object(placed, i, &parts[i], &printed[i]))
         .collect();
     let mut jobs = plates(placed, &printed);
     jobs.insert(0, (ASSEMBLY.to_owned(), together(placed, parts)));
@@ -127,8 +130,33 @@ fn pack(placed: &Placed, part: &WrittenPart, object: &[Object]) -> Result<File, 
     package(placed, object, file, (description, build))
 }
 
-fn object(index: usize, part: &WrittenPart, printed: &TriMesh) -> Object {
-    Object::new(&part.part.id.to_string(), part_color(index), printed)
+/// Returns a part as an object whose sockets take no support.
+fn object(placed: &Placed, index: usize, part: &WrittenPart, printed: &TriMesh) -> Object {
+    let scale = Vector::from(placed.shop.printer.print_scale_ratio());
+    let pose = part.evidence().pose;
+    let in_socket = |corners: &[Point; 3]| {
+        let [a, b, c] = corners.map(|p| p.coords.component_div(&scale));
+        let middle = pose.to_model(&Point::from((a + b + c) / 3.0));
+        part.part
+            .sockets
+            .iter()
+            .any(|socket| is_in(socket, &middle))
+    };
+    let name = part.part.id.to_string();
+    Object::with_blockers(&name, part_color(index), printed, in_socket)
+}
+
+/// Returns whether a point of the surface is on a wall of a socket. It is then behind the cut face,
+/// and no farther from the axis than the wall.
+fn is_in(socket: &PinSite, at: &Point) -> bool {
+    let from_mouth = at - Point::from(socket.center_mm);
+    let axis = Vector::from(socket.direction);
+    let along_mm = from_mouth.dot(&axis);
+    let aside_mm = (from_mouth - axis * along_mm).norm();
+    let radius_mm = 0.5 * socket.socket_diameter_mm + socket.socket_chamfer_mm;
+    along_mm > ROUNDING_MM
+        && along_mm < socket.socket_depth_mm + ROUNDING_MM
+        && aside_mm < radius_mm + ROUNDING_MM
 }
 
 /// Returns the settings that a slicer of filament printers takes from a package: without them it

@@ -3,6 +3,7 @@
 use rayon::prelude::*;
 
 use super::apart::{self, Apart, halves};
+use super::below;
 use super::curves;
 use super::cut_drawing::{self, CutFace};
 use super::figure::{Draft, Picture, Role};
@@ -105,7 +106,8 @@ pub fn draw_figures(
     faces: &[CutFace],
     watch: &Watch,
 ) -> Result<Vec<Picture>, PictureError> {
-    let mut drawings = joint_drawing::drawings(sheet, faces);
+    let mut drawings = below::pictures(sheet, subject, watch)?;
+    drawings.extend(joint_drawing::drawings(sheet, faces));
     drawings.extend(cut_drawing::drawings(sheet, faces));
     drawings.extend(inertia::pictures(sheet, subject, watch)?);
     drawings.extend(curves::plots(sheet));

@@ -15,6 +15,8 @@ pub enum Role {
     Exploded,
     /// Table of parts: a part in its print pose.
     Part,
+    /// Table of parts: a part from below, with what support touches.
+    Below,
     /// Join: both faces of a joint, opened like a book.
     Joint,
     /// Join: the object in a jig.

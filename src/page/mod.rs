@@ -2,6 +2,7 @@
 
 mod album;
 mod apart;
+mod below;
 mod certificate;
 mod cleaning;
 mod cover;

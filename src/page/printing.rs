@@ -2,6 +2,7 @@
 
 use maud::{Markup, html};
 
+use super::below;
 use super::fields::{file_name, half_name};
 use super::figure::Picture;
 use super::hardware::bar;
@@ -28,7 +29,7 @@ pub(super) fn print_step(sheet: &Checklist, pictures: &[Picture]) -> Markup {
                 li { strong { "Names: " } "write the id on these parts when they come off the plate: " strong { (parts) } "." }
             }
         }
-        div class="cards" { @for part in &sheet.parts { (card(part, pictures)) } }
+        div class="cards" { @for part in &sheet.parts { (card(sheet, part, pictures)) } }
         (jigs(sheet))
         (bought(sheet))
     }
@@ -64,18 +65,24 @@ fn bought(sheet: &Checklist) -> Markup {
 }
 
 /// Returns what a part looks like on its plate, and what is set for it.
-fn card(part: &PartRow, pictures: &[Picture]) -> Markup {
+fn card(sheet: &Checklist, part: &PartRow, pictures: &[Picture]) -> Markup {
     let is_part = |picture: &&Picture| part.picture.as_ref() == Some(&picture.file);
+    let below = below::picture_file(&part.id);
+    let is_below = |picture: &&Picture| picture.file == below;
     html! {
         div class="part" {
             @if let Some(picture) = pictures.iter().find(is_part) { (picture.image()) }
+            @if let Some(picture) = pictures.iter().find(is_below) { (picture.image()) }
             p class="tick" {
                 strong class="part-id" { (part.id) }
                 @if let Some(half) = part.half { ", half " (half_name(half)) }
                 ": " (part.lies) ". Part OK ☐"
             }
             p { (file_name(&part.file)) }
-            @if let Some(words) = support::of_part(part) { p { (words) } }
+            @if let Some(words) = support::of_part(sheet, part) { p { (words) } }
+            @if !part.drains_over.is_empty() {
+                p { "Drain: hold cut face " (part.drains_over.join(" or ")) " down over the vat until no resin drips, then wash." }
+            }
         }
     }
 }
@@ -97,6 +104,9 @@ fn load(sheet: &Checklist) -> Markup {
 fn handling(process: &Process) -> &'static str {
     match process {
         Process::Fdm => "Do not turn, scale or repair them.",
+        Process::Sla => {
+            "They lean so that no layer encloses resin: turn them as you like while every hollow opens toward the platform. Never scale or repair them."
+        }
         _ => "You may turn a part. Never scale or repair it.",
     }
 }
@@ -135,8 +145,7 @@ fn parts_without_id(sheet: &Checklist) -> Option<String> {
     (sheet.parts.len() > 1 && !ids.is_empty()).then(|| ids.join(", "))
 }
 
-/// Returns the parts that lie with the mouth of an open hollow down on the plate of a resin
-/// printer.
+/// Returns the parts that enclose resin in the pose of their files.
 fn cups(sheet: &Checklist) -> Vec<&PartRow> {
     let is_cup =
         |part: &&PartRow| part.cup_mm3 >= LEAST_CUP_MM3 && sheet.printer.process == Process::Sla;
@@ -156,8 +165,7 @@ pub fn cup_warning(sheet: &Checklist) -> Option<String> {
     let names: Vec<String> = cups.iter().map(name).collect();
     (!cups.is_empty()).then(|| {
         format!(
-            "the mouth of an open hollow lies flat on the platform in {}: a closed cup, which traps resin and causes suction at every layer; tilt these \
-             parts on support, or turn their mouths away from the platform (masses and balance do not change)",
+            "no pose was found in which {} encloses no resin: a cup, which the film sucks on at every layer; ask for another cut",
             names.join(", ")
         )
     })

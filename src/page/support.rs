@@ -1,7 +1,7 @@
 //! The support of each part and of the whole job.
 
 use crate::base::numbers::measured;
-use crate::base::units::MM2_PER_CM2;
+use crate::base::units::{MM2_PER_CM2, MM3_PER_CM3};
 use crate::sheet::{Checklist, PartRow, Process, SupportMethod, SupportRow};
 
 /// Area up to which support is not told, mm²: a point or two.
@@ -32,14 +32,47 @@ fn support_words(support: &SupportRow) -> String {
     format!("on: {areas}")
 }
 
+/// Least mass of support that is told, g.
+const LEAST_G: f64 = 0.05;
+
 /// Words the support of a part; `None` if the printer does not say which surfaces need it.
-pub(super) fn of_part(part: &PartRow) -> Option<String> {
-    part.support
-        .map(|support| format!("Support {}.", support_words(&support)))
+pub(super) fn of_part(sheet: &Checklist, part: &PartRow) -> Option<String> {
+    let support = part.support?;
+    let about_g = mass_g(sheet, &support);
+    let mass = if about_g < LEAST_G {
+        String::new()
+    } else {
+        format!("; about {}", measured(about_g, "g"))
+    };
+    Some(format!("Support {}{mass}.", support_words(&support)))
+}
+
+/// Returns the estimated mass of a part's support, g, in the material of the parts.
+fn mass_g(sheet: &Checklist, support: &SupportRow) -> f64 {
+    support.material_mm3 / MM3_PER_CM3 * sheet.material.density_g_cm3
+}
+
+/// Words the mass of all support, by the program's own estimate; empty if there is next to none.
+fn all_words(sheet: &Checklist) -> String {
+    let supports = sheet.parts.iter().filter_map(|part| part.support);
+    let all_g: f64 = supports.map(|support| mass_g(sheet, &support)).sum();
+    if all_g < LEAST_G {
+        String::new()
+    } else {
+        format!(
+            " About {} of support in all, by our own estimate.",
+            measured(all_g, "g")
+        )
+    }
 }
 
 /// Words the support of the whole job.
 pub(super) fn of_all(sheet: &Checklist) -> String {
+    method_words(sheet) + &all_words(sheet)
+}
+
+/// Words the settings for support.
+fn method_words(sheet: &Checklist) -> String {
     let known: Option<Vec<usize>> = sheet
         .parts
         .iter()
@@ -64,7 +97,7 @@ fn by_process(sheet: &Checklist) -> &'static str {
     match (sheet.printer.support, &sheet.printer.process) {
         (SupportMethod::None, _) => "none; the powder holds every part.",
         (SupportMethod::Breakaway, Process::Sla) => {
-            "on, also inside an open hollow; none on cut faces, on pins and in their holes. It is removed in the next step."
+            "the slicer adds the raft and the supports. None on cut faces, on pins and in their holes; as few as hold inside an open hollow."
         }
         (SupportMethod::Breakaway, _) => {
             "on where a part overhangs, none in the pin holes. Support inside a hollow is removed in the next step."
@@ -82,26 +115,32 @@ mod tests {
     fn support_is_worded_by_part_if_known_else_by_process() {
         let mut sheet = sample().0;
         let process = of_all(&sheet);
-        assert!(process.contains("as the machine places it") && of_part(&sheet.parts[0]).is_none());
+        assert!(
+            process.contains("as the machine places it")
+                && of_part(&sheet, &sheet.parts[0]).is_none()
+        );
         sheet
             .parts
             .iter_mut()
             .for_each(|part| part.support = Some(SupportRow::default()));
         assert!(of_all(&sheet).starts_with("off for every part"));
         assert_eq!(
-            of_part(&sheet.parts[0]).unwrap(),
+            of_part(&sheet, &sheet.parts[0]).unwrap(),
             "Support off, nothing hangs in the air."
         );
         let hangs = SupportRow {
             places: 2,
             hollow_mm2: 150.0,
+            material_mm3: 1000.0,
             from_mm: 3.0,
             to_mm: 8.0,
             ..SupportRow::default()
         };
         sheet.parts[0].support = Some(hangs);
         assert!(of_all(&sheet).contains("on for the parts marked below"));
-        let words = of_part(&sheet.parts[0]).unwrap().replace('\u{a0}', " ");
+        let words = of_part(&sheet, &sheet.parts[0])
+            .unwrap()
+            .replace('\u{a0}', " ");
         assert_eq!(words, "Support on: 1.5 cm² in the open hollow.");
         sheet
             .parts

@@ -39,10 +39,13 @@ pub struct PartRow {
     /// Half of a yo-yo to which it belongs; `None` for a single body.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub half: Option<Half>,
-    /// Volume of open hollows whose only mouth lies flat on the plate, mm³. They are closed cups
-    /// while the part is printed.
+    /// Volume of resin that the part encloses against a film while it is printed, mm³. 0 for other
+    /// processes than resin in a vat.
     #[serde(default)]
     pub cup_mm3: f64,
+    /// Cut faces that point down to drain its open hollow after printing in a vat.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub drains_over: Vec<String>,
     /// Overhangs in print pose; `None` if the printer does not say which surfaces print without
     /// support.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -76,6 +79,9 @@ pub struct SupportRow {
     pub from_mm: f64,
     /// Greatest height over the plate, mm.
     pub to_mm: f64,
+    /// Estimate of the support's own material, mm³.
+    #[serde(default)]
+    pub material_mm3: f64,
 }
 
 /// Returns the extent of the parts put together with their hardware, along the model's own axes,

@@ -329,6 +329,7 @@ fn part(promised: &PromisedPart, facts: &PartFacts) -> PartRow {
         marks: vec![],
         half: None,
         cup_mm3: 0.0,
+        drains_over: Vec::new(),
         support: None,
         picture: Some(part_picture_file(&promised.id)),
     }

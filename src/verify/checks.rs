@@ -4,14 +4,15 @@ use super::goal_checks::{figure_check, goal_checks};
 use super::hardware::HardwareKind;
 use super::joints::FilmError;
 use super::limits::{
-    FILM_LIMIT_RATIO, GAP_TOLERANCE_MM, GRIP_TOLERANCE_MM, JIG_SEAM_LIMIT_MM, LEAST_GRIP_DIAMETERS,
-    PIN_LIMIT_MM, POSE_LIMIT_RATIO, RESTING_LIMIT_MM, STRING_GAP_TOLERANCE_MM,
-    VOLUME_SUM_LIMIT_RATIO, WALL_TOLERANCE_MM,
+    CUP_LIMIT_MM3, FILM_LIMIT_RATIO, GAP_TOLERANCE_MM, GRIP_TOLERANCE_MM, JIG_SEAM_LIMIT_MM,
+    LEAST_GRIP_DIAMETERS, PIN_LIMIT_MM, POSE_LIMIT_RATIO, RESTING_LIMIT_MM,
+    STRING_GAP_TOLERANCE_MM, VOLUME_SUM_LIMIT_RATIO, WALL_TOLERANCE_MM,
 };
 use super::play::worst_joint;
 use super::void_checks::void_checks;
 use super::{
-    Check, CheckKind, JigFacts, Judgement, Limit, PartFacts, Peg, PegFacts, Promise, PromisedPart,
+    Check, CheckKind, CupFacts, JigFacts, Judgement, Limit, PartFacts, Peg, PegFacts, Promise,
+    PromisedPart,
 };
 
 /// Returns all checks of a kit, in the order of a person's questions. Does it do what was ordered?
@@ -39,6 +40,7 @@ pub fn checks(promise: &Promise, found: &Judgement) -> Vec<Check> {
             .build_volume_mm
             .map(|room| room_check(&printed, room)),
     );
+    checks.extend(cup_check(&found.cups));
     checks.extend(void_checks(promise, &found.voids));
     checks.push(volume_check(promise, found));
     checks.extend(joint_checks(promise, found));
@@ -190,6 +192,18 @@ fn room_check(parts: &[PartFacts], room_mm: [f64; 3]) -> Check {
         Limit::at_least(0.0, "mm"),
     )
     .at(at)
+}
+
+/// Checks that no part encloses resin while it is printed; `None` for other processes than resin in
+/// a vat.
+fn cup_check(cups: &[CupFacts]) -> Option<Check> {
+    let worst = cups
+        .iter()
+        .max_by(|a, b| a.volume_mm3.total_cmp(&b.volume_mm3))?;
+    let promise = "no part encloses more resin against the film at any layer than";
+    let limit = Limit::at_most(CUP_LIMIT_MM3, "mm³");
+    let check = Check::new(CheckKind::Cups, promise, Some(worst.volume_mm3), limit);
+    Some(check.at(Some(worst.id.clone())))
 }
 
 /// Checks that the parts add up to the uncut body, plus the pins, less the sockets and ids.

@@ -5,6 +5,7 @@ use rayon::prelude::*;
 use super::ballast::{ballast_moments, fill_moments, least_room_mm};
 use super::checks::checks;
 use super::cleaning::inspect_voids;
+use super::cups::measure_cups;
 use super::hardware::{mass_moments, measure_fit};
 use super::jigs::measure_jigs;
 use super::joints::{count_lost_strokes, film_error, film_moments};
@@ -64,6 +65,7 @@ pub fn judge(evidence: &Evidence, watch: &Watch) -> Result<Judgement, Cancelled>
         ),
         spin: SpinFacts::of_top(&promise.goal, &promise.hardware, &outer),
         ballast_room_mm: least_room_mm(&promise.ballast, &welded, &outer),
+        cups: measure_cups(promise, &evidence.parts, watch)?,
         pegs: measure_pegs(promise, &probes, &evidence.hollowed, watch)?,
         joints: measure_joints(promise, &evidence.parts, &jigs),
         jigs,

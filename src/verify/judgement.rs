@@ -2,7 +2,7 @@
 
 use super::joints::FilmError;
 use super::{
-    Check, Figures, FileChange, Fit, JigFacts, JointFacts, PartFacts, PegFacts, SpinFacts,
+    Check, CupFacts, Figures, FileChange, Fit, JigFacts, JointFacts, PartFacts, PegFacts, SpinFacts,
     SurfaceFacts, VoidFacts,
 };
 
@@ -27,6 +27,9 @@ pub struct Judgement {
     pub spin: Option<SpinFacts>,
     /// The least gap around a part of ballast, mm; `None` without ballast.
     pub ballast_room_mm: Option<f64>,
+    /// The resin that each part encloses while it is printed; empty for other processes than resin
+    /// in a vat.
+    pub cups: Vec<CupFacts>,
     /// Every pin and its socket, as found in the files.
     pub pegs: Vec<PegFacts>,
     /// Facts about each jig.

@@ -65,6 +65,8 @@ pub enum CheckKind {
     Pose,
     /// Room left for the parts in the printer.
     BuildVolume,
+    /// Parts that enclose resin while they are printed.
+    Cups,
     /// Openings of a void.
     VoidOpen {
         /// The void's id, such as `V1`.
@@ -143,6 +145,7 @@ impl fmt::Display for CheckKind {
             Self::Resting => "resting",
             Self::Pose => "pose",
             Self::BuildVolume => "build volume",
+            Self::Cups => "cups",
             Self::VoidOpen { void } => return write!(f, "void {void} open"),
             Self::VoidClean { void } => return write!(f, "void {void} clean"),
             Self::VoidsAsStated => "voids as stated",
@@ -170,7 +173,7 @@ mod tests {
     use serde_json::json;
 
     /// The keys and names of all kinds without data.
-    const KEYS: [(CheckKind, &str, &str); 37] = [
+    const KEYS: [(CheckKind, &str, &str); 38] = [
         (CheckKind::AxisOffset, "axis-offset", "axis offset"),
         (CheckKind::AxisTilt, "axis-tilt", "axis tilt"),
         (CheckKind::Dominance, "dominance", "dominance"),
@@ -209,6 +212,7 @@ mod tests {
         (CheckKind::Resting, "resting", "resting"),
         (CheckKind::Pose, "pose", "pose"),
         (CheckKind::BuildVolume, "build-volume", "build volume"),
+        (CheckKind::Cups, "cups", "cups"),
         (
             CheckKind::VoidsAsStated,
             "voids-as-stated",

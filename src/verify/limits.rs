@@ -37,6 +37,9 @@ pub const VOLUME_SUM_LIMIT_RATIO: f64 = 1e-6;
 /// A part rests on the plate within this distance, mm: two f32 steps at 300 mm. Above it a slicer's
 /// first layer is thin.
 pub const RESTING_LIMIT_MM: f64 = 1e-4;
+/// A part in a vat may enclose this much resin, mm³: a socket or a letter drains and causes no
+/// suction.
+pub const CUP_LIMIT_MM3: f64 = 150.0;
 /// The matrix of a pose is rigid within this. Rounding of a 4×4 matrix gives 1e-15, a mirror 2, a
 /// stretch of 0.01 % gives 2e-4.
 pub const POSE_LIMIT_RATIO: f64 = 1e-9;

@@ -24,6 +24,7 @@ mod support;
 mod water;
 // The facts about surfaces, parts and joints.
 mod cleaning;
+mod cups;
 mod jigs;
 mod joints;
 mod measure;
@@ -84,6 +85,7 @@ pub use water::WaterOrder;
 
 // The facts.
 pub use cleaning::VoidFacts;
+pub use cups::CupFacts;
 pub use figures::{Figures, Setting};
 pub use hardware::{Fit, mass_moments};
 pub use jigs::JigFacts;

@@ -69,6 +69,9 @@ pub struct Promise {
 /// The limits of a printer and its process.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct PrinterLimits {
+    /// The word of its process, such as `sla`; `None` if it is not known.
+    #[serde(default)]
+    pub process: Option<String>,
     /// The edges of the build volume along x, y and z, mm; unknown for some machines.
     pub build_volume_mm: Option<[f64; 3]>,
     /// The scale of the part files along x, y and z, which compensates shrinkage; `None` if they

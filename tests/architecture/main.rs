@@ -61,9 +61,12 @@ const ARROWS: &[(&str, &[&str])] = &[
         "voids",
         &["printer", "repair", "geom", "mass", "mesh", "base", "shell"],
     ),
+    ("poses", &["base", "geom", "mesh"]),
     (
         "cut",
-        &["repair", "geom", "mass", "mesh", "printer", "base", "voids"],
+        &[
+            "repair", "geom", "mass", "mesh", "poses", "printer", "base", "voids",
+        ],
     ),
     (
         "verify",
@@ -76,13 +79,13 @@ const ARROWS: &[(&str, &[&str])] = &[
         "sheet",
         &[
             "ballast", "base", "cut", "geom", "goal", "hardware", "hollow", "mass", "mesh",
-            "printer", "repair", "run", "verify",
+            "poses", "printer", "repair", "run", "verify",
         ],
     ),
     (
         "page",
         &[
-            "base", "draw", "geom", "goal", "mass", "mesh", "repair", "sheet", "verify",
+            "base", "draw", "geom", "goal", "mass", "mesh", "poses", "repair", "sheet", "verify",
         ],
     ),
     ("kit", &["base"]),
@@ -139,8 +142,8 @@ const ARROWS: &[(&str, &[&str])] = &[
         "lib",
         &[
             "advice", "ballast", "coupon", "draw", "error", "geom", "goal", "hardware", "hollow",
-            "interior", "io", "make", "mass", "mesh", "open", "page", "repair", "run", "sheet",
-            "shell", "voids",
+            "interior", "io", "make", "mass", "mesh", "open", "page", "poses", "repair", "run",
+            "sheet", "shell", "voids",
         ],
     ),
     ("main", &["cli"]),

@@ -19,6 +19,7 @@ from pathlib import Path
 from xml.etree import ElementTree
 
 import numpy as np
+import scipy.ndimage
 import trimesh
 
 GRAVITY_MM_S2 = 9806.65
@@ -59,6 +60,8 @@ SIGHT_ACROSS = 20
 SIGHT_ALONG = 64
 # Hanging places smaller than a square of so many line widths a side are carried by what is beside them.
 SUPPORT_LINES = 3
+# A part may enclose this much resin against the film: a socket or a letter drains.
+CUP_LIMIT_MM3 = 150.0
 # How many points of the voids are measured to the outside.
 WALL_SAMPLES = 50_000
 
@@ -932,6 +935,70 @@ def judge_support(table, sheet, parts, whole):
             table.at_most(f"{row['id']} hangs to, mm", stated["to_mm"] + 1e-6, height[hung][sure].max())
 
 
+def cup_volume(corners, cell):
+    """The resin that a part in print pose encloses against the film, mm³: the empty cells that have no way to the rim of the grid
+    through their own layer and the layers before, when their layer is printed."""
+    low, high = corners.reshape(-1, 3).min(axis=0), corners.reshape(-1, 3).max(axis=0)
+    columns, rows, layers = (int(n) for n in np.ceil((high - low) / cell)[:3] + [3, 3, 0])
+    top, bottom = corners[:, :, 2].max(axis=1), corners[:, :, 2].min(axis=1)
+    parent = [0]
+
+    def root(i):
+        while parent[i] != i:
+            parent[i] = parent[parent[i]]
+            i = parent[i]
+        return i
+
+    before, enclosed = np.zeros((rows, columns), dtype=int), 0
+    for layer in range(layers):
+        z = low[2] + (layer + 0.5) * cell + 1e-5
+        cut = corners[(bottom < z) & (top >= z)]
+        walls = np.zeros((rows, columns + 1), dtype=int)
+        ends = []
+        for i, j in ((0, 1), (1, 2), (2, 0)):
+            p, q = cut[:, i], cut[:, j]
+            crosses = (p[:, 2] < z) != (q[:, 2] < z)
+            # The same end first for both triangles of an edge.
+            swap = p[:, 2] > q[:, 2]
+            p, q = np.where(swap[:, None], q, p), np.where(swap[:, None], p, q)
+            with np.errstate(divide="ignore", invalid="ignore"):
+                at = p[:, :2] + (q[:, :2] - p[:, :2]) * ((z - p[:, 2]) / (q[:, 2] - p[:, 2]))[:, None]
+            ends.append(np.where(crosses[:, None], at, np.nan))
+        for three in np.stack(ends, axis=1) if len(cut) else []:
+            pair = three[~np.isnan(three[:, 0])]
+            if len(pair) != 2:
+                continue
+            (ax, ay), (bx, by) = sorted((pair - low[:2]) / cell + 1.37, key=lambda end: (end[1], end[0]))
+            for row in range(math.ceil(ay), min(rows, math.ceil(by))):
+                x = ax + (bx - ax) * (row - ay) / (by - ay)
+                walls[row, min(columns, max(0, math.ceil(x)))] += 1
+        empty = np.cumsum(walls, axis=1)[:, :columns] % 2 == 0
+        labels, count = scipy.ndimage.label(empty)
+        labels = np.where(empty, labels + len(parent) - 1, 0)
+        parent.extend(range(len(parent), len(parent) + count))
+        rim = np.concatenate([labels[0], labels[-1], labels[:, 0], labels[:, -1]])
+        joined = [(0, int(i)) for i in np.unique(rim[rim > 0])]
+        both = (labels > 0) & (before > 0)
+        joined += [tuple(map(int, pair)) for pair in np.unique(np.stack([labels[both], before[both]], axis=1), axis=0)]
+        for a, b in joined:
+            a, b = root(a), root(b)
+            parent[max(a, b)] = min(a, b)
+        numbers, cells = np.unique(labels[labels > 0], return_counts=True)
+        enclosed += sum(int(n) for i, n in zip(numbers, cells) if root(int(i)) != 0)
+        before = labels
+    return enclosed * cell**3
+
+
+def judge_cups(table, sheet, parts):
+    """No part of a vat encloses more resin at any layer than drains from a socket."""
+    if sheet["printer"]["process"] != "sla":
+        return
+    cell = 0.45 * sheet["printer"]["minimum_wall_mm"]
+    for row, corners in zip(sheet["parts"], parts):
+        pose = np.array(row["print_from_model"], float)
+        table.at_most(f"{row['id']} encloses resin, mm³", CUP_LIMIT_MM3, cup_volume(corners @ pose[:3, :3].T + pose[:3, 3], cell))
+
+
 def judge_foot(table, sheet, outer, center):
     """Whether a top stands when it does not spin: the height of its centre of mass over the floor grows however it is tilted."""
     goal = sheet["goal"]
@@ -1088,6 +1155,7 @@ def judge(kit):
     judge_foot(table, sheet, outer, center)
     judge_contact(table, sheet, outer)
     judge_support(table, sheet, parts, whole)
+    judge_cups(table, sheet, parts)
     for part in ballast:
         table.at_least(f"{part['id']} ({part['part']}) room, mm", 0.0, ballast_room(part, whole, voids))
     judge_pins(table, sheet, parts)

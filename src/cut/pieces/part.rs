@@ -14,7 +14,7 @@ use crate::{
         ids::{PartId, VoidId},
         joints::{contact::update_faces, label::Label, pin_shape::PinSite},
         pieces::{
-            pose::{Pose, choose_pose, sides_down},
+            pose::{Pose, Posed},
             rejoin::rejoin,
             split::{Piece, check_no_cavity, piece_at, split},
         },
@@ -170,13 +170,16 @@ impl PartMaker<'_> {
                 .collect();
             let body = add_pins_and_sockets(piece, (&pins, &sockets), &labels, &request.watch)?;
             let solid = drop_short_edges(&body, &request.watch)?;
+            let posed = Posed {
+                mesh: solid.mesh(),
+                piece,
+                planes,
+                pins: &pins,
+                pin_cuts: &pin_cuts,
+            };
             Ok(Part {
                 id: PartId::of(index),
-                pose: choose_pose(
-                    solid.mesh(),
-                    &sides_down(piece, planes, &pin_cuts, request),
-                    request,
-                ),
+                pose: posed.pose(request, |p| void_of.contains_key(&bits(p)))?,
                 solid,
                 pins,
                 sockets,
@@ -270,7 +273,7 @@ fn has_short_edge(mesh: &TriMesh) -> bool {
 }
 
 /// Returns the void that each vertex of a void belongs to, by the bits of its coordinates.
-fn voids_by_vertex(hollowed: &Hollowed) -> HashMap<[u64; 3], VoidId> {
+pub(crate) fn voids_by_vertex(hollowed: &Hollowed) -> HashMap<[u64; 3], VoidId> {
     let voids = hollowed.voids.iter().enumerate();
     voids
         .flat_map(|(i, void)| {
@@ -282,7 +285,7 @@ fn voids_by_vertex(hollowed: &Hollowed) -> HashMap<[u64; 3], VoidId> {
         .collect()
 }
 
-fn bits(p: &Point) -> [u64; 3] {
+pub(crate) fn bits(p: &Point) -> [u64; 3] {
     [p.x, p.y, p.z].map(f64::to_bits)
 }
 

@@ -3,13 +3,16 @@
 use std::fmt;
 
 use crate::{
+    base::watch::Cancelled,
     cut::{
         ids::CutId,
+        joints::pin_shape::PinSite,
         pieces::split::Piece,
         request::{PlanRequest, PosePreference},
     },
     geom::{Aabb, Matrix, Plane, Point, Vector, orthonormal_basis},
     mesh::TriMesh,
+    poses::{Peg, PoseRules, Shape, Side, SupportRule, Want, rank_poses},
 };
 
 /// The pose of a part in the printer.
@@ -38,6 +41,8 @@ pub enum Lie {
     UpsideDown,
     /// On a side of the model.
     OnItsSide,
+    /// In any other direction.
+    Leaning,
 }
 
 impl fmt::Display for Lie {
@@ -48,6 +53,7 @@ impl fmt::Display for Lie {
             Self::Upright => f.write_str("upright"),
             Self::UpsideDown => f.write_str("upside down"),
             Self::OnItsSide => f.write_str("on its side"),
+            Self::Leaning => f.write_str("leaning"),
         }
     }
 }
@@ -56,6 +62,14 @@ impl fmt::Display for Lie {
 const TURNS_DEG: [f64; 12] = [
     0.0, 90.0, 15.0, 30.0, 45.0, 60.0, 75.0, 105.0, 120.0, 135.0, 150.0, 165.0,
 ];
+
+/// Angles to the horizontal from which surfaces print without support, degrees: the usual ones for
+/// filament and for resin in a vat. The request may say another.
+const FILAMENT_DEG: f64 = 45.0;
+const RESIN_DEG: f64 = 30.0;
+
+/// Distance from a cut within which a vertex lies on its face, mm.
+const ON_CUT_MM: f64 = 1e-4;
 
 /// A side of a part that may face down in the printer.
 #[derive(Debug, Clone)]
@@ -104,8 +118,8 @@ pub(crate) fn sides_down(
         .iter()
         .map(|face| face.underside(-1.0, Lie::CutFaceUp));
     let mut sides: Vec<Underside> = match request.pose {
-        PosePreference::CutFaceDown => face_down.chain(face_up).collect(),
         PosePreference::OpenHollowUp => face_up.chain(face_down).collect(),
+        _ => face_down.chain(face_up).collect(),
     };
     let axis = request.axis.direction.normalize();
     let (u, v) = orthonormal_basis(&axis);
@@ -131,6 +145,103 @@ pub(crate) fn choose_pose(mesh: &TriMesh, sides: &[Underside], request: &PlanReq
     let fitting = choices
         .find_map(|(side, turn)| Some(lay(mesh, side, turn, request)).filter(|pose| pose.fits));
     fitting.unwrap_or_else(|| lay(mesh, &sides[0], 0.0, request))
+}
+
+/// A part or a piece to be posed.
+pub(crate) struct Posed<'a> {
+    /// Its surface with its pins and sockets, if they are known already.
+    pub(crate) mesh: &'a TriMesh,
+    /// The piece that it is made of.
+    pub(crate) piece: &'a Piece,
+    /// The planes of all cuts.
+    pub(crate) planes: &'a [Plane],
+    /// The printed pins that stand out of it.
+    pub(crate) pins: &'a [PinSite],
+    /// The cuts on whose faces they stand.
+    pub(crate) pin_cuts: &'a [usize],
+}
+
+impl Posed<'_> {
+    /// Returns the pose that the request prefers, among those that fit the build volume.
+    /// `is_of_void` returns whether a vertex belongs to a void's wall.
+    ///
+    /// # Errors
+    /// The request's watch was stopped.
+    pub(crate) fn pose(
+        &self,
+        request: &PlanRequest,
+        is_of_void: impl Fn(&Point) -> bool,
+    ) -> Result<Pose, Cancelled> {
+        let sides = sides_down(self.piece, self.planes, self.pin_cuts, request);
+        let Some(want) = want(request) else {
+            return Ok(choose_pose(self.mesh, &sides, request));
+        };
+        let faces = cut_faces(self.piece, self.planes, self.pin_cuts);
+        let outward: Vec<Vector> = faces.iter().map(|face| face.outward).collect();
+        let shape = self.shape(is_of_void);
+        let wall_mm = request.wall_mm;
+        let rules = PoseRules { want, wall_mm };
+        let ups = rank_poses(&shape, &outward, &rules, &request.watch)?;
+        let known = |down: &Vector| sides.iter().find(|side| is_same(&side.down, down));
+        let free = |down| Underside {
+            down,
+            lies: Lie::Leaning,
+        };
+        let ranked = ups
+            .iter()
+            .map(|up| known(&-up).cloned().unwrap_or_else(|| free(-up)));
+        let mut poses =
+            ranked.flat_map(|side| TURNS_DEG.map(|turn| lay(self.mesh, &side, turn, request)));
+        Ok(poses
+            .find(|pose| pose.fits)
+            .unwrap_or_else(|| choose_pose(self.mesh, &sides, request)))
+    }
+
+    /// Returns the surface with the kinds of its triangles.
+    fn shape(&self, is_of_void: impl Fn(&Point) -> bool) -> Shape<'_> {
+        let peg = |pin: &PinSite| Peg {
+            center: Point::from(pin.center_mm),
+            axis: Vector::from(pin.direction),
+            length_mm: pin.length_mm,
+            diameter_mm: pin.diameter_mm,
+        };
+        let is_on_cut = |p: &Point| {
+            self.planes
+                .iter()
+                .any(|plane| plane.distance(p).abs() < ON_CUT_MM)
+        };
+        let side = |index: usize| {
+            let corners = self.mesh.corners(index);
+            if corners.iter().any(&is_of_void) {
+                Side::Hollow
+            } else if corners.iter().all(is_on_cut) {
+                Side::CutFace
+            } else {
+                Side::Outside
+            }
+        };
+        Shape::new(self.mesh, self.pins.iter().map(peg).collect(), side)
+    }
+}
+
+/// Returns what the request wants of a pose that is chosen among all directions; `None` if it
+/// prefers a cut face.
+fn want(request: &PlanRequest) -> Option<Want> {
+    let overhang_deg = request.cleaning.overhang_deg;
+    let rule = |usual_deg: f64| SupportRule {
+        overhang_deg: overhang_deg.unwrap_or(usual_deg),
+        layer_mm: request.layer_mm,
+    };
+    match request.pose {
+        PosePreference::LittleSupport => Some(Want::LittleSupport(rule(FILAMENT_DEG))),
+        PosePreference::Tilted => Some(Want::NoCup(rule(RESIN_DEG))),
+        PosePreference::CutFaceDown | PosePreference::OpenHollowUp => None,
+    }
+}
+
+/// Returns whether two directions are the same up to rounding.
+fn is_same(a: &Vector, b: &Vector) -> bool {
+    (a.normalize() - b.normalize()).norm() < 1e-12
 }
 
 /// Returns whether the piece fits the build volume in some pose.

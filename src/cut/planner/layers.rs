@@ -9,14 +9,14 @@ use crate::{
         ids::{CutId, PartId},
         joints::{pin_shape::PinSite, pins::Pins},
         pieces::{
-            pose::{apply, choose_pose, sides_down},
+            part::{bits, voids_by_vertex},
+            pose::{Posed, apply},
             rejoin::rejoin,
             split::check_no_cavity,
         },
         plan::{CutMove, CutPlan},
         planner::{layout::Layout, score::Scene, to_plan::to_plan},
         remark::Remark,
-        request::PlanRequest,
     },
     geom::{Plane, Vector},
     mesh::move_off_vertices,
@@ -34,6 +34,7 @@ const ON_PLATE_MM: f64 = 1e-6;
 const SWEEPS: usize = 4;
 
 /// A cut face that is level in the printer.
+#[derive(Clone)]
 struct Level {
     cut: usize,
     part: usize,
@@ -55,7 +56,7 @@ pub(crate) fn snap_to_layers(
     plan: CutPlan,
     notes: Vec<Remark>,
 ) -> Result<CutPlan, CutError> {
-    let moves = moves(scene.request, layout, &plan);
+    let moves = moves(scene, layout, &plan)?;
     if moves.is_empty() {
         return Ok(plan);
     }
@@ -86,13 +87,16 @@ pub(crate) fn snap_to_layers(
 }
 
 /// Returns each moved cut, the part for which it moves, and the distance along its normal, mm.
-fn moves(request: &PlanRequest, layout: &Layout, plan: &CutPlan) -> Vec<(usize, usize, f64)> {
-    if request.layer_mm <= 0.0 {
-        return Vec::new();
+fn moves(
+    scene: &Scene,
+    layout: &Layout,
+    plan: &CutPlan,
+) -> Result<Vec<(usize, usize, f64)>, CutError> {
+    let layer_mm = scene.request.layer_mm;
+    if layer_mm <= 0.0 {
+        return Ok(Vec::new());
     }
-    let mut levels: Vec<Level> = (0..layout.pieces.len())
-        .flat_map(|part| levels(request, layout, plan, part))
-        .collect();
+    let mut levels: Vec<Level> = all_levels(scene, layout, plan)?;
     levels.sort_by(|a, b| b.area_mm2.total_cmp(&a.area_mm2));
     let deciding_level = |cut: usize| {
         levels
@@ -103,7 +107,7 @@ fn moves(request: &PlanRequest, layout: &Layout, plan: &CutPlan) -> Vec<(usize, 
     for _ in 0..SWEEPS {
         for cut in 0..moved_mm.len() {
             if let Some(level) = deciding_level(cut) {
-                moved_mm[cut] = to_layer_mm(level, &moved_mm, request.layer_mm);
+                moved_mm[cut] = to_layer_mm(level, &moved_mm, layer_mm);
             }
         }
     }
@@ -111,9 +115,32 @@ fn moves(request: &PlanRequest, layout: &Layout, plan: &CutPlan) -> Vec<(usize, 
         .iter()
         .enumerate()
         .filter(|(_, moved)| **moved != 0.0);
-    moves
+    Ok(moves
         .filter_map(|(cut, &moved)| Some((cut, deciding_level(cut)?.part, moved)))
-        .collect()
+        .collect())
+}
+
+/// Returns the level cut faces of all pieces in their poses in the printer.
+fn all_levels(scene: &Scene, layout: &Layout, plan: &CutPlan) -> Result<Vec<Level>, CutError> {
+    let void_of = voids_by_vertex(scene.hollowed);
+    let levels = |part: usize| {
+        let piece = &layout.pieces[part];
+        let pins = pins_on(layout, plan, part);
+        let cut_of = |pin: &PinSite| plan.cuts.iter().position(|cut| cut.id == pin.cut);
+        let mut pin_cuts: Vec<usize> = pins.iter().filter_map(cut_of).collect();
+        pin_cuts.dedup();
+        let posed = Posed {
+            mesh: &piece.mesh,
+            piece,
+            planes: &layout.tree.planes,
+            pins: &pins,
+            pin_cuts: &pin_cuts,
+        };
+        let pose = posed.pose(scene.request, |p| void_of.contains_key(&bits(p)))?;
+        Ok(levels(layout, part, &pose.print_from_model))
+    };
+    let levels = (0..layout.pieces.len()).map(levels);
+    Ok(levels.collect::<Result<Vec<_>, CutError>>()?.concat())
 }
 
 /// Returns the distance along its normal, mm, that brings the face to the nearest whole layer.
@@ -124,19 +151,16 @@ fn to_layer_mm(level: &Level, moved_mm: &[f64], layer_mm: f64) -> f64 {
     (layers * layer_mm - height_mm) * level.up
 }
 
-/// Returns the level cut faces of a piece in its pose in the printer.
-fn levels(request: &PlanRequest, layout: &Layout, plan: &CutPlan, part: usize) -> Vec<Level> {
+/// Returns the level cut faces of a piece that the motion brings into the printer.
+fn levels(layout: &Layout, part: usize, motion: &[[f64; 4]; 4]) -> Vec<Level> {
     let piece = &layout.pieces[part];
-    let pin_cuts = pin_cuts(layout, plan, part);
-    let sides = sides_down(piece, &layout.tree.planes, &pin_cuts, request);
-    let motion = choose_pose(&piece.mesh, &sides, request).print_from_model;
     let mut levels: Vec<Level> = Vec::new();
     for cap in &piece.caps {
         let plane = &layout.tree.planes[cap.cut];
         let up: f64 = (0..3).map(|i| motion[2][i] * plane.normal[i]).sum();
         if up.abs() >= LEVEL_COSINE {
             let at = Chart::of_plane(plane).lift(plane, &cap.inner_point());
-            let height_mm = apply(&motion, &at).z;
+            let height_mm = apply(motion, &at).z;
             let (cut, area_mm2) = (cap.cut, cap.area_mm2);
             levels.push(Level {
                 cut,
@@ -158,27 +182,24 @@ fn levels(request: &PlanRequest, layout: &Layout, plan: &CutPlan, part: usize) -
     levels
 }
 
-/// Returns the cuts on whose faces pins stand out of the part.
-fn pin_cuts(layout: &Layout, plan: &CutPlan, part: usize) -> Vec<usize> {
+/// Returns the printed pins that stand out of the part.
+fn pins_on(layout: &Layout, plan: &CutPlan, part: usize) -> Vec<PinSite> {
     let id = PartId::of(part);
-    let carries = |cut: usize| {
+    let joint_of = |pin: &PinSite| {
         plan.joints
             .iter()
-            .filter(|joint| joint.cut == CutId::of(cut))
-            .any(|joint| {
-                let stands = |pin: &&PinSite| joint.pins.contains(&pin.id) && pin.dowel.is_none();
-                let pins = plan.pins.iter().filter(stands);
-                let carrier = |direction: [f64; 3]| {
-                    let is_upward =
-                        layout.tree.planes[cut].normal.dot(&Vector::from(direction)) > 0.0;
-                    &joint.parts[usize::from(!is_upward)]
-                };
-                pins.into_iter().any(|pin| *carrier(pin.direction) == id)
-            })
+            .find(|joint| joint.pins.contains(&pin.id))
     };
-    (0..layout.tree.planes.len())
-        .filter(|&cut| carries(cut))
-        .collect()
+    let is_carried = |pin: &&PinSite| {
+        let cut = plan.cuts.iter().position(|cut| cut.id == pin.cut);
+        cut.zip(joint_of(pin)).is_some_and(|(cut, joint)| {
+            let normal = layout.tree.planes[cut].normal;
+            let is_upward = normal.dot(&Vector::from(pin.direction)) > 0.0;
+            joint.parts[usize::from(!is_upward)] == id
+        })
+    };
+    let printed = plan.pins.iter().filter(|pin| pin.dowel.is_none());
+    printed.filter(is_carried).cloned().collect()
 }
 
 /// Returns the layout with the moved planes, or `None` if it has other pieces or a worse opening.

@@ -261,8 +261,8 @@ fn grow_halves(halves: &mut [Aabb; 2], plane: &Plane, [from, to]: [Point; 2]) {
 /// their cut faces, or with these up if hollows should open upwards.
 fn overhang_ratio(scene: &Scene, plane: &Plane) -> f64 {
     let down = match scene.request.pose {
-        PosePreference::CutFaceDown => -1.0,
         PosePreference::OpenHollowUp => 1.0,
+        _ => -1.0,
     };
     let (mut over, mut all) = (0.0, 0.0);
     for [a, b, c] in scene.material.iter_corners() {

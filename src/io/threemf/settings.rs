@@ -35,6 +35,21 @@ pub struct Subject<'a> {
 /// A setting: its name and its value.
 type Pair = (&'static str, String);
 
+/// Support that takes little material, in PrusaSlicer's words: it follows the overhang, has no
+/// sheath, and ends in two dense layers.
+const LEAN_PRUSA: [[&str; 2]; 3] = [
+    ["support_material_style", "snug"],
+    ["support_material_with_sheath", "0"],
+    ["support_material_interface_layers", "2"],
+];
+
+/// The same in the words of Bambu Studio and OrcaSlicer.
+const LEAN_BAMBU: [[&str; 2]; 3] = [
+    ["support_type", "normal(auto)"],
+    ["support_style", "snug"],
+    ["support_interface_top_layers", "2"],
+];
+
 impl PrintSettings {
     /// Returns the settings in PrusaSlicer's words.
     fn for_prusa(&self) -> Vec<Pair> {
@@ -48,6 +63,7 @@ impl PrintSettings {
         if let Some(angle_deg) = self.overhang_deg {
             pairs.push(("support_material_auto", on_or_off(true)));
             pairs.push(("support_material_threshold", format!("{angle_deg:.0}")));
+            pairs.extend(LEAN_PRUSA.map(|[key, value]| (key, value.to_owned())));
         }
         pairs
     }
@@ -62,6 +78,7 @@ impl PrintSettings {
         ];
         if let Some(angle_deg) = self.overhang_deg {
             pairs.push(("support_threshold_angle", format!("{angle_deg:.0}")));
+            pairs.extend(LEAN_BAMBU.map(|[key, value]| (key, value.to_owned())));
         }
         pairs
     }
@@ -147,6 +164,7 @@ mod tests {
         for (xml, said) in [
             (&prusa, "key=\"fill_density\" value=\"100%\""),
             (&prusa, "key=\"support_material\" value=\"1\""),
+            (&prusa, "key=\"support_material_style\" value=\"snug\""),
             (&prusa, "lastid=\"11\""),
             (&bambu, "key=\"sparse_infill_density\" value=\"100%\""),
             (&bambu, "key=\"enable_support\" value=\"1\""),

@@ -74,6 +74,11 @@ pub struct PackageError {
 const COLORS_ID: usize = 1;
 /// Compression level, 1 to 9. On meshes, 6 takes four times as long as 3 and saves a tenth.
 const COMPRESSION_LEVEL: i64 = 3;
+/// The namespace of PrusaSlicer's attributes.
+const PRUSA_NAMESPACE: &str = "http://schemas.slic3r.org/3mf/2017/06";
+/// The attribute of a triangle that PrusaSlicer keeps free of support: a whole triangle (no low
+/// bits) in the second state of its painting tool.
+const BLOCKER: &str = " slic3rpe:custom_supports=\"8\"";
 /// The namespace of this program's own metadata.
 const OUR_NAMESPACE: &str = "urn:equipoise:kit";
 /// Permissions of an extracted file, on systems that keep them.
@@ -86,8 +91,26 @@ impl Object {
     /// restore them. Merges corners that coincide then, and leaves out triangles that lose a
     /// corner. A binary STL file of the same mesh holds the same triangles in the same order.
     pub fn new(name: &str, color: [u8; 3], mesh: &TriMesh) -> Self {
+        Self::with_blockers(name, color, mesh, |_| false)
+    }
+
+    /// Makes an object as [`new`](Self::new), of which PrusaSlicer leaves the blocked triangles
+    /// without support. `is_blocked` is asked with the corners of each.
+    pub fn with_blockers(
+        name: &str,
+        color: [u8; 3],
+        mesh: &TriMesh,
+        is_blocked: impl Fn(&[Point; 3]) -> bool,
+    ) -> Self {
         let mesh = weld(&mesh.map_vertices(round_to_single));
-        let whole: Vec<&[u32; 3]> = mesh.triangles().iter().filter(|t| is_whole(t)).collect();
+        let triangles = mesh.triangles().iter().filter(|t| is_whole(t));
+        let corners = |t: &[u32; 3]| t.map(|corner| mesh.vertices()[corner as usize]);
+        let whole: Vec<Facet> = triangles
+            .map(|t| Facet {
+                corners: *t,
+                is_blocked: is_blocked(&corners(t)),
+            })
+            .collect();
         Self {
             name: name.to_owned(),
             color,
@@ -95,6 +118,12 @@ impl Object {
             triangles: whole.len(),
         }
     }
+}
+
+/// A triangle to be written.
+struct Facet {
+    corners: [u32; 3],
+    is_blocked: bool,
 }
 
 impl Object {
@@ -148,7 +177,7 @@ impl Package<'_> {
         let colors: String = self.objects.iter().map(color_xml).collect();
         let head = format!(
             "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<model unit=\"millimeter\" xml:lang=\"en-US\" \
-             xmlns=\"{CORE_NAMESPACE}\" xmlns:equipoise=\"{OUR_NAMESPACE}\">\n"
+             xmlns=\"{CORE_NAMESPACE}\" xmlns:equipoise=\"{OUR_NAMESPACE}\" xmlns:slic3rpe=\"{PRUSA_NAMESPACE}\">\n"
         );
         let metadata: String = self
             .metadata()
@@ -231,7 +260,7 @@ fn is_whole([a, b, c]: &[u32; 3]) -> bool {
 }
 
 /// Writes a mesh in single precision, with these of its triangles.
-fn mesh_xml(mesh: &TriMesh, triangles: &[&[u32; 3]]) -> String {
+fn mesh_xml(mesh: &TriMesh, triangles: &[Facet]) -> String {
     let mut xml = String::from("<mesh><vertices>");
     for p in mesh.vertices() {
         // Writing into a string cannot fail.
@@ -242,8 +271,10 @@ fn mesh_xml(mesh: &TriMesh, triangles: &[&[u32; 3]]) -> String {
         );
     }
     xml.push_str("</vertices>\n<triangles>");
-    for [a, b, c] in triangles {
-        let _ = write!(xml, "<triangle v1=\"{a}\" v2=\"{b}\" v3=\"{c}\"/>");
+    for facet in triangles {
+        let [a, b, c] = facet.corners;
+        let blocker = if facet.is_blocked { BLOCKER } else { "" };
+        let _ = write!(xml, "<triangle v1=\"{a}\" v2=\"{b}\" v3=\"{c}\"{blocker}/>");
     }
     xml.push_str("</triangles></mesh>\n");
     xml

@@ -1,18 +1,11 @@
-//! The rows about the finished object: the effect of turning a yo-yo's half, and closed cups.
-
-use std::collections::BTreeMap;
+//! The rows about the finished object: the effect of turning a yo-yo's half, and cups.
 
 use super::facts::Facts;
-use crate::geom::{Matrix, Point, Vector};
+use crate::geom::{Matrix, Vector};
 use crate::mass::{Body, Moments};
 use crate::mesh::TriMesh;
-use crate::mesh::union_find::UnionFind;
-use crate::repair::weld;
+use crate::poses::{Columns, Shape, cup_volume_mm3};
 use crate::sheet::{Half, PartRow, TurnRow};
-
-/// Greatest height over the plate of a vertex that lies on it, mm. Files round to 1e-5 mm, and no
-/// layer is thinner than this.
-const ON_PLATE_MM: f64 = 1e-3;
 
 /// Returns the effect of turning half A of a yo-yo by a degree; `None` for a single body.
 pub fn turn_row(facts: &Facts, parts: &[PartRow]) -> Option<TurnRow> {
@@ -60,66 +53,21 @@ fn greatest_axis(moments: &Moments) -> Vector {
     axis * axis.z.signum()
 }
 
-/// Returns the volume of all hollows of a part in print pose whose only mouth lies flat on the
-/// plate, mm³; exact for the file.
-///
-/// Without the triangles on the plate, the surface separates into the outside and these hollows.
-/// The volume of a hollow above the plate is its negative flux −∫ z n_z dA.
-pub fn cup_mm3(printed: &TriMesh) -> f64 {
-    let mesh = weld(printed);
-    let floor_mm = mesh.aabb().min.z;
-    let is_floor = |index: usize| {
-        mesh.corners(index)
-            .iter()
-            .all(|p| p.z - floor_mm < ON_PLATE_MM)
-    };
-    let rest: Vec<usize> = (0..mesh.triangles().len())
-        .filter(|&index| !is_floor(index))
-        .collect();
-    let mut sets = UnionFind::new(mesh.vertices().len());
-    for &index in &rest {
-        let [a, b, c] = mesh.triangles()[index];
-        sets.merge(a, b);
-        sets.merge(b, c);
-    }
-    let mut volumes_mm3: BTreeMap<u32, f64> = BTreeMap::new();
-    for &index in &rest {
-        let root = sets.root(mesh.triangles()[index][0]);
-        *volumes_mm3.entry(root).or_default() += under_mm3(mesh.corners(index), floor_mm);
-    }
-    -volumes_mm3
-        .into_values()
-        .filter(|volume| *volume < 0.0)
-        .sum::<f64>()
-}
-
-/// Returns the volume between a triangle and the plate, mm³; negative if it faces down.
-fn under_mm3([a, b, c]: [Point; 3], floor_mm: f64) -> f64 {
-    let flat_mm2 = 0.5 * (b - a).cross(&(c - a)).z;
-    flat_mm2 * ((a.z + b.z + c.z) / 3.0 - floor_mm)
+/// Returns the volume of resin that a part in print pose encloses against a film, mm³. Lines
+/// through it are half a thinnest wall apart.
+pub fn cup_mm3(printed: &TriMesh, wall_mm: f64) -> f64 {
+    let columns = Columns::of(&Shape::plain(printed), &Vector::z(), 0.5 * wall_mm);
+    cup_volume_mm3(&columns)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::mass::moments_of_mesh;
-    use crate::mesh::{Csg, primitives};
+    use crate::mesh::primitives;
 
     fn block(low: [f64; 3], high: [f64; 3]) -> TriMesh {
         primitives::cuboid(&low.into(), &high.into())
-    }
-
-    #[test]
-    fn only_a_hollow_open_just_downward_is_a_cup() {
-        let body = block([0.0; 3], [20.0; 3]);
-        let body = Csg::of_mesh(&body).unwrap();
-        let cup = |hollow: &TriMesh| {
-            let left = body.subtract(&Csg::of_mesh(hollow).unwrap()).unwrap();
-            cup_mm3(&left.to_mesh().unwrap())
-        };
-        assert!((cup(&block([5.0, 5.0, -5.0], [15.0, 15.0, 12.0])) - 1200.0).abs() < 1e-9);
-        assert_eq!(cup(&block([5.0, 5.0, 8.0], [15.0, 15.0, 25.0])), 0.0);
-        assert_eq!(cup(&block([5.0, 5.0, -5.0], [15.0, 15.0, 25.0])), 0.0);
     }
 
     #[test]

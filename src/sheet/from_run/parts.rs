@@ -11,6 +11,9 @@ use crate::run::WrittenPart;
 use crate::sheet::{PartRow, part_picture_file};
 use crate::verify::{Fingerprint, PartFacts, Peg};
 
+/// The process whose parts are printed against a film.
+const VAT: &str = "sla";
+
 /// Least vertical component of the normal of a level face: within 0.8°.
 const LEVEL_COSINE: f64 = 0.9999;
 
@@ -18,6 +21,8 @@ const LEVEL_COSINE: f64 = 0.9999;
 pub fn part_rows(facts: &Facts) -> Vec<PartRow> {
     let halves = halves(facts.placed);
     let surfaces = Surfaces::of(facts.made);
+    let is_vat = facts.placed.shop.printer.process.as_deref() == Some(VAT);
+    let wall_mm = facts.placed.minimum_wall_mm();
     let parts = facts.made.parts.iter().zip(&facts.judgement.parts);
     let row = |(written, measured): (&WrittenPart, &PartFacts)| {
         let (part, plan) = (&written.part, &facts.made.plan);
@@ -41,11 +46,32 @@ pub fn part_rows(facts: &Facts) -> Vec<PartRow> {
             sockets,
             marks: part.labels.iter().map(mark).collect(),
             half: half_of(written, &halves),
-            cup_mm3: cup_mm3(&written.read_back),
+            cup_mm3: if is_vat {
+                cup_mm3(&written.read_back, wall_mm)
+            } else {
+                0.0
+            },
+            drains_over: if is_vat {
+                drains(written, facts)
+            } else {
+                Vec::new()
+            },
             picture: Some(part_picture_file(&part.id.to_string())),
         }
     };
     parts.map(row).collect()
+}
+
+/// Returns the cuts of a part through which its open hollow drains: those that open a void of it.
+fn drains(written: &WrittenPart, facts: &Facts) -> Vec<String> {
+    let plan = &facts.made.plan;
+    let opens = |cut: &&crate::cut::Cut| {
+        let mut voids = plan.voids.iter();
+        voids
+            .any(|void| written.part.voids.contains(&void.void) && void.opened_by.contains(&cut.id))
+    };
+    let cuts = plan.cuts_of(written.part.id).filter(opens);
+    cuts.map(|cut| cut.id.to_string()).collect()
 }
 
 /// Words the pose of a part on the plate: the cut faces that look down or up.
@@ -68,7 +94,12 @@ fn pose_words(written: &WrittenPart, facts: &Facts) -> String {
         .filter_map(facing)
         .collect();
     if facing.is_empty() {
-        "as the model stands".to_owned()
+        let up = facts.placed.placement.goal.frame.axis();
+        match (pose.rotation() * up).z {
+            z if z > LEVEL_COSINE => "as the model stands".to_owned(),
+            z if z < -LEVEL_COSINE => "upside down".to_owned(),
+            _ => "leaning, as in the picture".to_owned(),
+        }
     } else {
         facing.join(", ")
     }

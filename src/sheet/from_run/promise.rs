@@ -21,6 +21,7 @@ pub fn promise(placed: &Placed, made: &Made) -> Promise {
     Promise {
         schema: SCHEMA,
         printer: PrinterLimits {
+            process: printer.process.clone(),
             build_volume_mm: printer.usable_volume_mm(),
             print_scale_ratio: enlargement(printer.print_scale_ratio()),
             minimum_wall_mm: placed.minimum_wall_mm(),

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use crate::geom::{Plane, Point, Vector};
 use crate::mesh::union_find::UnionFind;
 use crate::mesh::{MeshDistance, TriMesh};
+use crate::poses::{Columns, Shape, Support, SupportRule};
 use crate::repair::weld;
 use crate::run::{Made, Placed, WrittenPart};
 use crate::sheet::SupportRow;
@@ -19,6 +20,9 @@ const SOCKET_ROOM_MM: f64 = 0.01;
 /// With a smaller side every facet would need support, with a larger one a fingertip would get
 /// none.
 const LEAST_LINES: f64 = 3.0;
+
+/// Distance between the columns of the estimate, mm: about a line of filament.
+const COLUMN_MM: f64 = 0.5;
 
 /// The kind of surface at a point of a part.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -108,7 +112,28 @@ pub fn support_row(
         least_mm2: (LEAST_LINES * placed.shop.printer.pixel_x_mm.value).powi(2),
     };
     let side = |at: &Point| surfaces.side(&pose.to_model(at), pegs);
-    Some(find_overhangs(&weld(&written.read_back), &rule, side))
+    let mesh = weld(&written.read_back);
+    let found = find_overhangs(&mesh, &rule, side);
+    let material_mm3 = if found.places > 0 {
+        let rule = SupportRule {
+            overhang_deg,
+            layer_mm: rule.layer_mm,
+        };
+        estimate_mm3(&mesh, &rule)
+    } else {
+        0.0
+    };
+    Some(SupportRow {
+        material_mm3,
+        ..found
+    })
+}
+
+/// Estimates the material of the support under a part in print pose, mm³.
+fn estimate_mm3(mesh: &TriMesh, rule: &SupportRule) -> f64 {
+    let (shape, up) = (Shape::plain(mesh), Vector::z());
+    let columns = Columns::of(&shape, &up, COLUMN_MM);
+    Support::of(&shape, &columns, &up, rule).material_mm3()
 }
 
 /// The rule by which a surface needs support.
@@ -193,6 +218,7 @@ fn to_row(places: &BTreeMap<(u32, Side), Place>) -> SupportRow {
         cut_face_mm2: area_mm2(Side::CutFace),
         from_mm: if places.is_empty() { 0.0 } else { from_mm },
         to_mm: heights().map(|[_, high]| high).fold(0.0, f64::max),
+        material_mm3: 0.0,
     }
 }
 
