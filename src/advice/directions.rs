@@ -49,16 +49,6 @@ pub(super) fn round_to(numbers: [f64; 3], decimals: i32) -> [f64; 3] {
     numbers.map(|number| (number * unit).round() / unit + 0.0)
 }
 
-/// Returns the word for a coordinate axis, or the vector.
-pub(super) fn name_axis(axis: &Vector) -> Up {
-    let words = [Up::X, Up::Y, Up::Z, Up::NegX, Up::NegY, Up::NegZ];
-    let is_it = |up: &Up| up.direction().is_some_and(|direction| direction == *axis);
-    words
-        .into_iter()
-        .find(is_it)
-        .unwrap_or(Up::Along((*axis).into()))
-}
-
 /// Returns the request with this axis.
 pub(super) fn with_axis(request: &Request, axis: &Vector) -> Request {
     Request {

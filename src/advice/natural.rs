@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::case::Case;
-use super::directions::{is_new, name_axis, round_direction};
+use super::directions::{is_new, round_direction};
 use super::orientation::{Place, by_score, candidates, place_on, place_with};
 use super::reached::Reached;
 use super::sampled_model::{COARSE_SAMPLES, SampledModel};

@@ -4,7 +4,7 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 use super::case::Case;
-use super::directions::{distinct, name_axis, with_axis};
+use super::directions::{distinct, with_axis};
 use super::natural::{NearbyAxis, name_direction, nearest_on};
 use super::orientation::special_axes;
 use super::reached::Reached;
@@ -132,7 +132,7 @@ fn resting(model: &SampledModel, natural: &Vector) -> Option<Prospect> {
     axes.sort_by(|a, b| b.dot(natural).total_cmp(&a.dot(natural)));
     let on = |axis: &Vector| {
         let off_deg = axis.angle(natural).to_degrees();
-        prospect(model, name_axis(axis), off_deg)
+        prospect(model, Up::of(axis), off_deg)
     };
     let found = axes.iter().filter_map(on).find(|found| found.possible);
     found.or(first)
@@ -143,7 +143,7 @@ fn resting(model: &SampledModel, natural: &Vector) -> Option<Prospect> {
 fn turning(model: &SampledModel, natural: &Vector) -> Option<Prospect> {
     let on = |axis: &Vector| {
         let off_deg = axis.angle(natural).to_degrees();
-        prospect(model, name_axis(axis), off_deg.min(180.0 - off_deg))
+        prospect(model, Up::of(axis), off_deg.min(180.0 - off_deg))
     };
     let best = |axes: &[Vector]| {
         let found = axes.iter().filter_map(on).filter(|found| found.possible);

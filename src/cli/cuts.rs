@@ -24,7 +24,7 @@ pub fn cuts(
     stop: &Stop,
 ) -> Result<Exit, PrepareError> {
     let out = &mut std::io::stdout();
-    let bars = Bars::new(voice.manner);
+    let bars = Bars::new(voice);
     let watch = Watch::observed_until(bars.observer(), stop.flag());
     let found = run(request, count, &watch);
     bars.finish();
