@@ -1,8 +1,8 @@
 //! The poses of filament parts need as little support as the best of 26 others, by a slicer that is
 //! not ours.
 //!
-//! Make kits for a printer of filament, name them, and run the ignored test; it takes five seconds
-//! or more for each of 27 slices of a part:
+//! Make kits for a printer of filament, name them, and run the ignored test. A part is sliced 27
+//! times, each in five seconds or more:
 //! ```sh
 //! export EQUIPOISE_KITS=homer-kit:bunny-kit
 //! cargo test --release --test poses -- --ignored --nocapture

@@ -27,8 +27,8 @@ const REMEDY_MARK: &str = "; remedy: ";
 ///   remedy: check the path
 /// ```
 ///
-/// Every remedy follows "; remedy: " in a message. In a message of several lines each line keeps its
-/// own. A cause whose words stand in an error above it is left out.
+/// Every remedy follows "; remedy: " in a message. In a message of several lines each line keeps
+/// its own. A cause whose words stand in an error above it is left out.
 pub fn error_text(error: &(dyn Error + 'static), is_coloured: bool) -> String {
     let (mut lines, mut remedies, mut said) = (Vec::new(), Vec::new(), String::new());
     for cause in chain(error) {

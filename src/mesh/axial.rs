@@ -89,8 +89,8 @@ impl AxialLine {
 
 /// Returns the crossing of the z axis with a triangle, if it passes through it.
 ///
-/// An axis through an edge or a corner passes through exactly one of the triangles around it, so
-/// that none is counted twice: it counts as moved by an infinitely small step.
+/// An axis through an edge or a corner counts as moved by an infinitely small step. So it passes
+/// through exactly one of the triangles around it.
 fn cross([a, b, c]: &[Vector; 3]) -> Option<Crossing> {
     let sides = [side(b, c), side(c, a), side(a, b)];
     let enters = sides == [false; 3];

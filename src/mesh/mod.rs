@@ -4,8 +4,9 @@
 //!   volume). [`Defects`] lists everything that keeps a mesh from being a solid.
 //! * **Topology:** `edges`, `fans` around a vertex, connected `shells`, [`bodies()`], and
 //!   `union_find` under them all.
-//! * **Measurements:** [`MeshFacts`], the body along an axis (`NearAxis`), self-intersections ([`Crossings`]), exact distances
-//!   ([`MeshDistance`]), and points spread evenly over a surface ([`spread_points`]).
+//! * **Measurements:** [`MeshFacts`], the body along an axis (`NearAxis`), self-intersections
+//!   ([`Crossings`]), exact distances ([`MeshDistance`]), and points spread evenly over a surface
+//!   ([`spread_points`]).
 //! * **Operations:** booleans, plane cuts and simplification ([`Csg`]); `cut_planes` keeps cuts off
 //!   vertices and faces.
 //! * **Shapes:** [`primitives`] for tests and tools.

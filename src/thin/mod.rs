@@ -17,9 +17,10 @@ mod places;
 mod tests;
 
 use crate::base::watch::{Cancelled, Watch};
-use crate::geom::Point;
 use crate::mesh::TriMesh;
 use medial::Touched;
+
+pub use places::ThinPlace;
 
 /// A feature that sticks out by more than this many walls is lost when it does not print.
 pub const LEAST_LENGTH_WALLS: f64 = 3.0;
@@ -37,16 +38,6 @@ pub struct ThinFeatures {
     pub ends: Vec<ThinPlace>,
     /// The pieces that only thin necks join to the rest, the largest first.
     pub necks: Vec<ThinPlace>,
-}
-
-/// A thin feature.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ThinPlace {
-    /// Its farthest point; of a neck its middle. Model frame, mm.
-    pub at: Point,
-    /// The length by which it sticks out of what is thick enough, mm; of a neck the length of the
-    /// piece behind it.
-    pub length_mm: f64,
 }
 
 /// Finds what of a closed mesh is thinner than a wall.

@@ -2,7 +2,6 @@
 
 use std::collections::HashMap;
 
-use super::ThinPlace;
 use super::medial::Touched;
 use crate::geom::Point;
 use crate::mesh::union_find::UnionFind;
@@ -14,6 +13,16 @@ const SAME_SIDE_COSINE: f64 = 0.0;
 const THIN_RATIO: f64 = 0.98;
 /// A piece behind a neck is told if it is wider than this many walls.
 const LEAST_PIECE_WALLS: f64 = 3.0;
+
+/// A thin feature.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ThinPlace {
+    /// Its farthest point; of a neck its middle. Model frame, mm.
+    pub at: Point,
+    /// The length by which it sticks out of what is thick enough, mm; of a neck the length of the
+    /// piece behind it.
+    pub length_mm: f64,
+}
 
 /// Points in cubes, for the search by place.
 struct Cubes {

@@ -2,8 +2,8 @@
 
 use super::joints::FilmError;
 use super::{
-    Check, CupFacts, Figures, FileChange, Fit, JigFacts, JointFacts, PartFacts, PegFacts, SpinFacts,
-    SurfaceFacts, VoidFacts,
+    Check, CupFacts, Figures, FileChange, Fit, JigFacts, JointFacts, PartFacts, PegFacts,
+    SpinFacts, SurfaceFacts, VoidFacts,
 };
 
 /// The judgement of a kit.

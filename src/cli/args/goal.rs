@@ -18,8 +18,9 @@ pub struct RotorArgs {
     /// 2.5]
     #[arg(long, value_name = "MM/S", value_parser = grade, allow_hyphen_values = true)]
     pub grade: Option<f64>,
-    /// The diameter of a bore that is made along the axis after printing; a hub stays solid around
-    /// it [default: none; the model has a bore or a shaft, which is found]
+    /// The diameter of a bore that is made along the axis after printing [default: none]
+    ///
+    /// A hub stays solid around it. Without this option a bore or shaft of the model is found.
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
     pub bore: Option<Length>,
 }

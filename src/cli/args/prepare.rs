@@ -87,8 +87,8 @@ pub struct PrepareArgs {
         help_heading = "Goal"
     )]
     pub contact: Option<Contact>,
-    /// A point on the axis of a yo-yo or rotor: center (of mass) or X,Y,Z in mm [default: center;
-    /// for a rotor its bore or shaft]
+    /// A point on the axis of a yo-yo or rotor: center (of mass) or X,Y,Z in mm
+    /// [default: center; a rotor's bore]
     #[arg(
         long,
         value_name = "POINT",

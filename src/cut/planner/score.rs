@@ -322,12 +322,6 @@ fn is_needless(joint: &Joint, joints: &[Joint]) -> bool {
 }
 
 impl Burden {
-    /// Returns the price of the seam and of its slant, in circles about the model of average
-    /// weight; `None` if nobody looked.
-    pub(crate) fn look_ratio(&self) -> Option<f64> {
-        self.seen_ratio.map(|seen| seen + self.slant_price)
-    }
-
     /// Returns the sum of the weighted terms of one cut, 0 at best.
     pub(crate) fn penalty(&self, scene: &Scene) -> f64 {
         self.terms(scene).iter().map(|(_, value)| value).sum()

@@ -39,8 +39,8 @@ impl SeamStyle {
 pub struct Seams {
     /// The balls that no seam enters.
     pub keep_clear: Vec<KeepClear>,
-    /// Weight of walls that lack sight against seams: what they hold stays solid. `None`: a plan
-    /// with which every void is clean comes first, whatever its seams.
+    /// Weight of walls that lack sight against seams: what they hold stays solid. If `None`, a plan
+    /// that lets every void be cleaned comes first, whatever its seams.
     pub lack_weight: Option<f64>,
     /// True if only level cuts are made.
     pub only_level: bool,

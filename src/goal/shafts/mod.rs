@@ -7,11 +7,11 @@
 //!
 //! The files, in reading order:
 //!
-//! * `patches`: points spread over the surface, and the cylinder that fits one patch of them
+//! * `patches`: points spread over the surface, and patches of them
 //!
 //! * `cylinder`: a cylinder, its distance from a point, and its fit to many
 //!
-//! * `vote`: the cylinders on which many patches agree
+//! * `vote`: the cylinder that fits a patch, and those on which many patches agree
 //!
 //! * `round`: the part of a cylinder that the mesh really covers, all around
 //!
@@ -37,13 +37,15 @@ use cylinder::Cylinder;
 use patches::Samples;
 use round::{Measured, measure};
 
+pub use round::{RoundKind, RoundSurface};
+
 /// Axes within 1.5° and half a millimetre, or 5 % of the smaller radius, are one.
 const SAME_COSINE: f64 = 0.99966;
 const SAME_MM: f64 = 0.5;
 const SAME_RATIO: f64 = 0.05;
 
-/// The decimals of an axis as it is typed: over a metre they are a tenth of a millimetre, and
-/// half a micrometre of a point.
+/// The decimals of an axis as it is typed: over a metre the last is a tenth of a millimetre.
+/// Those of a point give it to half a micrometre.
 const DIRECTION_DECIMALS: i32 = 4;
 const POINT_DECIMALS: i32 = 3;
 
@@ -51,42 +53,6 @@ const POINT_DECIMALS: i32 = 3;
 fn round(number: f64, decimals: i32) -> f64 {
     let unit = 10f64.powi(decimals);
     (number * unit).round() / unit + 0.0
-}
-
-/// The kind of a round surface.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum RoundKind {
-    /// A hole, right through or not.
-    Bore,
-    /// The end of the model itself.
-    ShaftEnd,
-}
-
-/// A round surface that a rotor can turn on.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct RoundSurface {
-    /// The kind.
-    pub kind: RoundKind,
-    /// The diameter, mm.
-    pub diameter_mm: f64,
-    /// The length over which it is round, mm.
-    pub length_mm: f64,
-    /// The middle of its axis, model frame, mm.
-    pub middle: Point,
-}
-
-impl fmt::Display for RoundSurface {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let what = match self.kind {
-            RoundKind::Bore => "bore",
-            RoundKind::ShaftEnd => "shaft end",
-        };
-        let (diameter_mm, length_mm) = (self.diameter_mm, self.length_mm);
-        write!(
-            f,
-            "{what} of {diameter_mm:.1} mm diameter, {length_mm:.1} mm long"
-        )
-    }
 }
 
 /// An axis on which a rotor can turn.
@@ -126,8 +92,8 @@ impl ShaftAxis {
         words.join(", ")
     }
 
-    /// Returns true if a line runs along this axis: within 1.5°, and at the surfaces within half a
-    /// millimetre or 5 % of their radius.
+    /// Returns true if a line runs along this axis, within 1.5°. At the surfaces it passes within
+    /// half a millimetre or 5 % of their radius.
     pub fn is_along(&self, point: &Point, direction: &Vector) -> bool {
         let least_mm = self.surfaces.iter().map(|surface| surface.diameter_mm);
         let radius_mm = 0.5 * least_mm.fold(f64::INFINITY, f64::min);

@@ -1,8 +1,7 @@
-//! Points spread over a surface, and the cylinder that fits a patch of them.
+//! Points spread over a surface, and patches of them.
 
 use std::collections::HashMap;
 
-use super::cylinder::Cylinder;
 use crate::geom::{Point, Vector};
 use crate::mesh::{TriMesh, spread_points};
 
@@ -12,16 +11,6 @@ const COUNT: usize = 20_000;
 pub(super) const PATCH_RATIOS: [f64; 4] = [0.012, 0.025, 0.05, 0.1];
 /// A patch holds points whose normals are within 75° of its middle's: no other wall behind it.
 const SAME_SIDE_COSINE: f64 = 0.26;
-/// Fewer points, and the fit says nothing.
-const LEAST_POINTS: usize = 7;
-/// A patch of more points is thinned to about as many.
-const MOST_POINTS: usize = 60;
-/// The greatest distance of a patch's points from its cylinder, as a share of the radius, root mean
-/// square.
-const MOST_OFF_RATIO: f64 = 0.05;
-/// The largest cylinder that a patch can tell, in radii of the patch: the patch then bends by 14°
-/// to each side.
-const MOST_RADII: f64 = 4.0;
 
 /// A point of the surface with the normal of its triangle.
 #[derive(Debug, Clone, Copy)]
@@ -85,32 +74,15 @@ fn cube_of(at: &Point, size_mm: f64) -> [i64; 3] {
 /// The points of a surface in cubes as large as a patch's radius.
 pub(super) struct Cubes<'a> {
     samples: &'a Samples,
-    size_mm: f64,
+    /// The size of the cubes, and the radius of a patch, mm.
+    pub size_mm: f64,
     cubes: HashMap<[i64; 3], Vec<u32>>,
 }
 
 impl Cubes<'_> {
-    /// Returns the cylinder that fits the patch about a point; `None` if none does.
-    pub fn fit_patch(&self, index: usize) -> Option<Cylinder> {
+    /// Returns the points within a radius of a point that look to the same side, by place.
+    pub fn patch(&self, index: usize) -> Vec<Sample> {
         let middle = self.samples.points[index];
-        let mut patch = self.patch(&middle);
-        if patch.len() < LEAST_POINTS {
-            return None;
-        }
-        let step = patch.len().div_ceil(MOST_POINTS);
-        patch = patch.into_iter().step_by(step).collect();
-        let fitted = Cylinder::fit(&patch)?;
-        let square = |point: &Sample| (fitted.across(&point.at).norm() - fitted.radius_mm).powi(2);
-        let off_mm = (patch.iter().map(square).sum::<f64>() / patch.len() as f64).sqrt();
-        let on_it = |point: &&Sample| fitted.holds(&point.at, &point.normal, 1.0);
-        let is_turned = patch.iter().filter(on_it).count() * 10 >= patch.len() * 9;
-        let is_told = fitted.radius_mm <= MOST_RADII * self.size_mm
-            && off_mm <= MOST_OFF_RATIO * fitted.radius_mm;
-        (is_told && is_turned).then_some(fitted)
-    }
-
-    /// Returns the points within a radius of the middle that look to the same side, by place.
-    fn patch(&self, middle: &Sample) -> Vec<Sample> {
         let [x, y, z] = cube_of(&middle.at, self.size_mm);
         let offsets = (-1..=1)
             .flat_map(|i| (-1..=1).flat_map(move |j| (-1..=1).map(move |k| [x + i, y + j, z + k])));

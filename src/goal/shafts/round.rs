@@ -1,9 +1,9 @@
 //! The part of a cylinder that a mesh covers all around.
 
 use std::f64::consts::{PI, TAU};
+use std::fmt;
 
 use super::cylinder::Cylinder;
-use super::{RoundKind, RoundSurface};
 use crate::geom::{Point, Vector};
 use crate::mesh::TriMesh;
 
@@ -30,6 +30,42 @@ const MOST_OFF_RATIO: f64 = 0.03;
 const END_RATIO: f64 = 0.3;
 /// Beside a shaft end the model is no wider than this many radii.
 const CLEAR_RADII: f64 = 1.06;
+
+/// The kind of a round surface.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum RoundKind {
+    /// A hole, right through or not.
+    Bore,
+    /// The end of the model itself.
+    ShaftEnd,
+}
+
+/// A round surface that a rotor can turn on.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RoundSurface {
+    /// The kind.
+    pub kind: RoundKind,
+    /// The diameter, mm.
+    pub diameter_mm: f64,
+    /// The length over which it is round, mm.
+    pub length_mm: f64,
+    /// The middle of its axis, model frame, mm.
+    pub middle: Point,
+}
+
+impl fmt::Display for RoundSurface {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let what = match self.kind {
+            RoundKind::Bore => "bore",
+            RoundKind::ShaftEnd => "shaft end",
+        };
+        let (diameter_mm, length_mm) = (self.diameter_mm, self.length_mm);
+        write!(
+            f,
+            "{what} of {diameter_mm:.1} mm diameter, {length_mm:.1} mm long"
+        )
+    }
+}
 
 /// A cylinder with the part of it that is round.
 pub(super) struct Measured {

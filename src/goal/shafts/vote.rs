@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::cylinder::Cylinder;
-use super::patches::{PATCH_RATIOS, Samples};
+use super::patches::{Cubes, PATCH_RATIOS, Sample, Samples};
 use crate::base::watch::{Cancelled, Watch};
 
 /// Two fits agree if their axes are within 6°, and pass within 12 % of the radius of each other,
@@ -14,9 +14,19 @@ const SAME_RATIO: f64 = 0.12;
 const LEAST_VOTES: usize = 5;
 /// The number of cylinders that are looked at more closely.
 const MOST: usize = 120;
-/// The number of cylinders that are counted for one size of patches. Free forms give many that repeat nowhere;
-/// more than this would cost seconds.
+/// The number of cylinders that are counted for one size of patches. Free forms give many that
+/// repeat nowhere; more than this would cost seconds.
 const MOST_COUNTED: usize = 4000;
+/// Fewer points, and the fit says nothing.
+const LEAST_POINTS: usize = 7;
+/// A patch of more points is thinned to about as many.
+const MOST_POINTS: usize = 60;
+/// The greatest distance of a patch's points from its cylinder, as a share of the radius, root mean
+/// square.
+const MOST_OFF_RATIO: f64 = 0.05;
+/// The largest cylinder that a patch can tell, in radii of the patch: the patch then bends by 14°
+/// to each side.
+const MOST_RADII: f64 = 4.0;
 
 /// A cylinder and the number of patches that agree on it.
 struct Counted {
@@ -33,6 +43,24 @@ impl Counted {
             && known.axis.dot(&other.axis).abs() >= SAME_COSINE
             && known.across(&other.point).norm() <= most_mm
     }
+}
+
+/// Returns the cylinder that fits the patch about a point; `None` if none does.
+fn fit_patch(cubes: &Cubes, index: usize) -> Option<Cylinder> {
+    let mut patch = cubes.patch(index);
+    if patch.len() < LEAST_POINTS {
+        return None;
+    }
+    let step = patch.len().div_ceil(MOST_POINTS);
+    patch = patch.into_iter().step_by(step).collect();
+    let fitted = Cylinder::fit(&patch)?;
+    let square = |point: &Sample| (fitted.across(&point.at).norm() - fitted.radius_mm).powi(2);
+    let off_mm = (patch.iter().map(square).sum::<f64>() / patch.len() as f64).sqrt();
+    let on_it = |point: &&Sample| fitted.holds(&point.at, &point.normal, 1.0);
+    let is_turned = patch.iter().filter(on_it).count() * 10 >= patch.len() * 9;
+    let is_told = fitted.radius_mm <= MOST_RADII * cubes.size_mm
+        && off_mm <= MOST_OFF_RATIO * fitted.radius_mm;
+    (is_told && is_turned).then_some(fitted)
 }
 
 /// Returns the cylinders on which enough patches of one size agree.
@@ -60,7 +88,7 @@ pub(super) fn count(samples: &Samples, watch: &Watch) -> Result<Vec<Cylinder>, C
         watch.check()?;
         let cubes = samples.cubes(ratio * samples.diagonal_mm);
         let fitted = (0..samples.len()).into_par_iter();
-        let fitted: Vec<Option<Cylinder>> = fitted.map(|i| cubes.fit_patch(i)).collect();
+        let fitted: Vec<Option<Cylinder>> = fitted.map(|i| fit_patch(&cubes, i)).collect();
         counted.extend(count_patches(&fitted, watch)?);
     }
     counted.sort_by_key(|one| std::cmp::Reverse(one.votes));
