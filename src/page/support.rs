@@ -141,7 +141,10 @@ mod tests {
         let words = of_part(&sheet, &sheet.parts[0])
             .unwrap()
             .replace('\u{a0}', " ");
-        assert_eq!(words, "Support on: 1.5 cm² in the open hollow.");
+        assert_eq!(
+            words,
+            "Support on: 1.5 cm² in the open hollow; about 1.20 g."
+        );
         sheet
             .parts
             .iter_mut()

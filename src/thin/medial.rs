@@ -9,6 +9,8 @@ use crate::mesh::{TriMesh, area_mm2, spread_points};
 /// The distance between points, in walls, and the most points: more would take seconds.
 const SPACING_WALLS: f64 = 0.6;
 const MOST_POINTS: f64 = 60_000.0;
+/// The radius of the largest balls, in walls: wide enough to reach a corner's other side.
+const MOST_RADIUS_WALLS: f64 = 2.0;
 /// The number of times that a ball is shrunk at most. It takes 3 to 8.
 const MOST_SHRINKS: usize = 24;
 /// A ball whose nearest surface is within this share of its radius touches it.
@@ -19,9 +21,10 @@ const TOUCHES_RATIO: f64 = 1e-3;
 pub(super) struct Touch {
     pub at: Point,
     pub normal: Vector,
-    /// The diameter of the ball, mm: the thickness of the model there.
+    /// The diameter of the ball, mm: the thickness of the model there, at most four walls.
     pub width_mm: f64,
-    /// The point at which the ball touches the surface on the other side.
+    /// The point at which the ball touches the surface on the other side; this point if it is too
+    /// far.
     pub other_side: Point,
 }
 
@@ -49,7 +52,7 @@ impl Touched {
         let count = (area / spacing_mm.powi(2)).ceil() as usize;
         let spread = spread_points(&corners, count);
         let bvh = Bvh::new(corners.iter().copied());
-        let most_mm = 0.5 * mesh.aabb().size().norm();
+        let most_mm = MOST_RADIUS_WALLS * wall_mm;
         let points = spread.into_par_iter().filter_map(|point| {
             let [a, b, c] = corners[point.triangle];
             let normal = (b - a).cross(&(c - a)).try_normalize(0.0)?;
@@ -69,7 +72,7 @@ impl Touched {
 /// Returns the greatest ball that touches the surface at a point from inside, at most as large as
 /// the start.
 fn touch(bvh: &Bvh, at: &Point, normal: &Vector, most_mm: f64) -> Touch {
-    let (mut radius_mm, mut other_side) = (most_mm, at - normal * (2.0 * most_mm));
+    let (mut radius_mm, mut other_side) = (most_mm, *at);
     let mut hint = NO_HINT;
     for _ in 0..MOST_SHRINKS {
         let center = at - normal * radius_mm;

@@ -9,6 +9,7 @@ use super::limits::{
     STRING_GAP_TOLERANCE_MM, VOLUME_SUM_LIMIT_RATIO, WALL_TOLERANCE_MM,
 };
 use super::play::worst_joint;
+use super::thin_checks::thin_checks;
 use super::void_checks::void_checks;
 use super::{
     Check, CheckKind, CupFacts, JigFacts, Judgement, Limit, PartFacts, Peg, PegFacts, Promise,
@@ -29,6 +30,7 @@ pub fn checks(promise: &Promise, found: &Judgement) -> Vec<Check> {
             .wall_min_mm
             .map(|wall_mm| wall_check(promise.wall.required_mm, wall_mm)),
     );
+    checks.extend(thin_checks(&found.thin));
     checks.extend(fit_checks(promise, found));
     checks.extend(found.ballast_room_mm.map(ballast_check));
     checks.extend(surface_checks(found));

@@ -19,6 +19,7 @@ use super::{
 use crate::base::watch::{Cancelled, Watch};
 use crate::mass::{Moments, moments_of_mesh};
 use crate::repair::weld;
+use crate::thin::find_thin;
 
 /// Measures the evidence and checks every promise against it.
 ///
@@ -65,6 +66,7 @@ pub fn judge(evidence: &Evidence, watch: &Watch) -> Result<Judgement, Cancelled>
         ),
         spin: SpinFacts::of_top(&promise.goal, &promise.hardware, &outer),
         ballast_room_mm: least_room_mm(&promise.ballast, &welded, &outer),
+        thin: find_thin(&outer, promise.printer.minimum_wall_mm, watch)?,
         cups: measure_cups(promise, &evidence.parts, watch)?,
         pegs: measure_pegs(promise, &probes, &evidence.hollowed, watch)?,
         joints: measure_joints(promise, &evidence.parts, &jigs),

@@ -55,7 +55,7 @@ fn promise(poses: &[Pose]) -> Promise {
     Promise {
         schema: SCHEMA,
         printer: PrinterLimits {
-            process: None,
+            process: Some("polyjet".into()),
             build_volume_mm: Some([100.0, 100.0, 6.0]),
             print_scale_ratio: None,
             minimum_wall_mm: 1.0,

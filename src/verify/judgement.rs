@@ -5,6 +5,7 @@ use super::{
     Check, CupFacts, Figures, FileChange, Fit, JigFacts, JointFacts, PartFacts, PegFacts,
     SpinFacts, SurfaceFacts, VoidFacts,
 };
+use crate::thin::ThinFeatures;
 
 /// The judgement of a kit.
 #[derive(Debug, Clone, PartialEq)]
@@ -27,6 +28,8 @@ pub struct Judgement {
     pub spin: Option<SpinFacts>,
     /// The least gap around a part of ballast, mm; `None` without ballast.
     pub ballast_room_mm: Option<f64>,
+    /// What of the outer surface is thinner than the printer's least wall.
+    pub thin: ThinFeatures,
     /// The resin that each part encloses while it is printed; empty for other processes than resin
     /// in a vat.
     pub cups: Vec<CupFacts>,

@@ -45,6 +45,10 @@ pub enum CheckKind {
     },
     /// Smallest wall between a void and the outside.
     Wall,
+    /// Features of the model that are thinner than the printer's least wall.
+    ThinFeatures,
+    /// Pieces of the model that hang by necks as thin.
+    ThinNecks,
     /// Room around the hardware in its sockets.
     Hardware,
     /// Gap between the halves of a yo-yo.
@@ -135,6 +139,8 @@ impl fmt::Display for CheckKind {
             Self::BalanceQuality => "balance quality",
             Self::PromisedFigure { figure } => figure.name(),
             Self::Wall => "wall",
+            Self::ThinFeatures => "thin features",
+            Self::ThinNecks => "thin necks",
             Self::Hardware => "hardware",
             Self::StringGap => "string gap",
             Self::Grip => "grip",
@@ -173,7 +179,7 @@ mod tests {
     use serde_json::json;
 
     /// The keys and names of all kinds without data.
-    const KEYS: [(CheckKind, &str, &str); 38] = [
+    const KEYS: [(CheckKind, &str, &str); 40] = [
         (CheckKind::AxisOffset, "axis-offset", "axis offset"),
         (CheckKind::AxisTilt, "axis-tilt", "axis tilt"),
         (CheckKind::Dominance, "dominance", "dominance"),
@@ -190,6 +196,8 @@ mod tests {
             "balance quality",
         ),
         (CheckKind::Wall, "wall", "wall"),
+        (CheckKind::ThinFeatures, "thin-features", "thin features"),
+        (CheckKind::ThinNecks, "thin-necks", "thin necks"),
         (CheckKind::Hardware, "hardware", "hardware"),
         (CheckKind::StringGap, "string-gap", "string gap"),
         (CheckKind::Grip, "grip", "grip"),

@@ -42,6 +42,7 @@ mod judge;
 mod judgement;
 mod kind;
 mod limits;
+mod thin_checks;
 mod void_checks;
 // The checks of the files of a kit as they were delivered.
 mod change;

@@ -71,7 +71,7 @@ const ARROWS: &[(&str, &[&str])] = &[
     (
         "verify",
         &[
-            "repair", "base", "geom", "goal", "io", "mass", "mesh", "printer",
+            "repair", "base", "geom", "goal", "io", "mass", "mesh", "printer", "thin",
         ],
     ),
     ("draw", &["base", "geom", "mesh"]),

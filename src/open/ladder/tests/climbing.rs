@@ -90,7 +90,11 @@ fn a_cut_for_cleaning_alone_is_left_out_and_the_hidden_end_stays_solid() {
     );
     assert!(lacking > 0);
     assert!(loss_ratio > 0.0, "{loss_ratio}");
-    assert_eq!(usual.remarks, [Remark::SteppedDown(Rung::Bosses)]);
+    let [Remark::FewerParts { parts, .. }, stepped] = &usual.remarks[..] else {
+        panic!("{:?}", usual.remarks)
+    };
+    assert_eq!(*parts, [2, usual.plan.count_parts()]);
+    assert_eq!(*stepped, Remark::SteppedDown(Rung::Bosses));
 }
 
 #[test]
