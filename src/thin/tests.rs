@@ -1,6 +1,7 @@
 //! Thin features of shapes whose widths are known.
 
 use super::*;
+use crate::geom::Point;
 use crate::mesh::{Csg, primitives};
 
 fn cuboid(min: [f64; 3], max: [f64; 3]) -> Csg {

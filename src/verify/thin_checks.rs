@@ -62,7 +62,7 @@ mod tests {
         let [broken, _] = thin_checks(&features(&[4.0, 2.0], &[1.0], &[]));
         assert!(!broken.pass);
         assert_eq!(broken.value, Some(4.0));
-        assert_eq!(broken.at.as_deref(), Some("1.0,2.0,3.0 mm"));
+        assert_eq!(broken.detail.as_deref(), Some("1.0,2.0,3.0 mm"));
         let [kept, necks] = thin_checks(&features(&[], &[1.7], &[]));
         assert!(kept.pass && necks.pass);
         assert_eq!(kept.value, Some(1.7));
