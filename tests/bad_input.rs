@@ -32,7 +32,7 @@ fn refuse_path(folder: &Path, model: &Path) -> String {
     assert_exit(&output, 2);
     let said = text(&output.stderr);
     assert!(
-        said.starts_with("error: ") && !said.contains("panicked"),
+        said.lines().any(|line| line.starts_with("error: ")) && !said.contains("panicked"),
         "{said}"
     );
     let after = fs::read_dir(folder).unwrap().count();

@@ -15,7 +15,10 @@ use common::{assert_exit, json, list, make_kit, number, prepare_quickly, verify}
 fn a_tilted_ellipsoid_becomes_a_rotor_within_its_grade() {
     let folder = tempfile::tempdir().unwrap();
     let kit = folder.path().join("rotor");
-    let sheet = make_kit(&kit, "--wall 1.5mm --goal balance --speed 6000 --bore 4mm");
+    let sheet = make_kit(
+        &kit,
+        "--wall 1.5mm --goal balance --up z --speed 6000 --bore 4mm",
+    );
     let solid = number(&sheet, "/solid/unbalance/grade_mm_s");
     assert!(solid > 100.0, "a solid one shakes: {solid}");
     assert!(number(&sheet, "/assembly/unbalance/grade_mm_s") <= 2.5);
@@ -46,7 +49,10 @@ fn a_hollow_ellipsoid_floats_upright_and_the_sheet_says_to_seal_it() {
 #[test]
 fn an_impossible_goal_is_proved_with_its_reason_and_remedies() {
     for (goal, reason) in [
-        ("balance --spin-point 20,0,0", "balance grade stays at G"),
+        (
+            "balance --bore 2mm --spin-point 20,0,0",
+            "balance grade stays at G",
+        ),
         ("float --waterline 1mm", "times the water it displaces"),
         (
             "float --liquid 9 --waterline 30mm",

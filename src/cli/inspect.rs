@@ -169,7 +169,7 @@ pub(super) fn size_hint(longest_mm: f64) -> Option<String> {
         format!(
             "its longest side would be {}: the file's numbers are hardly mm; give their unit, cm, m \
              or in (`{}`), or the size of the object (`{}`)",
-            plain(longest_mm, "mm"),
+            show_mm(longest_mm),
             Setting::open(Key::Unit),
             Setting::new(Key::Size, "100mm")
         )

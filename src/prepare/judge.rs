@@ -10,7 +10,7 @@ use crate::repair::weld;
 use crate::run::{Made, Placed, WrittenJig};
 use crate::sheet::Verdict;
 use crate::sheet::from_run::{promise, promised_figure};
-use crate::verify::{Evidence, Judgement, PromisedFigure, Shells, checks, judge};
+use crate::verify::{Evidence, Judgement, PromisedFigure, Shells, checks, judge, loose_jigs};
 
 /// A kit in draft: its parts judged, its pictures taken.
 pub struct Draft {
@@ -48,7 +48,7 @@ impl Draft {
 
 /// Encodes the files of a kit, reads them back and judges them.
 pub fn draft(placed: &Placed, made: Made, watch: &Watch) -> Result<Draft, Error> {
-    let made = repack(placed, made, watch)?;
+    let mut made = repack(placed, made, watch)?;
     watch.enter(Phase::Verify);
     let title = format!("{} hollowed", placed.name());
     let hollowed = stl::encode(&made.hollowed.to_mesh(), &title);
@@ -59,6 +59,12 @@ pub fn draft(placed: &Placed, made: Made, watch: &Watch) -> Result<Draft, Error>
         jigs: made.jigs.iter().map(WrittenJig::evidence).collect(),
     };
     let shells = Shells::of_mesh(&weld(&evidence.hollowed));
+    let loose = loose_jigs(&evidence, &shells.outer_mesh(), watch)?;
+    if !loose.is_empty() {
+        made.jigs.retain(|jig| !loose.contains(&jig.id()));
+        evidence.promise = promise(placed, &made);
+        evidence.jigs = made.jigs.iter().map(WrittenJig::evidence).collect();
+    }
     let cuts = made.plan.partings()?;
     let subject = subject(&evidence, &shells, &cuts);
     let (judgement, ((pictures, view), packages)) = rayon::join(

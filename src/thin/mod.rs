@@ -17,8 +17,9 @@ mod places;
 mod tests;
 
 use crate::base::watch::{Cancelled, Watch};
-use crate::mesh::TriMesh;
+use crate::mesh::{TriMesh, bodies};
 use medial::Touched;
+use places::{features, necks, sort};
 
 pub use places::ThinPlace;
 
@@ -40,7 +41,7 @@ pub struct ThinFeatures {
     pub necks: Vec<ThinPlace>,
 }
 
-/// Finds what of a closed mesh is thinner than a wall.
+/// Finds what of the bodies of a closed mesh is thinner than a wall.
 ///
 /// A feature's length is right to about a wall. Necks shorter than two walls may be missed. Takes
 /// about a second. The answer is the same for any number of threads.
@@ -48,17 +49,26 @@ pub struct ThinFeatures {
 /// # Errors
 /// The watch was stopped.
 pub fn find_thin(mesh: &TriMesh, wall_mm: f64, watch: &Watch) -> Result<ThinFeatures, Cancelled> {
-    let touched = Touched::of(mesh, wall_mm, watch)?;
-    watch.check()?;
-    let places = places::features(&touched, wall_mm);
-    let necks = places::necks(&touched, wall_mm);
-    let told = |place: &ThinPlace| place.length_mm > LEAST_TOLD_WALLS * wall_mm;
-    let is_lost = |place: &ThinPlace| place.length_mm > LEAST_LENGTH_WALLS * wall_mm;
-    let (lost, ends) = places.into_iter().filter(told).partition(is_lost);
-    Ok(ThinFeatures {
+    let mut found = ThinFeatures {
         wall_mm,
-        lost,
-        ends,
-        necks,
-    })
+        lost: Vec::new(),
+        ends: Vec::new(),
+        necks: Vec::new(),
+    };
+    for body in bodies(mesh) {
+        let touched = Touched::of(&body, wall_mm, watch)?;
+        watch.check()?;
+        for place in features(&touched, wall_mm) {
+            if place.length_mm > LEAST_LENGTH_WALLS * wall_mm {
+                found.lost.push(place);
+            } else if place.length_mm > LEAST_TOLD_WALLS * wall_mm {
+                found.ends.push(place);
+            }
+        }
+        found.necks.extend(necks(&touched, wall_mm));
+    }
+    for places in [&mut found.lost, &mut found.ends, &mut found.necks] {
+        sort(places);
+    }
+    Ok(found)
 }

@@ -57,8 +57,8 @@ fn cube_of(at: &Point, size_mm: f64) -> [i64; 3] {
     [at.x, at.y, at.z].map(|coordinate| (coordinate / size_mm).floor() as i64)
 }
 
-/// Returns the thin features, the longest first: groups of thin points, each as long as its
-/// farthest point is from what is thick.
+/// Returns the thin features, in any order: groups of thin points, each as long as its farthest
+/// point is from what is thick.
 pub(super) fn features(touched: &Touched, wall_mm: f64) -> Vec<ThinPlace> {
     let points = &touched.points;
     let is_thin = |i: usize| points[i].width_mm < THIN_RATIO * wall_mm;
@@ -77,7 +77,7 @@ pub(super) fn features(touched: &Touched, wall_mm: f64) -> Vec<ThinPlace> {
             *known = ThinPlace { at, length_mm };
         }
     }
-    sorted(farthest.into_values().collect())
+    farthest.into_values().collect()
 }
 
 /// The most walls that a distance is searched over.
@@ -100,8 +100,7 @@ fn distance_mm(touched: &Touched, thick: &Cubes, at: &Point) -> f64 {
     }
 }
 
-/// Returns the pieces that only necks thinner than the wall join to the largest, the largest
-/// first.
+/// Returns the pieces that only necks thinner than the wall join to the largest, in any order.
 pub(super) fn necks(touched: &Touched, wall_mm: f64) -> Vec<ThinPlace> {
     let points = &touched.points;
     let is_thick = |i: usize| points[i].width_mm >= THIN_RATIO * wall_mm;
@@ -122,17 +121,17 @@ pub(super) fn necks(touched: &Touched, wall_mm: f64) -> Vec<ThinPlace> {
         }
     });
     let is_told = |place: &ThinPlace| place.length_mm > LEAST_PIECE_WALLS * wall_mm;
-    sorted(behind.filter(is_told).collect())
+    behind.filter(is_told).collect()
 }
 
-fn sorted(mut places: Vec<ThinPlace>) -> Vec<ThinPlace> {
+/// Sorts places, the longest first.
+pub(super) fn sort(places: &mut [ThinPlace]) {
     let coordinates = |place: &ThinPlace| [place.at.x, place.at.y, place.at.z];
     places.sort_by(|a, b| {
         let by_place = coordinates(a).partial_cmp(&coordinates(b));
         let by_place = by_place.unwrap_or(std::cmp::Ordering::Equal);
         b.length_mm.total_cmp(&a.length_mm).then(by_place)
     });
-    places
 }
 
 /// Groups of points that hang together on the surface, or through the body by a ball.

@@ -59,3 +59,10 @@ fn a_ball_on_a_thin_neck_comes_off() {
     let held = thin(&[block(), ball, neck(0.7)]);
     assert!(held.necks.is_empty() && held.lost.is_empty(), "{held:?}");
 }
+
+#[test]
+fn two_bodies_side_by_side_hang_by_no_neck() {
+    let beside = cuboid([12.0, -5.0, -5.0], [20.0, 5.0, 5.0]);
+    let found = thin(&[block(), beside]);
+    assert!(found.necks.is_empty(), "{found:?}");
+}

@@ -59,6 +59,21 @@ pub(super) fn measure_jigs(
     facts.collect()
 }
 
+/// Returns the names of the jigs that leave a larger step than the process accepts: they hold
+/// nothing.
+pub fn loose_jigs(
+    evidence: &Evidence,
+    outer: &TriMesh,
+    watch: &Watch,
+) -> Result<Vec<String>, Cancelled> {
+    let max_mm = evidence.promise.printer.seam_step_mm;
+    let max_mm = max_mm.unwrap_or(f64::INFINITY);
+    let holds = |jig: &JigFacts| jig.play.is_some_and(|play| play.step_mm <= max_mm);
+    let found = measure_jigs(evidence, outer, watch)?;
+    let loose = found.into_iter().filter(|jig| !holds(jig));
+    Ok(loose.map(|jig| jig.part.id).collect())
+}
+
 /// A jig beside the outside of the object, model frame.
 struct Bench<'a> {
     jig: &'a PromisedJig,

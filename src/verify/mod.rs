@@ -89,7 +89,7 @@ pub use cleaning::VoidFacts;
 pub use cups::CupFacts;
 pub use figures::{Figures, Setting};
 pub use hardware::{Fit, mass_moments};
-pub use jigs::JigFacts;
+pub use jigs::{JigFacts, loose_jigs};
 pub use joints::FilmError;
 pub use measure::{PartFacts, SurfaceFacts};
 pub use pegs::PegFacts;

@@ -5,6 +5,8 @@
 //! out. So the jig pulls off in one movement, whatever the body, and prints without support. Both
 //! parts are pressed down into it, and the same gap on both sides lets them meet.
 
+use std::cmp::Ordering;
+
 use super::cradle::{Slab, View, body_under};
 use crate::{
     base::watch::Watch,
@@ -53,6 +55,9 @@ const REACH_MM: f64 = 1.0;
 
 /// Share of the accepted step that is kept in reserve: a judge measures the cradle by other points.
 const RESERVE_RATIO: f64 = 0.1;
+
+/// Share of the accepted step below which a smaller jig is better than a tighter one.
+const TIGHT_RATIO: f64 = 0.6;
 
 /// A jig for a joint.
 #[derive(Debug, Clone, PartialEq)]
@@ -132,6 +137,15 @@ struct Sketch {
 }
 
 impl Sketch {
+    /// Returns true if it is smaller than another, or tighter if either is not tight.
+    fn is_better(&self, other: &Self, tight_mm: f64) -> bool {
+        let [step_mm, other_mm] = [self, other].map(|sketch| sketch.play.step_mm.max(tight_mm));
+        match step_mm.total_cmp(&other_mm) {
+            Ordering::Equal => self.volume_mm3() < other.volume_mm3(),
+            order => order == Ordering::Less,
+        }
+    }
+
     /// Returns an upper bound of its volume, mm³.
     fn volume_mm3(&self) -> f64 {
         let [low, _] = self.plate;
@@ -162,7 +176,8 @@ impl<'a> Bench<'a> {
         }
     }
 
-    /// Returns the smallest jig that holds the parts as well as is asked for; `None` if none does.
+    /// Returns the smallest jig that holds the parts tightly, else the tightest that holds them as
+    /// well as is asked for; `None` if none does.
     fn best(&self, watch: &Watch) -> Result<Option<Sketch>, CutError> {
         let max_step_mm = self.request.pins.max_step_mm.unwrap_or(f64::INFINITY);
         let max_step_mm = max_step_mm * (1.0 - RESERVE_RATIO);
@@ -174,8 +189,8 @@ impl<'a> Bench<'a> {
             let view = View::new(self.plane, u * cos + v * sin);
             for sketch in self.sketches(view) {
                 let is_held = sketch.play.step_mm <= max_step_mm;
-                let is_smaller = |best: &Sketch| sketch.volume_mm3() < best.volume_mm3();
-                if is_held && best.as_ref().is_none_or(is_smaller) {
+                let is_better = |best: &Sketch| sketch.is_better(best, TIGHT_RATIO * max_step_mm);
+                if is_held && best.as_ref().is_none_or(is_better) {
                     best = Some(sketch);
                 }
             }
