@@ -21,18 +21,19 @@ use equipoise::geom::Point;
 use equipoise::io::stl;
 use equipoise::mesh::primitives::cuboid;
 
-/// Writes a block of 40 × 16 × 30 mm as a model.
+/// Writes a block of 40 × 24 × 30 mm as a model.
 fn write_block(folder: &Path) -> PathBuf {
     let path = folder.join("block.stl");
-    let mesh = cuboid(&Point::origin(), &Point::new(40.0, 16.0, 30.0));
+    let mesh = cuboid(&Point::origin(), &Point::new(40.0, 24.0, 30.0));
     fs::write(&path, stl::encode(&mesh, "block")).unwrap();
     path
 }
 
-/// Prepares a rotor about an axis 3 mm above the middle of the block. Hollowing behind a wall of
+/// Prepares a rotor about an axis 2.5 mm above the middle of the block. Hollowing behind a wall of
 /// 3 mm cannot move the centre so far.
 fn prepare_rotor(model: &Path, out: &Path, ballast: &[&str]) -> Output {
-    let rotor = "--printer objet-connex350 --goal balance --up x --spin-point 20,8,18 --bore 2mm";
+    let rotor =
+        "--printer objet-connex350 --goal balance --up x --spin-point 20,12,17.5 --bore 2mm";
     let usual = ["--json", "prepare", path(model), "--out", path(out)];
     let sizes = words("--wall 3mm --pitch 0.2mm");
     equipoise(&[&usual[..], &words(rotor), &sizes, ballast].concat())

@@ -68,7 +68,10 @@ impl Remark {
     pub fn is_offer(&self) -> bool {
         match self {
             Self::FewerParts { .. } => true,
-            Self::Seams { is_taken, .. } => !is_taken,
+            Self::Seams {
+                loss_ratio,
+                is_taken,
+            } => !is_taken && loss_ratio.is_some(),
             _ => false,
         }
     }
