@@ -169,11 +169,20 @@ pub(super) fn size_hint(longest_mm: f64) -> Option<String> {
         format!(
             "its longest side would be {}: the file's numbers are hardly mm; give their unit, cm, m \
              or in (`{}`), or the size of the object (`{}`)",
-            show_mm(longest_mm),
+            long_words(longest_mm),
             Setting::open(Key::Unit),
             Setting::new(Key::Size, "100mm")
         )
     })
+}
+
+/// Returns a length in words; beyond a kilometre as a power of ten.
+fn long_words(mm: f64) -> String {
+    if mm < 1e6 {
+        plain(mm, "mm")
+    } else {
+        format!("{mm:.1e} mm")
+    }
 }
 
 /// Returns the goals the solid could reach with the wall ordered, or the printer's minimum.

@@ -57,7 +57,7 @@ impl Support {
         let mut sum = Self::default();
         let needs = |triangle: u32| -shape.normals[triangle as usize].dot(up) > steepest;
         let mut held: Vec<Vec<[f64; 2]>> = vec![Vec::new(); columns.lines()];
-        for line in 0..columns.lines() {
+        for (line, held) in held.iter_mut().enumerate() {
             for gap in columns.gaps(line) {
                 let Some(above) = gap.above else { continue };
                 if gap.below.is_none() && gap.to_mm < rule.layer_mm {
@@ -69,7 +69,7 @@ impl Support {
                 if !needs(above) || length_mm < rule.layer_mm {
                     continue;
                 }
-                held[line].push([gap.from_mm, gap.to_mm]);
+                held.push([gap.from_mm, gap.to_mm]);
                 sum.columns_mm3 += cell_mm2 * length_mm;
                 sum.bed_mm2 += if gap.below.is_none() { cell_mm2 } else { 0.0 };
                 let area_mm2 = match shape.sides[above as usize] {

@@ -65,7 +65,7 @@ pub(super) fn features(touched: &Touched, wall_mm: f64) -> Vec<ThinPlace> {
     let thick = (0..points.len()).filter(|&i| !is_thin(i));
     let thick = Cubes::of(thick.map(|i| (i as u32, points[i].at)), wall_mm);
     let thin: Vec<usize> = (0..points.len()).filter(|&i| is_thin(i)).collect();
-    let groups = Groups::of(touched, |i| is_thin(i));
+    let groups = Groups::of(touched, is_thin);
     let mut farthest: HashMap<u32, ThinPlace> = HashMap::new();
     for i in thin {
         let at = points[i].at;

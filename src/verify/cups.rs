@@ -137,10 +137,11 @@ impl<'a> Layers<'a> {
             };
             let row = |y: f64| (y - self.low.y) / self.cell_mm + 1.0 - SHIFT_RATIO;
             let (first, last) = (row(a[1].min(b[1])), row(a[1].max(b[1])));
-            for line in first.ceil().max(0.0) as usize..depth.min(last.ceil().max(0.0) as usize) {
-                let y = line as f64;
-                let share = (y - row(a[1])) / (row(b[1]) - row(a[1]));
-                walls[line].push(a[0] + (b[0] - a[0]) * share);
+            let [first, last] = [first, last].map(|row| row.ceil().max(0.0) as usize);
+            let crossed = walls.iter_mut().enumerate().take(last).skip(first);
+            for (line, walls) in crossed {
+                let share = (line as f64 - row(a[1])) / (row(b[1]) - row(a[1]));
+                walls.push(a[0] + (b[0] - a[0]) * share);
             }
         }
         let mut solid = vec![false; width * depth];
