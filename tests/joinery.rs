@@ -10,7 +10,7 @@
 mod common;
 
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use common::{assert_exit, json, list, make_kit, number, path, prepare, sum, words};
 use equipoise::io::stl;
@@ -95,7 +95,9 @@ fn highest_void_mm(kit: &Path) -> f64 {
 #[test]
 fn dowels_come_with_a_cut_list_and_their_mass_is_counted() {
     let folder = tempfile::tempdir().unwrap();
-    let sheet = make_small_top(&folder.path().join("kit"), &["--pins", "dowel"]);
+    let plan = write_middle_cut(folder.path());
+    let options = ["--pins", "dowel", "--cut", path(&plan)];
+    let sheet = make_small_top(&folder.path().join("kit"), &options);
     let (dowels, parts) = (list(&sheet, "dowels"), list(&sheet, "parts"));
     let counted = sum(list(&sheet, "cut_list"), "/count");
     assert!(
@@ -112,6 +114,14 @@ fn dowels_come_with_a_cut_list_and_their_mass_is_counted() {
     assert!((all_g / number(&sheet, "/assembly/mass_g") - 1.0).abs() < 1e-9);
 }
 
+/// Writes a plan with one level cut through the middle, where there is room for pins and ids.
+fn write_middle_cut(folder: &Path) -> PathBuf {
+    let plan = folder.join("middle.toml");
+    let cut = "[[cuts]]\nid = \"C1\"\npoint_mm = [0, 0, 0.013]\nnormal = [0, 0, 1]\n";
+    fs::write(&plan, cut).unwrap();
+    plan
+}
+
 /// The ids engraved in the parts.
 fn marks(sheet: &Value) -> Vec<&str> {
     let marks = list(sheet, "parts")
@@ -123,8 +133,10 @@ fn marks(sheet: &Value) -> Vec<&str> {
 #[test]
 fn parts_bear_their_ids_unless_none_are_wanted() {
     let folder = tempfile::tempdir().unwrap();
+    let plan = write_middle_cut(folder.path());
     let make = |name: &str, ids: &str| {
-        let goal = format!("--goal top --up z --wall 2.5mm {ids}");
+        let cut = path(&plan);
+        let goal = format!("--goal top --up z --wall 2.5mm --cut {cut} {ids}");
         make_kit(&folder.path().join(name), &goal)
     };
     let engraved = make("engraved", "");
