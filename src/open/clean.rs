@@ -34,10 +34,14 @@ struct Keep {
 /// Ends of voids that a plan leaves uncleanable are kept solid, and the rest solved for again and
 /// planned anew. The solid part only grows, so that this ends. A round after which the goal cannot
 /// be met is undone, and the kit's checks say which void stays unclean.
+///
+/// It stops, with what is not clean yet, as soon as `is_lost` says that the voids have lost too
+/// much: further rounds only lose more.
 pub fn clean(
     resolver: &mut Resolver,
     mut voids: Voids,
     request: &PlanRequest,
+    is_lost: &dyn Fn(&Voids) -> bool,
 ) -> Result<Cleaned, Error> {
     let placed = resolver.placed();
     let mut rounds = Vec::new();
@@ -62,6 +66,15 @@ pub fn clean(
         }
         let (round, less) = keep_solid(resolver, &voids, dirty)?;
         match (less, plan) {
+            (Some(less), plan) if is_lost(&less) => {
+                rounds.push(round);
+                let plan = plan.or_error::<CutError>()?;
+                return Ok(Cleaned {
+                    voids: less,
+                    plan,
+                    rounds,
+                });
+            }
             (Some(less), _) => {
                 voids = less;
                 rounds.push(round);

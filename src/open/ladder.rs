@@ -10,10 +10,10 @@ use super::resolve::Resolver;
 use super::tendency::lean;
 use super::way::{Candidate, Way};
 use crate::base::watch::{Phase, Watch};
-use crate::cut::{CutPlan, PlanRequest, find_ends_beyond_unpinned_joints};
+use crate::cut::{CutPlan, PlanRequest, find_ends_beyond_unpinned_joints, jigs};
 use crate::error::Error;
 use crate::job::CutMode;
-use crate::run::{KeptCause, Placed, Policy, Remark, Rung, Solved, Tendency};
+use crate::run::{Achieved, KeptCause, Placed, Policy, Remark, Rung, Solved, Tendency, Voids};
 
 /// Opens the voids of a solution, on the lowest rung that gives every joint its pins.
 ///
@@ -25,6 +25,17 @@ pub fn climb<'a>(
     watch: &Watch,
 ) -> Result<Vec<Candidate<'a>>, Error> {
     Ladder::new(placed, solved, watch)?.climb()
+}
+
+/// Counts the joints of the best plan that neither pins nor a jig align.
+fn count_unaligned(candidates: &[Candidate]) -> Result<usize, Error> {
+    let Some(Candidate { opened, .. }) = candidates.first() else {
+        return Ok(0);
+    };
+    let joints = &opened.plan.joints;
+    let without_pins = joints.iter().filter(|joint| !joint.is_aligned()).count();
+    let jigs = jigs(&opened.voids.hollowed, &opened.plan, &opened.request)?;
+    Ok(without_pins.saturating_sub(jigs.len()))
 }
 
 /// The ladder from one set of voids.
@@ -78,8 +89,29 @@ impl<'a> Ladder<'a> {
     }
 
     /// Climbs it. Returns the plans worth making, best first and never none.
-    pub(super) fn climb(mut self) -> Result<Vec<Candidate<'a>>, Error> {
-        let walls = self.plan_in_walls(&self.ground, &self.request, Rung::Walls)?;
+    ///
+    /// Hidden seams give way to others if neither pins nor a jig align a joint of theirs.
+    pub(super) fn climb(self) -> Result<Vec<Candidate<'a>>, Error> {
+        let shown = (self.is_free() && self.hides_seams).then(|| Self {
+            hides_seams: false,
+            ..self.clone()
+        });
+        let hidden = self.climb_once()?;
+        let left = count_unaligned(&hidden)?;
+        let Some(shown) = shown.filter(|_| left > 0) else {
+            return Ok(hidden);
+        };
+        match unless_refused(shown.climb_once())? {
+            Some(mut aligned) if count_unaligned(&aligned)? < left => {
+                aligned[0].opened.remarks.push(Remark::SeamsAligned);
+                Ok(aligned)
+            }
+            _ => Ok(hidden),
+        }
+    }
+
+    fn climb_once(mut self) -> Result<Vec<Candidate<'a>>, Error> {
+        let walls = self.plan_in_walls(&self.ground, &self.request, Rung::Walls, &|_| false)?;
         let walls = self.hide_seams(walls)?;
         let walls = self.join_parts(walls)?;
         let usual = self.add_bosses(walls.clone(), Rung::Bosses)?;
@@ -124,7 +156,7 @@ impl<'a> Ladder<'a> {
             return Ok(usual);
         }
         let request = lean(self.request.clone(), Tendency::FewerParts);
-        let other = self.plan_in_walls(&self.ground, &request, Rung::Walls);
+        let other = self.plan_in_walls(&self.ground, &request, Rung::Walls, &|_| false);
         let Some(other) = unless_refused(other)? else {
             return Ok(usual);
         };
@@ -208,12 +240,14 @@ impl<'a> Ladder<'a> {
         Ok(way.into_iter().collect())
     }
 
-    /// Plans cuts, and pins where the walls have room for them.
+    /// Plans cuts, and pins where the walls have room for them. Stops at voids that are lost: such a
+    /// way is not worth taking.
     fn plan_in_walls(
         &self,
         ground: &Ground<'a>,
         request: &PlanRequest,
         rung: Rung,
+        is_lost: &dyn Fn(&Voids) -> bool,
     ) -> Result<Way<'a>, Error> {
         self.watch.enter(Phase::Plan);
         let Ground {
@@ -222,7 +256,7 @@ impl<'a> Ladder<'a> {
             solid,
             mut rounds,
         } = ground.clone();
-        let cleaned = clean(&mut resolver, voids, request)?;
+        let cleaned = clean(&mut resolver, voids, request, is_lost)?;
         rounds.extend(cleaned.rounds);
         let plan = CutPlan {
             solid,
@@ -244,20 +278,24 @@ impl<'a> Ladder<'a> {
         if !(self.is_free() && self.hides_seams) || price <= self.policy.dear_seam_ratio {
             return Ok(usual);
         }
+        let before = Achieved::of(&usual.bossed.voids);
+        let is_lost =
+            |voids: &Voids| before.loss_ratio(&Achieved::of(voids)) > self.policy.seam_loss_ratio;
         let mut least_loss: Option<f64> = None;
         let mut weight = self.policy.lack_weight;
         for _ in 0..self.policy.hidden_rounds {
             let mut request = self.request.clone();
             request.seams.lack_weight = Some(weight);
             weight *= self.policy.lack_growth;
-            let other = self.plan_in_walls(&self.ground, &request, Rung::Walls);
+            let other = self.plan_in_walls(&self.ground, &request, Rung::Walls, &is_lost);
             let Some(other) = unless_refused(other)? else {
                 continue;
             };
-            if other.bossed.plan.cuts.is_empty() || other.seam_price()? >= price {
+            let loss_ratio = other.loss_ratio(&usual);
+            let is_dear = loss_ratio > self.policy.seam_loss_ratio;
+            if other.bossed.plan.cuts.is_empty() || !is_dear && other.seam_price()? >= price {
                 continue;
             }
-            let loss_ratio = other.loss_ratio(&usual);
             if other.hides_worth(&usual, &self.policy) {
                 self.request = request;
                 self.notes.push(Remark::Seams {
@@ -289,7 +327,7 @@ impl<'a> Ladder<'a> {
         request: &PlanRequest,
         rung: Rung,
     ) -> Result<Option<Way<'a>>, Error> {
-        let way = self.plan_in_walls(ground, request, rung);
+        let way = self.plan_in_walls(ground, request, rung, &|_| false);
         unless_refused(way.and_then(|way| self.add_bosses(way, rung)))
     }
 

@@ -254,7 +254,7 @@ pub(super) fn unwatched(placed: &Placed) -> PlanRequest {
 pub(super) fn plan_walls(placed: &Placed) -> Way<'_> {
     let (mut resolver, voids) = draw(placed);
     let request = unwatched(placed);
-    let cleaned = clean(&mut resolver, voids, &request).unwrap();
+    let cleaned = clean(&mut resolver, voids, &request, &|_| false).unwrap();
     Way {
         rung: Rung::Walls,
         resolver,

@@ -59,6 +59,8 @@ pub enum Remark {
         /// True if it was taken.
         is_taken: bool,
     },
+    /// Hidden seams were given up, as a joint would have been aligned by nothing.
+    SeamsAligned,
     /// The solid regions of the ordered plan leave too little for the goal.
     OrderTooSolid,
 }
@@ -123,6 +125,9 @@ impl fmt::Display for Remark {
                 loss_ratio,
                 is_taken,
             } => f.write_str(&seam_words(*loss_ratio, *is_taken)),
+            Self::SeamsAligned => f.write_str(
+                "seams: one runs where it is seen; where it is hidden, neither pins nor a jig hold the joint",
+            ),
             Self::OrderTooSolid => f.write_str(
                 "the regions that the plan keeps solid leave too little for the goal: they are not kept solid",
             ),
@@ -136,12 +141,17 @@ fn seam_words(loss_ratio: Option<f64>, is_taken: bool) -> String {
         return "seams: one runs where it is seen, and no other plan was found".to_owned();
     };
     let percent = format!("{:.1} %", 100.0 * loss_ratio.abs());
-    let change = if loss_ratio > 0.0 { "worse" } else { "better" };
+    // A plan is given up as soon as it has lost too much.
+    let (at_least, change) = if loss_ratio > 0.0 {
+        ("at least ", "worse")
+    } else {
+        ("", "better")
+    };
     if is_taken {
         format!("seams: they run where they are seen less; the goal's figure is {percent} {change}")
     } else {
         format!(
-            "seams: one runs where it is seen; off there the goal's figure would be {percent} {change}"
+            "seams: one runs where it is seen; off there the goal's figure would be {at_least}{percent} {change}"
         )
     }
 }

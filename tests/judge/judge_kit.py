@@ -56,6 +56,8 @@ PAIRS_AT_ONCE = 4_000_000
 PAIRS_LIMIT = 40_000_000
 # How many points of a void's wall are looked at, from so many places across each mouth in two directions.
 SIGHT_SAMPLES = 400
+# Triangles that are tried first, as they were in the way last.
+LAST_MET = 64
 SIGHT_ACROSS = 20
 SIGHT_ALONG = 64
 # Hanging places smaller than a square of so many line widths a side are carried by what is beside them.
@@ -530,20 +532,21 @@ def smallest_wall(outer, voids):
     return float(min(distances))
 
 
-def first_hits(corners, origins, directions):
-    """How far each ray goes until it meets a triangle; infinite where it meets none. A plane and three sides each."""
+def distances(corners, origin, direction):
+    """How far a ray goes until it meets each triangle; infinite where it meets none. A plane and three sides each."""
     a, ab, ac = corners[:, 0], corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
-    reached = np.full(len(origins), np.inf)
-    for i, (origin, direction) in enumerate(zip(origins, directions)):
-        across = np.cross(direction, ac)
-        with np.errstate(divide="ignore", invalid="ignore"):
-            scale = 1 / np.einsum("ij,ij->i", ab, across)
-            u = np.einsum("ij,ij->i", origin - a, across) * scale
-            turned = np.cross(origin - a, ab)
-            v, t = turned @ direction * scale, np.einsum("ij,ij->i", ac, turned) * scale
-            met = (u >= 0) & (v >= 0) & (u + v <= 1) & (t > 0)
-        reached[i] = t[met].min(initial=np.inf)
-    return reached
+    across = np.cross(direction, ac)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        scale = 1 / np.einsum("ij,ij->i", ab, across)
+        u = np.einsum("ij,ij->i", origin - a, across) * scale
+        turned = np.cross(origin - a, ab)
+        v, t = turned @ direction * scale, np.einsum("ij,ij->i", ac, turned) * scale
+        return np.where((u >= 0) & (v >= 0) & (u + v <= 1) & (t > 0), t, np.inf)
+
+
+def first_hits(corners, origins, directions):
+    """How far each ray goes until it meets a triangle; infinite where it meets none."""
+    return np.array([distances(corners, origin, direction).min(initial=np.inf) for origin, direction in zip(origins, directions)])
 
 
 def felt(corners, peg, pin_length):
@@ -788,11 +791,17 @@ def mouths_of(cavity, plane, tool):
 
 
 def in_the_way(surface, start, end):
-    """Whether any triangle of a surface (its corners, and its triangles' boxes) stands between two points."""
-    corners, low, high = surface
-    near = (low <= np.maximum(start, end)).all(axis=1) & (high >= np.minimum(start, end)).all(axis=1)
+    """Whether any triangle of a surface (its corners, its triangles' boxes, and those met last) stands between two points."""
+    corners, low, high, met = surface
     length = np.linalg.norm(end - start)
-    return bool(near.any() and first_hits(corners[near], [start], [(end - start) / length])[0] < length)
+    direction = (end - start) / length
+    # What was in the way of one place is in the way of its neighbours.
+    if met and (distances(corners[met], start, direction) < length).any():
+        return True
+    near = np.flatnonzero((low <= np.maximum(start, end)).all(axis=1) & (high >= np.minimum(start, end)).all(axis=1))
+    found = near[distances(corners[near], start, direction) < length]
+    met[:] = [*found[:4].tolist(), *met][:LAST_MET]
+    return len(found) > 0
 
 
 def sight(cavity, cuts, parts, printer, rotations):
@@ -806,7 +815,7 @@ def sight(cavity, cuts, parts, printer, rotations):
     box = cavity.bounds + np.array([[-1.0], [1.0]])
     near = [c[(c.min(axis=1) <= box[1]).all(axis=1) & (c.max(axis=1) >= box[0]).all(axis=1)] for c in parts]
     all_near, owners = np.concatenate(near), np.concatenate([np.full(len(c), i) for i, c in enumerate(near)])
-    surfaces = [(c, c.min(axis=1), c.max(axis=1)) for c in near]
+    surfaces = [(c, c.min(axis=1), c.max(axis=1), []) for c in near]
     owner_of = owners[trimesh.proximity.closest_point(welded_soup(all_near), points)[2]]
     heights = np.array([[(p - o) @ n for o, n in planes] for p in points]).reshape(len(points), len(planes))
     seen = narrowly = needless = 0

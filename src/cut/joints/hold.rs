@@ -15,7 +15,7 @@ use crate::{
 
 /// Share of the accepted step that is kept in reserve. A judge turns the polygon around a pin's
 /// circle, which makes 0.2 %, and sees a rim that is rounded to a file.
-const RESERVE_RATIO: f64 = 0.005;
+const RESERVE_RATIO: f64 = 0.003;
 
 /// The rim of a joint, in the coordinates of its plane.
 pub(crate) struct Rim {

@@ -28,7 +28,7 @@ fn deep_box() -> Placed {
 
 fn clean_up(placed: &Placed) -> Cleaned {
     let (mut resolver, voids) = draw(placed);
-    clean(&mut resolver, voids, &unwatched(placed)).unwrap()
+    clean(&mut resolver, voids, &unwatched(placed), &|_| false).unwrap()
 }
 
 /// Returns the request for openings that the narrow tower is too narrow for.
@@ -62,7 +62,7 @@ fn a_void_that_no_cut_opens_wide_enough_is_kept_solid() {
     let placed = unequal_towers();
     let (mut resolver, voids) = draw(&placed);
     assert_eq!(voids.hollowed.voids.len(), 2);
-    let cleaned = clean(&mut resolver, voids, &wide_request(&placed)).unwrap();
+    let cleaned = clean(&mut resolver, voids, &wide_request(&placed), &|_| false).unwrap();
     let [round] = &cleaned.rounds[..] else {
         panic!("{:?}", cleaned.rounds)
     };
@@ -84,7 +84,8 @@ fn a_void_that_the_goal_needs_is_not_kept_solid_and_its_obstacle_is_told() {
         min_opening_mm: 20.0,
         ..unwatched(&placed)
     };
-    let Err(Error::Cut(CutError::Obstacle(obstacle))) = clean(&mut resolver, voids, &request)
+    let Err(Error::Cut(CutError::Obstacle(obstacle))) =
+        clean(&mut resolver, voids, &request, &|_| false)
     else {
         panic!("no cut opens a tower of 14 mm by 20 mm")
     };
@@ -166,7 +167,7 @@ fn without_cuts_a_void_stays_closed_and_nothing_is_kept_solid() {
     placed.job.cut = CutMode::Never;
     let (mut resolver, voids) = draw(&placed);
     let Err(Error::Cut(CutError::Obstacle(obstacle))) =
-        clean(&mut resolver, voids, &unwatched(&placed))
+        clean(&mut resolver, voids, &unwatched(&placed), &|_| false)
     else {
         panic!("a closed void has no plan")
     };

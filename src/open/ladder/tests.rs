@@ -36,7 +36,7 @@ fn ladder_of(placed: &Placed) -> Ladder<'_> {
 
 /// Returns the plan that every ladder begins with.
 fn usual_of<'a>(ladder: &Ladder<'a>) -> Way<'a> {
-    let walls = ladder.plan_in_walls(&ladder.ground, &ladder.request, Rung::Walls);
+    let walls = ladder.plan_in_walls(&ladder.ground, &ladder.request, Rung::Walls, &|_| false);
     ladder.add_bosses(walls.unwrap(), Rung::Bosses).unwrap()
 }
 
