@@ -10,7 +10,7 @@ use super::resolve::Resolver;
 use super::tendency::lean;
 use super::way::{Candidate, Way};
 use crate::base::watch::{Phase, Watch};
-use crate::cut::{CutPlan, PlanRequest, find_ends_beyond_unpinned_joints, jigs};
+use crate::cut::{CutError, CutPlan, PlanRequest, find_ends_beyond_unpinned_joints, jigs};
 use crate::error::Error;
 use crate::job::CutMode;
 use crate::run::{Achieved, KeptCause, Placed, Policy, Remark, Rung, Solved, Tendency, Voids};
@@ -27,15 +27,23 @@ pub fn climb<'a>(
     Ladder::new(placed, solved, watch)?.climb()
 }
 
-/// Counts the joints of the best plan that neither pins nor a jig align.
-fn count_unaligned(candidates: &[Candidate]) -> Result<usize, Error> {
-    let Some(Candidate { opened, .. }) = candidates.first() else {
-        return Ok(0);
-    };
-    let joints = &opened.plan.joints;
-    let without_pins = joints.iter().filter(|joint| !joint.is_aligned()).count();
-    let jigs = jigs(&opened.voids.hollowed, &opened.plan, &opened.request)?;
-    Ok(without_pins.saturating_sub(jigs.len()))
+/// Counts the joints of a plan that neither pins nor a jig align.
+fn count_unaligned(
+    voids: &Voids,
+    plan: &CutPlan,
+    request: &PlanRequest,
+) -> Result<usize, CutError> {
+    let without_pins = plan.joints.iter().filter(|joint| !joint.is_aligned());
+    let jigs = jigs(&voids.hollowed, plan, request)?;
+    Ok(without_pins.count().saturating_sub(jigs.len()))
+}
+
+/// Counts those of the best of several plans.
+fn count_unaligned_in_best(candidates: &[Candidate]) -> Result<usize, CutError> {
+    let best = candidates.first().map(|candidate| &candidate.opened);
+    best.map_or(Ok(0), |best| {
+        count_unaligned(&best.voids, &best.plan, &best.request)
+    })
 }
 
 /// The ladder from one set of voids.
@@ -92,24 +100,27 @@ impl<'a> Ladder<'a> {
     ///
     /// Hidden seams give way to others if neither pins nor a jig align a joint of theirs.
     pub(super) fn climb(self) -> Result<Vec<Candidate<'a>>, Error> {
-        let shown = (self.is_free() && self.hides_seams).then(|| Self {
+        let shown = Self {
             hides_seams: false,
             ..self.clone()
-        });
-        let hidden = self.climb_once()?;
-        let left = count_unaligned(&hidden)?;
-        let Some(shown) = shown.filter(|_| left > 0) else {
-            return Ok(hidden);
         };
+        let found = self.climb_once()?;
+        let took_hidden = found[0].opened.remarks.iter().any(Remark::hides_seams);
+        let left = count_unaligned_in_best(&found)?;
+        if !took_hidden || left == 0 {
+            return Ok(found);
+        }
         match unless_refused(shown.climb_once())? {
-            Some(mut aligned) if count_unaligned(&aligned)? < left => {
+            Some(mut aligned) if count_unaligned_in_best(&aligned)? <= left => {
                 aligned[0].opened.remarks.push(Remark::SeamsAligned);
                 Ok(aligned)
             }
-            _ => Ok(hidden),
+            _ => Ok(found),
         }
     }
 
+    /// Climbs it once. Hidden seams are not followed beyond the usual rungs if they leave a joint
+    /// that nothing aligns.
     fn climb_once(mut self) -> Result<Vec<Candidate<'a>>, Error> {
         let walls = self.plan_in_walls(&self.ground, &self.request, Rung::Walls, &|_| false)?;
         let walls = self.hide_seams(walls)?;
@@ -117,9 +128,14 @@ impl<'a> Ladder<'a> {
         let usual = self.add_bosses(walls.clone(), Rung::Bosses)?;
         let mut ways: Vec<Way> = Vec::new();
         let mut faults: Vec<Remark> = Vec::new();
+        let is_done = self.policy.jigs_first && {
+            let Bossed { voids, plan, .. } = &usual.bossed;
+            self.notes.iter().any(Remark::hides_seams)
+                || count_unaligned(voids, plan, &usual.request)? == 0
+        };
         for rung in Rung::BEYOND_USUAL {
             self.watch.check()?;
-            if !self.needs(rung, &usual, &ways) {
+            if is_done || !self.needs(rung, &usual, &ways) {
                 continue;
             }
             match self.try_rung(rung, &usual, &ways) {

@@ -144,6 +144,9 @@ pub(super) fn standing(bodies: &[TriMesh], wall_mm: f64, objective: Objective) -
             partial_loss_ratio: 0.35,
             dear_loss_ratio: 0.65,
             pin_spread_ratio: 0.0,
+            jigs_first: false,
+            boss_rounds: 3,
+            boss_patterns: 3,
             ..Policy::STANDARD
         },
     }

@@ -68,6 +68,9 @@ pub struct Policy {
     /// Greatest loss for pins that a person ordered. Beyond it the kit has lost what it was made
     /// for.
     pub ordered_loss_ratio: f64,
+    /// True if a jig that holds a joint comes before dearer bosses and other cuts. It costs nothing
+    /// of the figure, and the search for those takes minutes.
+    pub jigs_first: bool,
     /// Least distance of a joint's farthest pins, as a share of the joint's longest diagonal.
     pub pin_spread_ratio: f64,
     /// Greatest share of the voids that may become solid for pins. Some figures hardly tell: a
@@ -145,13 +148,14 @@ impl Policy {
         partial_loss_ratio: 0.15,
         dear_loss_ratio: 0.15,
         ordered_loss_ratio: 0.65,
+        jigs_first: true,
         pin_spread_ratio: PlanRequest::SPREAD_RATIO,
         max_void_loss_ratio: 0.5,
         ends_margin_openings: 0.25,
         max_ends: 3,
         spare_opening_ratio: 1.03,
-        boss_rounds: 3,
-        boss_patterns: 3,
+        boss_rounds: 1,
+        boss_patterns: 1,
         settle_rounds: 4,
         settle_margin_openings: 0.25,
         cleaning_rounds: 8,

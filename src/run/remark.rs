@@ -66,6 +66,11 @@ pub enum Remark {
 }
 
 impl Remark {
+    /// Returns whether it tells that hidden seams were taken.
+    pub fn hides_seams(&self) -> bool {
+        matches!(self, Self::Seams { is_taken: true, .. })
+    }
+
     /// Returns whether it tells of another plan that a person may prefer.
     pub fn is_offer(&self) -> bool {
         match self {
