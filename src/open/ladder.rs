@@ -1,19 +1,19 @@
 //! The ladder: rungs are tried in order until one gives every joint its pins; the best are kept.
 
+use super::aligned::{count_unaligned, count_unaligned_in_best};
 use super::bosses::{Bossed, add_bosses, pay_for_bosses};
 use super::clean::clean;
 use super::ground::Ground;
-use super::plan::are_clean;
 use super::refused::unless_refused;
 use super::request::request;
 use super::resolve::Resolver;
 use super::tendency::lean;
 use super::way::{Candidate, Way};
 use crate::base::watch::{Phase, Watch};
-use crate::cut::{CutError, CutPlan, PlanRequest, find_ends_beyond_unpinned_joints, jigs};
+use crate::cut::{CutPlan, PlanRequest, find_ends_beyond_unpinned_joints};
 use crate::error::Error;
 use crate::job::CutMode;
-use crate::run::{Achieved, KeptCause, Placed, Policy, Remark, Rung, Solved, Tendency, Voids};
+use crate::run::{KeptCause, Placed, Policy, Remark, Rung, Solved, Tendency, Voids};
 
 /// Opens the voids of a solution, on the lowest rung that gives every joint its pins.
 ///
@@ -25,25 +25,6 @@ pub fn climb<'a>(
     watch: &Watch,
 ) -> Result<Vec<Candidate<'a>>, Error> {
     Ladder::new(placed, solved, watch)?.climb()
-}
-
-/// Counts the joints of a plan that neither pins nor a jig align.
-fn count_unaligned(
-    voids: &Voids,
-    plan: &CutPlan,
-    request: &PlanRequest,
-) -> Result<usize, CutError> {
-    let without_pins = plan.joints.iter().filter(|joint| !joint.is_aligned());
-    let jigs = jigs(&voids.hollowed, plan, request)?;
-    Ok(without_pins.count().saturating_sub(jigs.len()))
-}
-
-/// Counts those of the best of several plans.
-fn count_unaligned_in_best(candidates: &[Candidate]) -> Result<usize, CutError> {
-    let best = candidates.first().map(|candidate| &candidate.opened);
-    best.map_or(Ok(0), |best| {
-        count_unaligned(&best.voids, &best.plan, &best.request)
-    })
 }
 
 /// The ladder from one set of voids.
@@ -164,39 +145,6 @@ impl<'a> Ladder<'a> {
         }
     }
 
-    /// Returns a plan with fewer parts in place of one with more than two, if it costs next to
-    /// nothing of the goal's figure. Else the sheet offers it with its price.
-    fn join_parts(&mut self, usual: Way<'a>) -> Result<Way<'a>, Error> {
-        let parts = usual.bossed.plan.count_parts();
-        if !(self.joins_parts && self.is_free() && parts > 2) {
-            return Ok(usual);
-        }
-        let request = lean(self.request.clone(), Tendency::FewerParts);
-        let other = self.plan_in_walls(&self.ground, &request, Rung::Walls, &|_| false);
-        let Some(other) = unless_refused(other)? else {
-            return Ok(usual);
-        };
-        let count = other.bossed.plan.count_parts();
-        if count >= parts || !other.bossed.voids.solution.is_usable() {
-            return Ok(usual);
-        }
-        let is_as_clean = are_clean(&other.bossed.plan, &other.request)
-            || !are_clean(&usual.bossed.plan, &usual.request);
-        let is_cheap = other.loss_ratio(&usual) <= self.policy.part_loss_ratio;
-        let is_hidden = other.seam_price()? <= usual.seam_price()?.max(self.policy.dear_seam_ratio);
-        if is_as_clean && is_cheap && is_hidden {
-            self.request = request;
-            return Ok(other);
-        }
-        let certificate = |way: &Way| way.bossed.voids.solution.certificate;
-        self.notes.push(Remark::FewerParts {
-            parts: [count, parts],
-            figure: certificate(&usual).figure,
-            values: [certificate(&other).value, certificate(&usual).value],
-        });
-        Ok(usual)
-    }
-
     /// Returns whether the planner may choose other cuts.
     fn is_free(&self) -> bool {
         self.placed.job.plan.is_none() && self.placed.job.cut == CutMode::Auto
@@ -256,8 +204,8 @@ impl<'a> Ladder<'a> {
         Ok(way.into_iter().collect())
     }
 
-    /// Plans cuts, and pins where the walls have room for them. Stops at voids that are lost: such a
-    /// way is not worth taking.
+    /// Plans cuts, and pins where the walls have room for them. Stops at voids that are lost: such
+    /// a way is not worth taking.
     fn plan_in_walls(
         &self,
         ground: &Ground<'a>,
@@ -285,48 +233,6 @@ impl<'a> Ladder<'a> {
             cleaning: rounds,
             bossed: Bossed::without(cleaned.voids, plan),
         })
-    }
-
-    /// Returns a plan whose seams are seen less, if those of the usual plan are dear and the other
-    /// costs little of the goal's figure. The rungs beyond then keep to it.
-    fn hide_seams(&mut self, usual: Way<'a>) -> Result<Way<'a>, Error> {
-        let price = usual.seam_price()?;
-        if !(self.is_free() && self.hides_seams) || price <= self.policy.dear_seam_ratio {
-            return Ok(usual);
-        }
-        let before = Achieved::of(&usual.bossed.voids);
-        let is_lost =
-            |voids: &Voids| before.loss_ratio(&Achieved::of(voids)) > self.policy.seam_loss_ratio;
-        let mut least_loss: Option<f64> = None;
-        let mut weight = self.policy.lack_weight;
-        for _ in 0..self.policy.hidden_rounds {
-            let mut request = self.request.clone();
-            request.seams.lack_weight = Some(weight);
-            weight *= self.policy.lack_growth;
-            let other = self.plan_in_walls(&self.ground, &request, Rung::Walls, &is_lost);
-            let Some(other) = unless_refused(other)? else {
-                continue;
-            };
-            let loss_ratio = other.loss_ratio(&usual);
-            let is_dear = loss_ratio > self.policy.seam_loss_ratio;
-            if other.bossed.plan.cuts.is_empty() || !is_dear && other.seam_price()? >= price {
-                continue;
-            }
-            if other.hides_worth(&usual, &self.policy) {
-                self.request = request;
-                self.notes.push(Remark::Seams {
-                    loss_ratio: Some(loss_ratio),
-                    is_taken: true,
-                });
-                return Ok(other);
-            }
-            least_loss = Some(least_loss.map_or(loss_ratio, |least| least.min(loss_ratio)));
-        }
-        self.notes.push(Remark::Seams {
-            loss_ratio: least_loss,
-            is_taken: false,
-        });
-        Ok(usual)
     }
 
     /// Adds bosses around pins, where they cost little.
@@ -451,5 +357,6 @@ impl<'a> Ladder<'a> {
     }
 }
 
+mod preferences;
 #[cfg(test)]
 mod tests;

@@ -4,6 +4,7 @@
 //! ([`Resolver`]), plans cuts and keeps solid what cannot be cleaned, and then looks for room for
 //! pins in bosses. Whatever is kept solid is solved for again, so that the rest stays optimal.
 
+mod aligned;
 mod bosses;
 mod clean;
 mod defect;
