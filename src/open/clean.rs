@@ -1,6 +1,6 @@
 //! Cleaning: what no cut lets be cleaned is kept solid, and the rest solved for again.
 
-use super::plan::plan_once;
+use super::plan::draft_once;
 use super::resolve::Resolver;
 use crate::base::verdict::Verdict;
 use crate::cut::{
@@ -15,7 +15,7 @@ use crate::run::{CleaningRound, KeptCause, KeptSolid, Placed, Voids};
 pub struct Cleaned {
     /// The voids.
     pub voids: Voids,
-    /// The cuts and pins.
+    /// The cuts, and no pins yet if the planner chose them.
     pub plan: CutPlan,
     /// The rounds in which something was kept solid.
     pub rounds: Vec<CleaningRound>,
@@ -29,7 +29,7 @@ struct Keep {
     margin_openings: f64,
 }
 
-/// Plans cuts with which every void can be cleaned by the printer's rule.
+/// Drafts cuts with which every void can be cleaned by the printer's rule.
 ///
 /// Ends of voids that a plan leaves uncleanable are kept solid, and the rest solved for again and
 /// planned anew. The solid part only grows, so that this ends. A round after which the goal cannot
@@ -48,7 +48,7 @@ pub fn clean(
     let mut request = request.clone();
     loop {
         resolver.watch().check()?;
-        let plan = plan_once(placed, &voids, &request)?;
+        let plan = draft_once(placed, &voids, &request)?;
         let round = Round {
             placed,
             voids: &voids,

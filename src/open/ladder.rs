@@ -4,6 +4,7 @@ use super::aligned::{count_unaligned, count_unaligned_in_best};
 use super::bosses::{Bossed, add_bosses, pay_for_bosses};
 use super::clean::clean;
 use super::ground::Ground;
+use super::plan::finish_once;
 use super::refused::unless_refused;
 use super::request::request;
 use super::resolve::Resolver;
@@ -81,17 +82,20 @@ impl<'a> Ladder<'a> {
     ///
     /// Hidden seams give way to others if neither pins nor a jig align a joint of theirs.
     pub(super) fn climb(self) -> Result<Vec<Candidate<'a>>, Error> {
+        let drafted = self.plan_in_walls(&self.ground, &self.request, Rung::Walls, &|_| false)?;
         let shown = Self {
             hides_seams: false,
             ..self.clone()
         };
-        let found = self.climb_once()?;
-        let took_hidden = found[0].opened.remarks.iter().any(Remark::hides_seams);
-        let left = count_unaligned_in_best(&found)?;
-        if !took_hidden || left == 0 {
+        let found = self.climb_once(drafted.clone())?;
+        if !found[0].opened.remarks.iter().any(Remark::hides_seams) {
             return Ok(found);
         }
-        match unless_refused(shown.climb_once())? {
+        let left = count_unaligned_in_best(&found)?;
+        if left == 0 {
+            return Ok(found);
+        }
+        match unless_refused(shown.climb_once(drafted))? {
             Some(mut aligned) if count_unaligned_in_best(&aligned)? <= left => {
                 aligned[0].opened.remarks.push(Remark::SeamsAligned);
                 Ok(aligned)
@@ -100,18 +104,19 @@ impl<'a> Ladder<'a> {
         }
     }
 
-    /// Climbs it once. Hidden seams are not followed beyond the usual rungs if they leave a joint
-    /// that nothing aligns.
-    fn climb_once(mut self) -> Result<Vec<Candidate<'a>>, Error> {
-        let walls = self.plan_in_walls(&self.ground, &self.request, Rung::Walls, &|_| false)?;
-        let walls = self.hide_seams(walls)?;
+    /// Climbs it once from the draft of a plan in the walls. Hidden seams are not followed beyond
+    /// the usual rungs if they leave a joint that nothing aligns.
+    fn climb_once(mut self, drafted: Way<'a>) -> Result<Vec<Candidate<'a>>, Error> {
+        let walls = self.hide_seams(drafted)?;
         let walls = self.join_parts(walls)?;
+        let walls = self.finish(walls)?;
         let usual = self.add_bosses(walls.clone(), Rung::Bosses)?;
         let mut ways: Vec<Way> = Vec::new();
         let mut faults: Vec<Remark> = Vec::new();
         let is_done = self.policy.jigs_first && {
             let Bossed { voids, plan, .. } = &usual.bossed;
             self.notes.iter().any(Remark::hides_seams)
+                || usual.is_full()
                 || count_unaligned(voids, plan, &usual.request)? == 0
         };
         for rung in Rung::BEYOND_USUAL {
@@ -204,8 +209,7 @@ impl<'a> Ladder<'a> {
         Ok(way.into_iter().collect())
     }
 
-    /// Plans cuts, and pins where the walls have room for them. Stops at voids that are lost: such
-    /// a way is not worth taking.
+    /// Drafts cuts. Stops at voids that are lost: such a way is not worth taking.
     fn plan_in_walls(
         &self,
         ground: &Ground<'a>,
@@ -235,6 +239,14 @@ impl<'a> Ladder<'a> {
         })
     }
 
+    /// Places pins in a draft, where the walls have room for them.
+    fn finish(&self, mut way: Way<'a>) -> Result<Way<'a>, Error> {
+        let Bossed { voids, plan, .. } = way.bossed;
+        let plan = finish_once(self.placed, &voids, &way.request, plan)?;
+        way.bossed = Bossed::without(voids, plan);
+        Ok(way)
+    }
+
     /// Adds bosses around pins, where they cost little.
     fn add_bosses(&self, mut way: Way<'a>, rung: Rung) -> Result<Way<'a>, Error> {
         self.watch.enter(Phase::Bosses);
@@ -250,7 +262,8 @@ impl<'a> Ladder<'a> {
         rung: Rung,
     ) -> Result<Option<Way<'a>>, Error> {
         let way = self.plan_in_walls(ground, request, rung, &|_| false);
-        unless_refused(way.and_then(|way| self.add_bosses(way, rung)))
+        let finished = way.and_then(|way| self.finish(way));
+        unless_refused(finished.and_then(|way| self.add_bosses(way, rung)))
     }
 
     /// Adds the bosses that are too dear for the usual plan.

@@ -29,6 +29,38 @@ pub fn plan_once(
     }
 }
 
+/// Drafts cuts for the voids as they are: [`plan_once`] without pins, if the planner chooses.
+pub fn draft_once(
+    placed: &Placed,
+    voids: &Voids,
+    request: &PlanRequest,
+) -> Result<Verdict<CutPlan, Obstacle>, CutError> {
+    if is_planned(placed) {
+        cut::draft(&voids.hollowed, request)
+    } else {
+        plan_once(placed, voids, request)
+    }
+}
+
+/// Returns the plan of a [`draft_once`] for the same voids.
+pub fn finish_once(
+    placed: &Placed,
+    voids: &Voids,
+    request: &PlanRequest,
+    draft: CutPlan,
+) -> Result<CutPlan, CutError> {
+    if is_planned(placed) {
+        cut::finish_draft(&voids.hollowed, request, draft)
+    } else {
+        Ok(draft)
+    }
+}
+
+/// Returns whether the planner chooses the cuts.
+fn is_planned(placed: &Placed) -> bool {
+    placed.job.plan.is_none() && placed.job.cut == CutMode::Auto
+}
+
 /// Returns whether every void of a plan is clean by the printer's rule.
 ///
 /// The planner's own margin is not asked: to solve again for it costs more than any boss.

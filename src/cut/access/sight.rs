@@ -19,6 +19,8 @@ use crate::{
 
 /// Sample points on the wall of a void. A hidden share of 5 % is then known to within 0.5 %.
 const SAMPLES: f64 = 2000.0;
+/// An estimate looks at every so many of them. It then errs by about 1 %.
+const ESTIMATE_STRIDE: usize = 3;
 /// Least number of sample points on a piece, however small.
 const MIN_SAMPLES: usize = 24;
 /// Number of viewpoints across a mouth, along each of two directions.
@@ -194,8 +196,15 @@ impl Walls {
             .iter()
             .map(|(cut, outline)| (*cut, outline))
             .collect();
-        let (_, visible) = self.classify(self.points.clone(), &mouths, sight)?;
-        Ok(visible.len() as f64 / self.points.len().max(1) as f64)
+        let points: Vec<Point> = self
+            .points
+            .iter()
+            .step_by(ESTIMATE_STRIDE)
+            .copied()
+            .collect();
+        let total = points.len().max(1);
+        let (_, visible) = self.classify(points, &mouths, sight)?;
+        Ok(visible.len() as f64 / total as f64)
     }
 
     /// Returns every sample point with the viewpoints that see it before the void is cut. Each

@@ -1,6 +1,7 @@
 //! Bodies of bosses and their prices.
 
 use std::f64::consts::{PI, TAU};
+use std::sync::OnceLock;
 
 use crate::{
     cut::{
@@ -54,6 +55,8 @@ pub(crate) struct BossMaker<'a> {
     /// Surface of the filled body.
     filled_surface: Bvh,
     price: &'a MaterialPrice,
+    /// The outlines of the filled body in the cuts, once they are asked for.
+    outlines: Vec<OnceLock<Outline>>,
 }
 
 impl<'a> BossMaker<'a> {
@@ -71,13 +74,16 @@ impl<'a> BossMaker<'a> {
             hollow_surface,
             filled_surface,
             price,
+            outlines: filled.tree.planes.iter().map(|_| OnceLock::new()).collect(),
         }
     }
 
     /// Returns the outline of the filled body in a cut.
-    pub(crate) fn outline(&self, cut: usize) -> Outline {
-        let section = Section::of_mesh(self.filled.material, &self.filled.tree.planes[cut]);
-        section.outline(&(0..section.rings.len()).collect::<Vec<_>>())
+    pub(crate) fn outline(&self, cut: usize) -> &Outline {
+        self.outlines[cut].get_or_init(|| {
+            let section = Section::of_mesh(self.filled.material, &self.filled.tree.planes[cut]);
+            section.outline(&(0..section.rings.len()).collect::<Vec<_>>())
+        })
     }
 
     /// Returns the price of a pin's boss, to first order and up to a factor: the integral of the

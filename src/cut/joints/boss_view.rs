@@ -16,7 +16,7 @@ use crate::{
         hollowed::Hollowed,
         request::PlanRequest,
     },
-    geom::{Plane, Point, Vector},
+    geom::{Aabb, Plane, Point, Vector},
     mesh::{TriMesh, bodies},
 };
 
@@ -40,6 +40,8 @@ struct View<'a> {
     min_opening_mm: f64,
     /// Points of its wall with the points that see them; empty if no sight is required.
     lines: Vec<Sightlines>,
+    /// The box of all these points.
+    aabb: Aabb,
     /// Share of the wall that may be hidden before too little is visible.
     spare_ratio: f64,
 }
@@ -104,7 +106,11 @@ impl<'a> View<'a> {
         };
         let seen = lines.iter().filter(|lines| lines.is_seen()).count();
         let spare_ratio = seen as f64 / lines.len().max(1) as f64 - required - SPARE_RATIO;
+        let points = lines
+            .iter()
+            .flat_map(|line| line.eyes.iter().chain([&line.at]));
         Ok(Self {
+            aabb: Aabb::of_points(points),
             min_opening_mm: chamber.void.least_opening_mm(request),
             chamber,
             lines,
@@ -113,6 +119,11 @@ impl<'a> View<'a> {
     }
 
     fn hidden_by(&self, block: &Convex, tool_radius_mm: f64) -> f64 {
+        // Most bosses reach one void or two.
+        let reach_mm = block.radius_mm + tool_radius_mm;
+        if self.lines.is_empty() || self.aabb.distance_squared(&block.center) > reach_mm.powi(2) {
+            return 0.0;
+        }
         let is_blocked =
             |eye: &Point, at: &Point| block.contains(eye, tool_radius_mm) || block.blocks(eye, at);
         let is_hidden = |line: &&Sightlines| {

@@ -82,6 +82,30 @@ fn find_bosses(order: &BossRequest) -> Result<Vec<Boss>, CutError> {
     }
 }
 
+/// The best patterns of two pins with their costs.
+#[derive(Default)]
+struct Found {
+    /// The best that leaves every void open.
+    open: Option<(Cost, Placement)>,
+    /// The best of all.
+    any: Option<(Cost, Placement)>,
+    /// True if a pattern that holds the joint is confused with another joint's.
+    is_confused: bool,
+}
+
+impl Found {
+    /// Returns true if there is no pattern, and pins of other sizes might make one.
+    fn is_only_confused(&self) -> bool {
+        self.any.is_none() && self.is_confused
+    }
+}
+
+/// Returns the cheapest placement.
+fn cheapest(found: Vec<Option<(Cost, Placement)>>) -> Option<Placement> {
+    let cheapest = found.into_iter().flatten().min_by(|a, b| a.0.compare(&b.0));
+    cheapest.map(|(_, placement)| placement)
+}
+
 struct Search<'a> {
     order: &'a BossRequest<'a>,
     /// The body with its voids.
@@ -155,7 +179,7 @@ impl Search<'_> {
         let cut = index_of(&self.order.plan.cuts, &pin.cut)?;
         let (plane, outline) = (&self.filled.tree.planes[cut], self.maker.outline(cut));
         let at = Chart::of_plane(plane).flat(&Point::from(pin.center_mm));
-        let is_of = |joint: &&Joint| joint.cut == cut && self.is_of_joint(joint, &outline, &at);
+        let is_of = |joint: &&Joint| joint.cut == cut && self.is_of_joint(joint, outline, &at);
         let joint = joints.iter().find(is_of)?;
         self.has_material(self.filled, joint, pin)
             .then(|| self.make_boss(joint, pin))
@@ -181,37 +205,47 @@ impl Search<'_> {
     }
 
     /// Finds the cheapest pattern of two pins for a joint, in either direction. Takes the thinnest
-    /// pins that fit one way only.
+    /// pins that fit one way only, and those that leave every void open before others.
     fn find_pattern(
         &self,
         joint: &Joint,
         others: &[&Placement],
     ) -> Result<Option<Placement>, CutError> {
-        let thin_first = |mut pairs: Vec<[Size; 2]>| {
-            let equal = pairs.pop();
-            pairs.into_iter().rev().chain(equal)
-        };
         let request = self.order.request;
-        let pairs = thin_first(size_pairs(request)).chain(thin_first(short_pairs(request)));
-        let pairs: Vec<[Size; 2]> = pairs.collect();
-        let attempts = [true, false]
-            .into_iter()
-            .flat_map(|must_open| pairs.iter().map(move |sizes| (must_open, sizes)));
-        for (must_open, sizes) in attempts {
-            let mut best: Option<(Cost, Placement)> = None;
-            for is_upward in [true, false] {
-                let found =
-                    self.find_pattern_along(joint, Facing { others, is_upward }, sizes, must_open)?;
-                best = match (best, found) {
-                    (Some(best), Some(found)) if found.0.compare(&best.0).is_ge() => Some(best),
-                    (best, found) => found.or(best),
-                };
-            }
-            if let Some((_, placement)) = best {
-                return Ok(Some(placement));
+        let faces = self.faces(joint, others);
+        let mut closing = None;
+        for pairs in [size_pairs(request), short_pairs(request)] {
+            let Some((equal, different)) = pairs.split_last() else {
+                continue;
+            };
+            let mut is_hopeless = false;
+            for sizes in different.iter().rev().chain([equal]) {
+                // Thicker pins are no farther apart than thin ones, and close more.
+                if is_hopeless && !std::ptr::eq(sizes, equal) {
+                    continue;
+                }
+                let along = faces
+                    .iter()
+                    .map(|face| self.find_pattern_along(joint, face, others, sizes));
+                let found = along.collect::<Result<Vec<Found>, CutError>>()?;
+                is_hopeless = found.iter().all(|found| !found.is_only_confused());
+                let (open, any): (Vec<_>, Vec<_>) = found
+                    .into_iter()
+                    .map(|found| (found.open, found.any))
+                    .unzip();
+                if let Some(open) = cheapest(open) {
+                    return Ok(Some(open));
+                }
+                closing = closing.or_else(|| cheapest(any));
             }
         }
-        Ok(None)
+        Ok(closing)
+    }
+
+    /// Returns the faces of a joint in the filled body for pins in either direction.
+    fn faces<'s>(&'s self, joint: &'s Joint, others: &[&Placement]) -> [Face<'s>; 2] {
+        [true, false]
+            .map(|is_upward| Face::without_points(self.filled, joint, Facing { others, is_upward }))
     }
 
     /// Finds the cheapest single pin of the thinnest size, for a joint without room for two. Only
@@ -224,48 +258,51 @@ impl Search<'_> {
         let Some([_, size]) = size_pairs(self.order.request).pop() else {
             return Ok(None);
         };
-        let mut found: Vec<(Cost, Placement)> = Vec::new();
-        for is_upward in [true, false] {
-            let face = Face::without_points(self.filled, joint, Facing { others, is_upward });
-            let sites = self.sites(joint, &face, &size)?.into_iter();
+        let mut found: Vec<Option<(Cost, Placement)>> = Vec::new();
+        for face in &self.faces(joint, others) {
+            let sites = self.sites(joint, face, &size)?.into_iter();
             let costs = sites.map(|site| (Cost::of(&[&site], &self.view), site.at));
             let cheapest = costs.min_by(|a, b| a.0.compare(&b.0));
-            found.extend(cheapest.map(|(cost, at)| (cost, face.placement(&[(at, size)], false))));
+            found.push(cheapest.map(|(cost, at)| (cost, face.placement(&[(at, size)], false))));
         }
-        let cheapest = found.into_iter().min_by(|a, b| a.0.compare(&b.0));
-        Ok(cheapest.map(|(_, placement)| placement))
+        Ok(cheapest(found))
     }
 
-    /// Finds the best pattern of two pins of these sizes and its cost. With `must_open`, considers
-    /// only patterns that leave every void open.
+    /// Finds the best patterns of two pins of these sizes.
     fn find_pattern_along(
         &self,
         joint: &Joint,
-        facing: Facing,
+        face: &Face,
+        others: &[&Placement],
         sizes: &[Size; 2],
-        must_open: bool,
-    ) -> Result<Option<(Cost, Placement)>, CutError> {
-        let face = Face::without_points(self.filled, joint, facing);
-        let sites = self.sites(joint, &face, &sizes[0])?;
+    ) -> Result<Found, CutError> {
+        let sites = self.sites(joint, face, &sizes[0])?;
         let mut open = OpenPairs::new(
             &self.view,
             &sites,
             sizes[0].room_mm(self.order.request) / 2.0,
         );
+        let mut found = Found::default();
         for pair in best_pairs(&sites, face.gap_mm(&sizes[0]), &self.view) {
             let [i, j] = pair.sites;
             let pattern = [(sites[i].at, sizes[0]), (sites[j].at, sizes[1])];
-            let is_usable = face.is_held_by(&pattern)
-                && !is_confused(&face.end_views(&pattern), facing.others)
-                && (!must_open || open.leaves_open(pair.sites)?);
-            if is_usable {
-                return Ok(Some((pair.cost, face.placement(&pattern, true))));
+            if !face.is_held_by(&pattern) {
+                continue;
             }
-            if open.is_exhausted() {
+            if is_confused(&face.end_views(&pattern), others) {
+                found.is_confused = true;
+                continue;
+            }
+            let placed = || Some((pair.cost, face.placement(&pattern, true)));
+            found.any = found.any.or_else(placed);
+            if open.leaves_open(pair.sites)? {
+                found.open = placed();
+            }
+            if found.open.is_some() || open.is_exhausted() {
                 break;
             }
         }
-        Ok(None)
+        Ok(found)
     }
 
     /// Returns priced places of a joint where a boss of this size joins the wall and stays inside
@@ -287,10 +324,10 @@ impl Search<'_> {
         let is_place = |p: &Point2| {
             is_near(p)
                 && !is_refused(p)
-                && self.is_of_joint(joint, &outline, p)
+                && self.is_of_joint(joint, outline, p)
                 && face.has_material(p, size)
         };
-        let places = grid(&outline).into_par_iter().map(|p| {
+        let places = grid(outline).into_par_iter().map(|p| {
             request.watch.check()?;
             Ok(is_place(&p).then_some(p))
         });

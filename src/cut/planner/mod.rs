@@ -2,6 +2,7 @@
 
 pub(crate) mod attempt;
 pub(crate) mod cover;
+pub(crate) mod draft;
 pub(crate) mod extra;
 pub(crate) mod family;
 pub(crate) mod layers;
@@ -75,13 +76,20 @@ pub fn plan(
 fn plan_fewest(hollowed: &Hollowed, request: &PlanRequest) -> Result<CutPlan, CutError> {
     check_request(request)?;
     let scene = Scene::new(hollowed, request)?;
-    let mut notes = Vec::new();
-    let mut layout = opening_cuts(&scene, &mut notes)?;
-    fit_build_volume(&scene, &mut layout, &mut notes)?;
-    notes.extend(limited_cut_remarks(&layout.tree));
-    notes.extend(small_part_remarks(&scene, &layout));
+    let (layout, notes) = fewest_cuts(&scene)?;
     let plan = to_plan(&scene, &layout, Pins::Placed, notes.clone())?;
     snap_to_layers(&scene, &layout, plan, notes)
+}
+
+/// Returns the fewest cuts that open every void, with those that make parts fit, and the remarks on
+/// them.
+fn fewest_cuts(scene: &Scene) -> Result<(Layout, Vec<Remark>), CutError> {
+    let mut notes = Vec::new();
+    let mut layout = opening_cuts(scene, &mut notes)?;
+    fit_build_volume(scene, &mut layout, &mut notes)?;
+    notes.extend(limited_cut_remarks(&layout.tree));
+    notes.extend(small_part_remarks(scene, &layout));
+    Ok((layout, notes))
 }
 
 /// Plans the ordered cuts, each limited to its ordered sides and without the faces ordered to stay

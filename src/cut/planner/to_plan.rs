@@ -56,21 +56,39 @@ pub(crate) fn to_plan(
     notes.extend(voids.iter().filter_map(|void| narrow_piece(scene, void)));
     notes.extend(unlabelled);
     Ok(CutPlan {
-        cuts: (0..tree.planes.len())
-            .map(|index| cut(tree, index))
-            .collect(),
+        cuts: cuts(tree),
         joints: pairs
-            .map(|(joint, placement)| joint_note(&pin_scene, joint, placement))
+            .map(|(joint, placement)| joint_note(tree, joint, placement))
             .collect(),
         pins: placements
             .into_iter()
             .flat_map(|placement| placement.sites)
             .collect(),
-        uncut: bridges
-            .iter()
-            .map(|bridge| uncut_face(&tree.planes, bridge))
-            .collect(),
+        uncut: uncut_faces(tree, bridges),
         labels,
+        voids: voids.clone(),
+        notes,
+        solid: Vec::new(),
+        moves: Vec::new(),
+    })
+}
+
+/// Builds a plan with these cuts alone: no joint has pins, and no part a label.
+pub(crate) fn to_draft(layout: &Layout, notes: Vec<Remark>) -> Result<CutPlan, CutError> {
+    let Layout {
+        tree,
+        voids,
+        pieces,
+        bridges,
+    } = layout;
+    check_no_cavity(pieces)?;
+    let bare = |joint: &Joint| joint_note(tree, joint, &Placement::default());
+    Ok(CutPlan {
+        cuts: cuts(tree),
+        joints: joints(pieces, tree).iter().map(bare).collect(),
+        pins: Vec::new(),
+        uncut: uncut_faces(tree, bridges),
+        labels: Vec::new(),
         voids: voids.clone(),
         notes,
         solid: Vec::new(),
@@ -106,6 +124,19 @@ pub(crate) fn rename_cuts(mut plan: CutPlan, cuts: &[Cut]) -> CutPlan {
     plan
 }
 
+fn cuts(tree: &CutTree) -> Vec<Cut> {
+    (0..tree.planes.len())
+        .map(|index| cut(tree, index))
+        .collect()
+}
+
+fn uncut_faces(tree: &CutTree, bridges: &[Bridge]) -> Vec<UncutFace> {
+    bridges
+        .iter()
+        .map(|bridge| uncut_face(&tree.planes, bridge))
+        .collect()
+}
+
 fn uncut_face(planes: &[Plane], bridge: &Bridge) -> UncutFace {
     let plane = &planes[bridge.cut];
     let point_mm = Chart::of_plane(plane).lift(plane, &bridge.at).into();
@@ -115,7 +146,7 @@ fn uncut_face(planes: &[Plane], bridge: &Bridge) -> UncutFace {
     }
 }
 
-fn joint_note(scene: &PinScene, joint: &Joint, placement: &Placement) -> JointNote {
+fn joint_note(tree: &CutTree, joint: &Joint, placement: &Placement) -> JointNote {
     JointNote {
         cut: CutId::of(joint.cut),
         parts: joint.parts(),
@@ -124,7 +155,7 @@ fn joint_note(scene: &PinScene, joint: &Joint, placement: &Placement) -> JointNo
         one_way: placement.is_one_way,
         play: placement.hold.play,
         held: placement.hold.is_enough,
-        face: contact(&scene.tree.planes, joint, &placement.sites),
+        face: contact(&tree.planes, joint, &placement.sites),
     }
 }
 

@@ -1,0 +1,89 @@
+//! Drafts: plans with cuts alone, for a search that weighs many of them. The one that is taken gets
+//! its pins in the end.
+
+use super::{check_request, fewest_cuts};
+use crate::{
+    base::verdict::Verdict,
+    cut::{
+        error::{CutError, Obstacle, verdict},
+        hollowed::Hollowed,
+        joints::pins::Pins,
+        order::CutOrder,
+        pieces::rejoin::rejoin,
+        plan::{CutPlan, bridges_on},
+        planner::{
+            layers::snap_to_layers,
+            layout::Layout,
+            score::Scene,
+            to_plan::{to_draft, to_plan},
+        },
+        request::PlanRequest,
+    },
+};
+
+/// Finds the cuts of [`plan`](super::plan) and leaves out pins, labels and the move to whole
+/// layers. Takes about two thirds of its time.
+pub fn draft(
+    hollowed: &Hollowed,
+    request: &PlanRequest,
+) -> Result<Verdict<CutPlan, Obstacle>, CutError> {
+    verdict(draft_fewest(hollowed, request))
+}
+
+fn draft_fewest(hollowed: &Hollowed, request: &PlanRequest) -> Result<CutPlan, CutError> {
+    check_request(request)?;
+    let scene = Scene::new(hollowed, request)?;
+    let (layout, notes) = fewest_cuts(&scene)?;
+    to_draft(&layout, notes)
+}
+
+/// Returns the plan of a [`draft`] of the same body: cuts moved to whole layers, with pins and
+/// labels.
+pub fn finish_draft(
+    hollowed: &Hollowed,
+    request: &PlanRequest,
+    draft: CutPlan,
+) -> Result<CutPlan, CutError> {
+    let scene = Scene::new(hollowed, request)?;
+    let order = CutOrder::of(&draft);
+    let tree = draft.tree()?;
+    let bridges = bridges_on(&tree.planes, &order.cuts, &order.uncut);
+    let layout = Layout {
+        pieces: rejoin(scene.split(&tree)?, &tree, &bridges, &request.watch)?,
+        voids: draft.voids,
+        tree,
+        bridges,
+    };
+    let plan = to_plan(&scene, &layout, Pins::Placed, draft.notes.clone())?;
+    let plan = snap_to_layers(&scene, &layout, plan, draft.notes)?;
+    Ok(CutPlan {
+        solid: draft.solid,
+        ..plan
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cut::scenes::{cuboid, plan, request, with_balls};
+
+    #[test]
+    fn a_finished_draft_is_the_plan_that_is_made_at_once() {
+        let outer = cuboid([0.0; 3], [50.0, 47.0, 41.3]);
+        let hollowed = with_balls(outer, &[[14.0, 20.0, 20.0, 8.0], [36.0, 26.0, 21.0, 8.0]]);
+        let request = PlanRequest {
+            layer_mm: 0.2,
+            ..request()
+        };
+        let at_once = plan(&hollowed, &request).unwrap();
+        let draft = draft(&hollowed, &request).unwrap().or_error::<CutError>();
+        let draft = draft.unwrap();
+        assert!(draft.pins.is_empty() && draft.labels.is_empty() && draft.moves.is_empty());
+        assert_eq!(draft.count_parts(), at_once.count_parts());
+        assert_eq!(draft.voids.len(), at_once.voids.len());
+        let finished = finish_draft(&hollowed, &request, draft).unwrap();
+        assert_eq!(finished.pins, at_once.pins);
+        assert_eq!(finished.cuts, at_once.cuts);
+        assert_eq!(finished.notes, at_once.notes);
+    }
+}
