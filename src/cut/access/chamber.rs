@@ -9,7 +9,7 @@ use crate::{
         error::CutError,
         geometry::{outline::Outline, section::Section, tree::CutTree},
         hollowed::{Hollowed, Void},
-        pieces::split::{Piece, split_body},
+        pieces::split::{Piece, split_for_trial},
         request::PlanRequest,
     },
     mesh::{Csg, TriMesh},
@@ -20,18 +20,15 @@ use crate::{
 pub(crate) struct Chamber<'a> {
     pub(crate) void: &'a Void,
     pub(crate) walls: Walls,
-    body: Csg,
     watch: &'a Watch,
 }
 
 impl<'a> Chamber<'a> {
     fn new(void: &'a Void, watch: &'a Watch) -> Result<Self, CutError> {
         watch.check()?;
-        let (body, walls) = rayon::join(|| Csg::of_solid(&void.body), || Walls::of(&void.body));
         Ok(Self {
             void,
-            walls,
-            body: body?,
+            walls: Walls::of(&void.body),
             watch,
         })
     }
@@ -44,7 +41,7 @@ impl<'a> Chamber<'a> {
 
     /// Returns the pieces of the void between the cuts.
     pub(crate) fn split(&self, tree: &CutTree) -> Result<Vec<Piece>, CutError> {
-        split_body(&self.body, tree, self.watch)
+        split_for_trial(self.void.mesh(), tree, self.watch)
     }
 
     /// Estimates the share of the wall that is in sight after these cuts, from the sections of the
@@ -72,7 +69,7 @@ impl<'a> Chamber<'a> {
 
     /// Returns the void minus some bodies.
     pub(crate) fn without(&self, bodies: &[TriMesh]) -> Result<TriMesh, CutError> {
-        let mut rest = self.body.clone();
+        let mut rest = Csg::of_solid(&self.void.body)?;
         for body in bodies {
             self.watch.check()?;
             rest = rest.subtract(&Csg::of_mesh(body)?)?;
