@@ -23,7 +23,7 @@ use crate::{
         request::PlanRequest,
     },
     geom::{Plane, Point, Vector},
-    mesh::{Csg, TriMesh, bodies, union_find::UnionFind},
+    mesh::{TriMesh, bodies, union_find::UnionFind},
 };
 
 /// Hidden points belong to one patch if they are nearer than this many times their spacing.
@@ -354,7 +354,7 @@ mod tests {
             CutOrder,
             scenes::{plan_by, request},
         },
-        mesh::{Solid, primitives},
+        mesh::{Csg, Solid, primitives},
         printer::{Cleaning, CleaningRule},
     };
 
