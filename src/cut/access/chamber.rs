@@ -5,7 +5,10 @@ use rayon::prelude::*;
 use crate::{
     base::watch::{Cancelled, Watch},
     cut::{
-        access::sight::{SightTest, Sightlines, Walls},
+        access::{
+            eyes::SightTest,
+            sight::{Sightlines, Walls},
+        },
         error::CutError,
         geometry::{outline::Outline, section::Section, tree::CutTree},
         hollowed::{Hollowed, Void},
