@@ -1,5 +1,7 @@
 //! Voids prepared for repeated cutting and line-of-sight tests.
 
+use std::sync::OnceLock;
+
 use rayon::prelude::*;
 
 use crate::{
@@ -23,6 +25,8 @@ use crate::{
 pub(crate) struct Chamber<'a> {
     pub(crate) void: &'a Void,
     pub(crate) walls: Walls,
+    /// The void in the form for booleans, once it was needed.
+    body: OnceLock<Csg>,
     watch: &'a Watch,
 }
 
@@ -32,6 +36,7 @@ impl<'a> Chamber<'a> {
         Ok(Self {
             void,
             walls: Walls::of(&void.body),
+            body: OnceLock::new(),
             watch,
         })
     }
@@ -72,7 +77,13 @@ impl<'a> Chamber<'a> {
 
     /// Returns the void minus some bodies.
     pub(crate) fn without(&self, bodies: &[TriMesh]) -> Result<TriMesh, CutError> {
-        let mut rest = Csg::of_solid(&self.void.body)?;
+        let mut rest = match self.body.get() {
+            Some(body) => body.clone(),
+            None => {
+                let body = Csg::of_solid(&self.void.body)?;
+                self.body.get_or_init(|| body).clone()
+            }
+        };
         for body in bodies {
             self.watch.check()?;
             rest = rest.subtract(&Csg::of_mesh(body)?)?;

@@ -9,7 +9,7 @@ use crate::{
         geometry::outline::Outline,
         pieces::split::Piece,
     },
-    geom::{Bvh, Point},
+    geom::Point,
     mesh::{Solid, area_mm2, spread_points},
 };
 
@@ -55,7 +55,7 @@ impl Sightlines {
 
 /// The walls of one void.
 pub(crate) struct Walls {
-    bvh: Bvh,
+    void: Solid,
     /// Sample points on the wall of the whole void.
     points: Vec<Point>,
     /// Area that each sample point stands for, mm².
@@ -71,7 +71,7 @@ impl Walls {
             .map(|point| point.at)
             .collect();
         Self {
-            bvh: Bvh::new(wall),
+            void: void.clone(),
             points,
             share_mm2: area / SAMPLES,
         }
@@ -108,7 +108,7 @@ impl Walls {
         let [few, many] = [EYES_ACROSS, FINE_EYES_ACROSS].map(|count| sight.eyes(&mouths, count));
         let lines = |points: &[Point]| {
             let [mut few, mut many] =
-                [&few, &many].map(|eyes| Lookout::new(&self.bvh, eyes, sight));
+                [&few, &many].map(|eyes| Lookout::new(self.void.bvh(), eyes, sight));
             let line = |at: &Point| {
                 sight.watch.check()?;
                 let eyes = few.eyes_seeing(at);
@@ -187,7 +187,7 @@ impl Walls {
         sight: &SightTest,
     ) -> Result<(Vec<Point>, Vec<Point>), Cancelled> {
         let test = |points: &[Point]| {
-            let mut lookout = Lookout::new(&self.bvh, eyes, sight);
+            let mut lookout = Lookout::new(self.void.bvh(), eyes, sight);
             let is_seen = |at| {
                 sight.watch.check()?;
                 Ok(lookout.sees(at))
