@@ -1,15 +1,15 @@
 //! The columns without a body that must stay solid although the wall would let it be emptied.
 
 use std::convert::Infallible;
+use std::ops::Range;
+
+use rayon::prelude::*;
 
 use super::columns::Columns;
 use super::row::subtract;
 use crate::base::watch::{Cancelled, Watch};
 use crate::mesh::TriMesh;
 use crate::shell::{RowCrossings, Ruler, inside_stretches};
-
-/// Columns between two checks of the watch: a fraction of a millisecond.
-const COLUMNS_PER_CHECK: usize = 1024;
 
 /// Length below which an interval is dropped, mm: rounding at the body's surface that meets an
 /// interval's end.
@@ -19,8 +19,7 @@ impl Columns {
     /// Returns the columns less the inside of a closed mesh (goal frame, mm), exact along every
     /// column.
     ///
-    /// Columns with nothing rest are rest out. Costs a pass over the columns, and one over the mesh
-    /// for each row that it reaches.
+    /// Columns with nothing left are left out. Costs a pass over the columns and one over the mesh.
     pub fn without(&self, body: &TriMesh) -> Self {
         let Ok(rest) = self.subtract(body, || Ok::<(), Infallible>(()));
         rest
@@ -32,72 +31,128 @@ impl Columns {
     }
 
     /// Returns the columns less a body, and checks now and then that it may go on.
-    fn subtract<E>(&self, body: &TriMesh, check: impl Fn() -> Result<(), E>) -> Result<Self, E> {
-        let mut carver = Carver::new(self, body);
-        let mut rest = Self {
+    fn subtract<E: Send>(
+        &self,
+        body: &TriMesh,
+        check: impl Fn() -> Result<(), E> + Sync,
+    ) -> Result<Self, E> {
+        let rows = self.rows();
+        let carver = Carver::new(self, body, &rows);
+        let carve = |crossings: &mut RowCrossings, row: &Range<usize>| {
+            check()?;
+            Ok(carver.carve(row.clone(), crossings))
+        };
+        let carved = rows.par_iter().map_init(RowCrossings::default, carve);
+        let carved: Vec<Self> = carved.collect::<Result<_, E>>()?;
+        let mut rest = self.without_columns();
+        for row in carved {
+            let shift = rest.intervals.len() as u32;
+            rest.centers.extend(row.centers);
+            rest.intervals.extend(row.intervals);
+            rest.starts
+                .extend(row.starts[1..].iter().map(|start| start + shift));
+        }
+        Ok(rest)
+    }
+
+    /// Returns columns of the same pitch, but none of them.
+    fn without_columns(&self) -> Self {
+        Self {
             pitch_mm: self.pitch_mm,
             starts: vec![0],
             ..Self::default()
-        };
-        let mut intervals = Vec::new();
-        for column in 0..self.len() {
-            if column % COLUMNS_PER_CHECK == 0 {
-                check()?;
+        }
+    }
+
+    /// Returns the rows, as ranges of columns with the same y.
+    fn rows(&self) -> Vec<Range<usize>> {
+        let rows = self.centers.chunk_by(|a, b| a[1] == b[1]);
+        let ends = rows.scan(0, |end, row| {
+            let start = *end;
+            *end += row.len();
+            Some(start..*end)
+        });
+        ends.collect()
+    }
+}
+
+/// A body to subtract from columns, its triangles sorted by the rows that they reach.
+struct Carver<'a> {
+    columns: &'a Columns,
+    body: &'a TriMesh,
+    xs: Ruler,
+    /// The distinct y of the rows, ascending, mm.
+    rows_mm: Vec<f64>,
+    /// The triangles that reach each of these rows, in their own order.
+    triangles: Vec<Vec<u32>>,
+}
+
+impl<'a> Carver<'a> {
+    fn new(columns: &'a Columns, body: &'a TriMesh, rows: &[Range<usize>]) -> Self {
+        let aabb = body.aabb();
+        let mut rows_mm: Vec<f64> = rows
+            .iter()
+            .map(|row| columns.centers[row.start][1])
+            .collect();
+        rows_mm.sort_by(f64::total_cmp);
+        rows_mm.dedup();
+        let mut triangles = vec![Vec::new(); rows_mm.len()];
+        for (index, corners) in (0u32..).zip(body.iter_corners()) {
+            let [a, b, c] = corners.map(|p| p.y);
+            let (low, high) = (a.min(b).min(c), a.max(b).max(c));
+            let first = rows_mm.partition_point(|&y| y < low);
+            let reached = rows_mm[first..].iter().take_while(|&&y| y <= high).count();
+            for row in &mut triangles[first..first + reached] {
+                row.push(index);
             }
-            let center = self.centers[column];
+        }
+        Self {
+            columns,
+            body,
+            xs: Ruler::covering(
+                [aabb.min.x, aabb.max.x],
+                columns.pitch_mm[0],
+                Ruler::PHASE_X,
+            ),
+            rows_mm,
+            triangles,
+        }
+    }
+
+    /// Returns what is left of the columns of one row.
+    fn carve(&self, row: Range<usize>, crossings: &mut RowCrossings) -> Columns {
+        let y = self.columns.centers[row.start][1];
+        let place = self.rows_mm.partition_point(|&other| other < y);
+        crossings.find(self.body, &self.triangles[place], y, &self.xs);
+        let mut rest = self.columns.without_columns();
+        let mut intervals = Vec::new();
+        for column in row {
+            let center = self.columns.centers[column];
             intervals.clear();
-            intervals.extend_from_slice(self.intervals_of(column));
-            carver.carve(center, &mut intervals);
+            intervals.extend_from_slice(self.columns.intervals_of(column));
+            if let Some(crossed) = self.find_column(center[0]) {
+                inside_stretches(crossings.of(crossed), |stretch| {
+                    subtract(&mut intervals, stretch)
+                });
+                intervals.retain(|[bottom, top]| top - bottom > SLIVER_MM);
+            }
             if !intervals.is_empty() {
                 rest.centers.push(center);
                 rest.intervals.extend_from_slice(&intervals);
                 rest.starts.push(rest.intervals.len() as u32);
             }
         }
-        Ok(rest)
-    }
-}
-
-/// The body's crossings with the columns, one row at a time.
-struct Carver<'a> {
-    body: &'a TriMesh,
-    triangles: Vec<u32>,
-    xs: Ruler,
-    half_pitch_mm: f64,
-    /// y of the row to which the crossings belong, mm.
-    row_mm: f64,
-    crossings: RowCrossings,
-}
-
-impl<'a> Carver<'a> {
-    fn new(columns: &Columns, body: &'a TriMesh) -> Self {
-        let (aabb, pitch_mm) = (body.aabb(), columns.pitch_mm[0]);
-        Self {
-            body,
-            triangles: (0..body.triangles().len() as u32).collect(),
-            xs: Ruler::covering([aabb.min.x, aabb.max.x], pitch_mm, Ruler::PHASE_X),
-            half_pitch_mm: pitch_mm / 2.0,
-            row_mm: f64::NAN,
-            crossings: RowCrossings::default(),
-        }
+        rest
     }
 
-    /// Subtracts the body from the intervals of one column.
-    fn carve(&mut self, [x, y]: [f64; 2], intervals: &mut Vec<[f64; 2]>) {
+    /// Returns the index of the body's column at `x`; `None` if it does not reach there.
+    fn find_column(&self, x: f64) -> Option<usize> {
         // There is no other column within half a pitch, so rounding cannot mistake a neighbour for
         // it.
-        let column = self.xs.index_at_or_after(x - self.half_pitch_mm);
-        if column >= self.xs.len() || self.xs.at(column) > x + self.half_pitch_mm {
-            return;
-        }
-        if y != self.row_mm {
-            self.row_mm = y;
-            self.crossings.find(self.body, &self.triangles, y, &self.xs);
-        }
-        inside_stretches(self.crossings.of(column), |stretch| {
-            subtract(intervals, stretch)
-        });
-        intervals.retain(|[bottom, top]| top - bottom > SLIVER_MM);
+        let half_pitch_mm = self.columns.pitch_mm[0] / 2.0;
+        let column = self.xs.index_at_or_after(x - half_pitch_mm);
+        let is_there = column < self.xs.len() && self.xs.at(column) <= x + half_pitch_mm;
+        is_there.then_some(column)
     }
 }
 
@@ -158,5 +213,34 @@ mod tests {
                 ))
                 .is_empty()
         );
+    }
+
+    #[test]
+    fn every_row_meets_the_triangles_that_reach_it_on_any_number_of_threads() {
+        let columns = cube_columns();
+        let body = ball(&Point::new(4.0, 5.5, 5.0), 3.0, 3)
+            .joined(&cuboid(
+                &Point::new(6.5, -2.0, 1.0),
+                &Point::new(8.0, 12.0, 2.0),
+            ))
+            .joined(&ball(&Point::new(8.0, 8.0, 8.0), 1.0, 2));
+        let rows = columns.rows();
+        let carver = Carver::new(&columns, &body, &rows);
+        let all: Vec<u32> = (0..body.triangles().len() as u32).collect();
+        let mut crossings = [RowCrossings::default(), RowCrossings::default()];
+        for (&y, triangles) in carver.rows_mm.iter().zip(&carver.triangles) {
+            assert!(triangles.len() < all.len());
+            crossings[0].find(&body, triangles, y, &carver.xs);
+            crossings[1].find(&body, &all, y, &carver.xs);
+            for column in 0..carver.xs.len() {
+                assert_eq!(crossings[0].of(column), crossings[1].of(column));
+            }
+        }
+        let on = |threads| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+            pool.unwrap().install(|| columns.without(&body))
+        };
+        assert_eq!(on(1), on(3));
+        assert!(on(1).intervals.len() > columns.intervals.len());
     }
 }

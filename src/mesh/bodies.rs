@@ -8,23 +8,34 @@ use crate::geom::Point;
 /// Vertices and triangles keep their order. Vertices that no triangle names are dropped. Two shells
 /// that touch in a vertex without sharing its index are two shells.
 pub fn shells(mesh: &TriMesh) -> Vec<TriMesh> {
-    let shell_of = shell_of_vertices(mesh);
-    let mut shells = Vec::new();
-    let mut place = vec![usize::MAX; mesh.vertices().len()];
-    let mut parts: Vec<Vec<[u32; 3]>> = Vec::new();
-    for &triangle in mesh.triangles() {
+    const NONE: u32 = u32::MAX;
+    let mut shell_of = shell_of_vertices(mesh);
+    let mut rank = vec![NONE; mesh.vertices().len()];
+    let mut parts: Vec<(Vec<Point>, Vec<[u32; 3]>)> = Vec::new();
+    for triangle in mesh.triangles() {
         let root = shell_of[triangle[0] as usize] as usize;
-        if place[root] == usize::MAX {
-            place[root] = parts.len();
-            parts.push(Vec::new());
+        if rank[root] == NONE {
+            rank[root] = parts.len() as u32;
+            parts.push(Default::default());
         }
-        parts[place[root]].push(triangle);
     }
-    let mut new_index = vec![u32::MAX; mesh.vertices().len()];
-    for triangles in parts {
-        shells.push(extract(mesh, triangles, &mut new_index));
+    let mut new_index = vec![NONE; mesh.vertices().len()];
+    for (vertex, shell) in shell_of.iter_mut().enumerate() {
+        *shell = rank[*shell as usize];
+        if *shell != NONE {
+            let vertices = &mut parts[*shell as usize].0;
+            new_index[vertex] = vertices.len() as u32;
+            vertices.push(mesh.vertices()[vertex]);
+        }
     }
-    shells
+    for triangle in mesh.triangles() {
+        let shell = shell_of[triangle[0] as usize] as usize;
+        parts[shell].1.push(triangle.map(|v| new_index[v as usize]));
+    }
+    let parts = parts.into_iter();
+    parts
+        .map(|(vertices, triangles)| TriMesh::from_parts(vertices, triangles))
+        .collect()
 }
 
 /// Returns the bodies that a closed, oriented mesh bounds, in the order of their outward shells.
@@ -80,21 +91,4 @@ fn shell_of_vertices(mesh: &TriMesh) -> Vec<u32> {
         sets.merge(b, c);
     }
     (0..count as u32).map(|v| sets.root(v)).collect()
-}
-
-/// Returns some of `mesh`'s triangles as a mesh with only the vertices they name.
-///
-/// `new_index` is scratch space, `u32::MAX` for every vertex not yet met.
-fn extract(mesh: &TriMesh, mut triangles: Vec<[u32; 3]>, new_index: &mut [u32]) -> TriMesh {
-    let mut used: Vec<u32> = triangles.iter().flatten().copied().collect();
-    used.sort_unstable();
-    used.dedup();
-    for (new, &old) in used.iter().enumerate() {
-        new_index[old as usize] = new as u32;
-    }
-    for corner in triangles.iter_mut().flatten() {
-        *corner = new_index[*corner as usize];
-    }
-    let vertices = used.iter().map(|&v| mesh.vertices()[v as usize]).collect();
-    TriMesh::new(vertices, triangles).unwrap_or_default()
 }

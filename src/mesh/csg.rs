@@ -1,5 +1,5 @@
-//! Booleans, plane cuts and simplification of closed meshes: the only wrapper around
-//! `manifold-rust`.
+//! Booleans, plane cuts and simplification of closed meshes: the wrapper around `manifold-rust`.
+//! Only `clip` also uses it, to fill flat outlines.
 
 use manifold_rust::{
     linalg::Vec3,
@@ -137,11 +137,7 @@ impl Csg {
     /// A plane that coincides with a face may leave a sheet without volume. Keep planes off
     /// faces by about 1e-6 mm and drop components without volume.
     pub fn split_by_plane(&self, plane: &Plane) -> Result<(Self, Self), ClipError> {
-        let n = plane.normal;
-        let is_unit = (n.norm_squared() - 1.0).abs() <= UNIT_LENGTH_TOLERANCE;
-        if !is_unit || !plane.offset_mm.is_finite() {
-            return Err(ClipError::DegeneratePlane);
-        }
+        check_plane(plane)?;
         let above = self.half_space(plane)?;
         let (positive, negative) = rayon::join(
             || self.0.intersection(&above.0),
@@ -233,6 +229,17 @@ impl Csg {
     /// Returns the number of triangles of the surface.
     pub fn triangle_count(&self) -> usize {
         self.0.num_tri()
+    }
+}
+
+/// Returns an error if a plane's normal is not of length one, or its offset not finite.
+pub(super) fn check_plane(plane: &Plane) -> Result<(), ClipError> {
+    let n = plane.normal;
+    let is_unit = (n.norm_squared() - 1.0).abs() <= UNIT_LENGTH_TOLERANCE;
+    if is_unit && plane.offset_mm.is_finite() {
+        Ok(())
+    } else {
+        Err(ClipError::DegeneratePlane)
     }
 }
 

@@ -77,6 +77,11 @@ impl TriMesh {
         &self.triangles
     }
 
+    /// Returns true if there are no triangles.
+    pub fn is_empty(&self) -> bool {
+        self.triangles.is_empty()
+    }
+
     /// Returns the corners of triangle `index`.
     pub fn corners(&self, index: usize) -> [Point; 3] {
         self.triangles[index].map(|v| self.vertices[v as usize])

@@ -1,15 +1,20 @@
 //! Voids prepared for repeated cutting and line-of-sight tests.
 
+use std::sync::OnceLock;
+
 use rayon::prelude::*;
 
 use crate::{
     base::watch::{Cancelled, Watch},
     cut::{
-        access::sight::{SightTest, Sightlines, Walls},
+        access::{
+            eyes::SightTest,
+            sight::{Sightlines, Walls},
+        },
         error::CutError,
         geometry::{outline::Outline, section::Section, tree::CutTree},
         hollowed::{Hollowed, Void},
-        pieces::split::{Piece, split_body},
+        pieces::split::{Piece, split_for_trial},
         request::PlanRequest,
     },
     mesh::{Csg, TriMesh},
@@ -20,18 +25,18 @@ use crate::{
 pub(crate) struct Chamber<'a> {
     pub(crate) void: &'a Void,
     pub(crate) walls: Walls,
-    body: Csg,
+    /// The void in the form for booleans, once it was needed.
+    body: OnceLock<Csg>,
     watch: &'a Watch,
 }
 
 impl<'a> Chamber<'a> {
     fn new(void: &'a Void, watch: &'a Watch) -> Result<Self, CutError> {
         watch.check()?;
-        let (body, walls) = rayon::join(|| Csg::of_solid(&void.body), || Walls::of(&void.body));
         Ok(Self {
             void,
-            walls,
-            body: body?,
+            walls: Walls::of(&void.body),
+            body: OnceLock::new(),
             watch,
         })
     }
@@ -44,7 +49,7 @@ impl<'a> Chamber<'a> {
 
     /// Returns the pieces of the void between the cuts.
     pub(crate) fn split(&self, tree: &CutTree) -> Result<Vec<Piece>, CutError> {
-        split_body(&self.body, tree, self.watch)
+        split_for_trial(self.void.mesh(), tree, self.watch)
     }
 
     /// Estimates the share of the wall that is in sight after these cuts, from the sections of the
@@ -72,7 +77,13 @@ impl<'a> Chamber<'a> {
 
     /// Returns the void minus some bodies.
     pub(crate) fn without(&self, bodies: &[TriMesh]) -> Result<TriMesh, CutError> {
-        let mut rest = self.body.clone();
+        let mut rest = match self.body.get() {
+            Some(body) => body.clone(),
+            None => {
+                let body = Csg::of_solid(&self.void.body)?;
+                self.body.get_or_init(|| body).clone()
+            }
+        };
         for body in bodies {
             self.watch.check()?;
             rest = rest.subtract(&Csg::of_mesh(body)?)?;

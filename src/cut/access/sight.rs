@@ -3,17 +3,13 @@
 use rayon::prelude::*;
 
 use crate::{
-    base::watch::{Cancelled, Watch},
+    base::watch::Cancelled,
     cut::{
-        geometry::{
-            chart::{Chart, Point2},
-            outline::Outline,
-            tree::CutTree,
-        },
+        access::eyes::{Eye, Lookout, SightTest},
+        geometry::outline::Outline,
         pieces::split::Piece,
-        request::PlanRequest,
     },
-    geom::{Bvh, Point},
+    geom::Point,
     mesh::{Solid, area_mm2, spread_points},
 };
 
@@ -28,110 +24,9 @@ const EYES_ACROSS: usize = 5;
 /// Number of viewpoints across a mouth in the second, finer test. Only slivers, a few thousandths
 /// of a wall, are visible from the additional viewpoints alone.
 const FINE_EYES_ACROSS: usize = 16;
-/// Hidden share of a piece above which the finer test is skipped, because it cannot pass.
-const HIDDEN_RATIO: f64 = 0.15;
-/// Share of a line of sight that is tested. The rest would hit the wall at its end.
-const TESTED_LINE_RATIO: f64 = 0.999;
-
-/// A viewpoint in the mouth of a cut.
-struct Eye {
-    cut: usize,
-    at: Point,
-}
-
-/// The parameters of the line-of-sight test.
-pub(crate) struct SightTest<'a> {
-    tree: &'a CutTree,
-    /// Radius of the least opening, mm. The tool gets no nearer to a rim than this.
-    tool_radius_mm: f64,
-    reach_mm: f64,
-    /// Hidden share of a piece above which the finer test is skipped.
-    max_hidden_ratio: f64,
-    watch: &'a Watch,
-}
-
-impl<'a> SightTest<'a> {
-    pub(crate) fn new(tree: &'a CutTree, request: &'a PlanRequest) -> Self {
-        let reach_mm = request.cleaning.reach_mm.unwrap_or(f64::INFINITY);
-        let tool_radius_mm = request.min_opening_mm / 2.0;
-        Self {
-            tree,
-            tool_radius_mm,
-            reach_mm,
-            max_hidden_ratio: HIDDEN_RATIO,
-            watch: &request.watch,
-        }
-    }
-
-    /// Returns the same test, but with the finer viewpoints for every piece. It is slower, and
-    /// meant for the numbers reported with a plan.
-    pub(crate) fn thorough(self) -> Self {
-        Self {
-            max_hidden_ratio: 1.0,
-            ..self
-        }
-    }
-
-    /// Returns the viewpoints in these mouths, each given with the index of its cut. In every mouth
-    /// that admits the tool, they are the places with room for it. If no mouth admits the tool, the
-    /// only viewpoint is the middle of the widest mouth.
-    fn eyes(&self, mouths: &[(usize, &Outline)], count: usize) -> Vec<Eye> {
-        let discs = mouths
-            .iter()
-            .filter_map(|mouth| Some((mouth, mouth.1.largest_disc(0.0)?)));
-        let mut discs: Vec<_> = discs.collect();
-        discs.sort_by(|a, b| b.1.radius_mm.total_cmp(&a.1.radius_mm));
-        let middles = discs
-            .iter()
-            .map(|(mouth, disc)| self.eye(mouth.0, &disc.center));
-        let is_wide = |radius_mm: f64| radius_mm >= self.tool_radius_mm;
-        let wide = discs
-            .iter()
-            .filter(|(_, disc)| is_wide(disc.radius_mm))
-            .count();
-        let mut eyes: Vec<Eye> = middles.take(wide.max(1)).collect();
-        for ((cut, outline), _) in &discs[..wide] {
-            let places = grid_over(outline, count)
-                .into_iter()
-                .filter(|at| is_wide(outline.signed_distance(at)));
-            eyes.extend(places.map(|at| self.eye(*cut, &at)));
-        }
-        eyes
-    }
-
-    fn eye(&self, cut: usize, at: &Point2) -> Eye {
-        let plane = &self.tree.planes[cut];
-        Eye {
-            cut,
-            at: Chart::of_plane(plane).lift(plane, at),
-        }
-    }
-
-    /// Returns true if the eye's cut exists where the eye is, and no other cut lies between eye and
-    /// point.
-    fn is_before(&self, eye: &Eye, at: &Point) -> bool {
-        let separates = |cut: usize| {
-            let [from, to] = [&eye.at, at].map(|p| self.tree.planes[cut].distance(p));
-            let crossing = eye.at + (at - eye.at) * (from / (from - to));
-            (from > 0.0) != (to > 0.0) && self.tree.acts_at(cut, &crossing)
-        };
-        let others = (0..self.tree.planes.len()).filter(|&cut| cut != eye.cut);
-        self.tree.acts_at(eye.cut, &eye.at) && !others.into_iter().any(separates)
-    }
-}
-
-/// Returns a grid of places over the bounding box of a mouth, `count` along each direction.
-fn grid_over(mouth: &Outline, count: usize) -> Vec<Point2> {
-    let Some((min, max)) = mouth.bounds() else {
-        return Vec::new();
-    };
-    let step = (max - min) / count as f64;
-    let at = |i: usize| {
-        let (column, row) = ((i % count) as f64, (i / count) as f64);
-        min + nalgebra::Vector2::new(step.x * (column + 0.5), step.y * (row + 0.5))
-    };
-    (0..count * count).map(at).collect()
-}
+/// Number of points that are tested one after another, each with what was learned from those
+/// before. The chunks are the same for any number of threads.
+const POINTS_AT_ONCE: usize = 64;
 
 /// The wall of a piece of a void, and its visible and hidden parts.
 #[derive(Debug, Clone, Default)]
@@ -162,7 +57,7 @@ impl Sightlines {
 
 /// The walls of one void.
 pub(crate) struct Walls {
-    bvh: Bvh,
+    void: Solid,
     /// Sample points on the wall of the whole void.
     points: Vec<Point>,
     /// Area that each sample point stands for, mm².
@@ -178,7 +73,7 @@ impl Walls {
             .map(|point| point.at)
             .collect();
         Self {
-            bvh: Bvh::new(wall),
+            void: void.clone(),
             points,
             share_mm2: area / SAMPLES,
         }
@@ -220,23 +115,24 @@ impl Walls {
             .map(|(cut, outline)| (*cut, outline))
             .collect();
         let [few, many] = [EYES_ACROSS, FINE_EYES_ACROSS].map(|count| sight.eyes(&mouths, count));
-        let eyes_seeing = |at: &Point, eyes: &[Eye]| -> Vec<Point> {
-            eyes.iter()
-                .filter(|eye| self.sees(eye, at, sight))
-                .map(|eye| eye.at)
-                .collect()
-        };
-        let lines = |at: &Point| {
-            sight.watch.check()?;
-            let eyes = eyes_seeing(at, &few);
-            let eyes = if eyes.is_empty() {
-                eyes_seeing(at, &many)
-            } else {
-                eyes
+        let lines = |points: &[Point]| {
+            let [mut few, mut many] =
+                [&few, &many].map(|eyes| Lookout::new(self.void.bvh(), eyes, sight));
+            let line = |at: &Point| {
+                sight.watch.check()?;
+                let eyes = few.eyes_seeing(at);
+                let eyes = if eyes.is_empty() {
+                    many.eyes_seeing(at)
+                } else {
+                    eyes
+                };
+                Ok(Sightlines { at: *at, eyes })
             };
-            Ok(Sightlines { at: *at, eyes })
+            points.iter().map(line).collect()
         };
-        self.points.par_iter().map(lines).collect()
+        let lines = self.points.par_chunks(POINTS_AT_ONCE).map(lines);
+        let lines: Vec<Vec<Sightlines>> = lines.collect::<Result<_, Cancelled>>()?;
+        Ok(lines.into_iter().flatten().collect())
     }
 
     /// Returns the area of the wall, mm².
@@ -299,27 +195,25 @@ impl Walls {
         eyes: &[Eye],
         sight: &SightTest,
     ) -> Result<(Vec<Point>, Vec<Point>), Cancelled> {
-        let test = |at: Point| {
-            sight.watch.check()?;
-            let is_hidden = !eyes.iter().any(|eye| self.sees(eye, &at, sight));
-            Ok((at, is_hidden))
+        let test = |points: &[Point]| {
+            let mut lookout = Lookout::new(self.void.bvh(), eyes, sight);
+            let is_seen = |at| {
+                sight.watch.check()?;
+                Ok(lookout.sees(at))
+            };
+            points.iter().map(is_seen).collect()
         };
-        let tested = points.into_par_iter().map(test);
-        let tested = tested.collect::<Result<Vec<(Point, bool)>, Cancelled>>()?;
-        let (hidden, visible): (Vec<_>, Vec<_>) =
-            tested.into_iter().partition(|(_, is_hidden)| *is_hidden);
-        let points = |tested: Vec<(Point, bool)>| tested.into_iter().map(|(at, _)| at).collect();
-        Ok((points(hidden), points(visible)))
-    }
-
-    /// Returns true if a point is in sight of an eye and within reach.
-    fn sees(&self, eye: &Eye, at: &Point, sight: &SightTest) -> bool {
-        let line = at - eye.at;
-        line.norm() <= sight.reach_mm
-            && sight.is_before(eye, at)
-            && !self
-                .bvh
-                .crosses_segment(&eye.at, &(eye.at + line * TESTED_LINE_RATIO))
+        let tested = points.par_chunks(POINTS_AT_ONCE).map(test);
+        let tested: Vec<Vec<bool>> = tested.collect::<Result<_, Cancelled>>()?;
+        let (mut hidden, mut visible) = (Vec::new(), Vec::new());
+        for (at, is_seen) in points.into_iter().zip(tested.into_iter().flatten()) {
+            if is_seen {
+                visible.push(at);
+            } else {
+                hidden.push(at);
+            }
+        }
+        Ok((hidden, visible))
     }
 }
 
@@ -367,7 +261,7 @@ impl Visibility {
 mod tests {
     use super::*;
     use crate::{
-        cut::{pieces::split::split, scenes::request},
+        cut::{geometry::tree::CutTree, pieces::split::split, scenes::request},
         geom::{Plane, Vector},
         mesh::{Csg, primitives},
     };
@@ -376,10 +270,8 @@ mod tests {
         let walls = Walls::of(void);
         let tree = CutTree::everywhere(planes);
         let request = request();
-        let sight = SightTest {
-            reach_mm,
-            ..SightTest::new(&tree, &request)
-        };
+        let mut sight = SightTest::new(&tree, &request);
+        sight.reach_mm = reach_mm;
         let pieces = split(void.mesh(), &tree, &request.watch).unwrap();
         pieces
             .iter()

@@ -6,10 +6,7 @@ use serde::{Deserialize, Serialize};
 use crate::{
     base::watch::Cancelled,
     cut::{
-        access::{
-            chamber::Chamber,
-            sight::{SightTest, Visibility},
-        },
+        access::{chamber::Chamber, eyes::SightTest, sight::Visibility},
         error::CutError,
         geometry::{opening::is_dimple, tree::CutTree},
         hollowed::{Hollowed, Void},

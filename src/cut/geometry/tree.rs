@@ -11,7 +11,7 @@ use crate::{
         side::{CutSide, Side},
     },
     geom::{Parting, Plane, Point},
-    mesh::{Csg, TriMesh},
+    mesh::{ClipError, Csg, TriMesh},
 };
 
 /// Returns the part of a closed mesh within the half-spaces to which a cut is limited, closed by
@@ -20,7 +20,7 @@ pub fn clip_to_limits(parting: &Parting, mesh: &TriMesh) -> Result<TriMesh, CutE
     if parting.within.is_empty() {
         return Ok(mesh.clone());
     }
-    let mut body = Csg::of_mesh(mesh)?;
+    let mut body = mesh.clone();
     for (plane, is_above) in &parting.within {
         if body.is_empty() {
             break;
@@ -28,7 +28,36 @@ pub fn clip_to_limits(parting: &Parting, mesh: &TriMesh) -> Result<TriMesh, CutE
         let (above, below) = body.split_by_plane(plane)?;
         body = if *is_above { above } else { below };
     }
-    Ok(body.to_mesh()?)
+    Ok(body)
+}
+
+/// A body that planes divide: exactly for the parts that are written, or fast for trials.
+pub(crate) trait Divisible: Clone {
+    /// Returns the parts above and below a plane.
+    fn divide(&self, plane: &Plane) -> Result<(Self, Self), ClipError>;
+
+    /// Returns true if nothing is left.
+    fn is_empty(&self) -> bool;
+}
+
+impl Divisible for Csg {
+    fn divide(&self, plane: &Plane) -> Result<(Self, Self), ClipError> {
+        self.split_by_plane(plane)
+    }
+
+    fn is_empty(&self) -> bool {
+        Self::is_empty(self)
+    }
+}
+
+impl Divisible for TriMesh {
+    fn divide(&self, plane: &Plane) -> Result<(Self, Self), ClipError> {
+        self.split_by_plane(plane)
+    }
+
+    fn is_empty(&self) -> bool {
+        Self::is_empty(self)
+    }
 }
 
 /// A side of a cut to which another cut is limited.
@@ -57,8 +86,8 @@ pub(crate) struct CutTree {
 }
 
 /// A body between cuts.
-struct Cell {
-    body: Csg,
+struct Cell<B> {
+    body: B,
     /// For each cut, `true` if the cell lies above it; `None` if the cut does not act on the cell.
     sides: Vec<Option<bool>>,
 }
@@ -167,7 +196,7 @@ impl CutTree {
     }
 
     /// Returns the cells that a body is cut into; a cell may hold several pieces.
-    pub(crate) fn cells(&self, body: &Csg, watch: &Watch) -> Result<Vec<Csg>, CutError> {
+    pub(crate) fn cells<B: Divisible>(&self, body: &B, watch: &Watch) -> Result<Vec<B>, CutError> {
         let mut cells = vec![Cell {
             body: body.clone(),
             sides: vec![None; self.planes.len()],
@@ -190,8 +219,12 @@ impl CutTree {
         Ok(cells.into_iter().map(|cell| cell.body).collect())
     }
 
-    fn split_cell(&self, cell: Cell, cut: usize) -> Result<impl Iterator<Item = Cell>, CutError> {
-        let (above, below) = cell.body.split_by_plane(&self.planes[cut])?;
+    fn split_cell<B: Divisible>(
+        &self,
+        cell: Cell<B>,
+        cut: usize,
+    ) -> Result<impl Iterator<Item = Cell<B>>, CutError> {
+        let (above, below) = cell.body.divide(&self.planes[cut])?;
         let half = move |(body, is_above)| {
             let mut sides = cell.sides.clone();
             sides[cut] = Some(is_above);

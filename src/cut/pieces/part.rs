@@ -16,7 +16,7 @@ use crate::{
         pieces::{
             pose::{Pose, Posed},
             rejoin::rejoin,
-            split::{Piece, check_no_cavity, piece_at, split},
+            split::{Piece, check_no_cavity, piece_at, split, split_for_trial},
         },
         plan::{CutPlan, index_of},
         request::PlanRequest,
@@ -117,8 +117,30 @@ pub(crate) fn pieces(
     tree: &CutTree,
     watch: &Watch,
 ) -> Result<Vec<Piece>, CutError> {
-    let bridges = plan.bridges(&tree.planes);
     let pieces = split(&hollowed.to_mesh(), tree, watch)?;
+    rejoin_planned(pieces, plan, tree, watch)
+}
+
+/// Returns the pieces as in [`pieces`], only to be looked at.
+pub(crate) fn pieces_for_trial(
+    hollowed: &Hollowed,
+    plan: &CutPlan,
+    tree: &CutTree,
+    watch: &Watch,
+) -> Result<Vec<Piece>, CutError> {
+    let pieces = split_for_trial(&hollowed.to_mesh(), tree, watch)?;
+    rejoin_planned(pieces, plan, tree, watch)
+}
+
+/// Returns the pieces, those united that the plan keeps joined. If there are cuts, a piece with a
+/// closed cavity is an error.
+fn rejoin_planned(
+    pieces: Vec<Piece>,
+    plan: &CutPlan,
+    tree: &CutTree,
+    watch: &Watch,
+) -> Result<Vec<Piece>, CutError> {
+    let bridges = plan.bridges(&tree.planes);
     let pieces = rejoin(pieces, tree, &bridges, watch)?;
     if !tree.planes.is_empty() {
         check_no_cavity(&pieces)?;

@@ -12,7 +12,7 @@ use crate::{
     },
     geom::{Plane, Point, Vector},
     mass::{Body, moments_of_mesh},
-    mesh::TriMesh,
+    mesh::{Solid, TriMesh},
 };
 
 /// Number of directions spread over the half sphere, about 10° apart. Fewer miss skew planes
@@ -93,24 +93,22 @@ pub(crate) fn candidates(
     };
     let rows = directions.par_iter().map(row);
     let rows = rows.collect::<Result<Vec<Vec<Candidate>>, Cancelled>>()?;
-    let middles = symmetry_planes(hollowed.outer.mesh())
-        .into_iter()
-        .map(|plane| {
-            let extents = hollowed
-                .voids
-                .iter()
-                .zip(&breadths)
-                .map(|(void, &breadth_mm)| extent(void, &plane.normal, breadth_mm));
-            candidate(plane, &extents.collect::<Vec<_>>())
-        });
+    let middles = symmetry_planes(&hollowed.outer).into_iter().map(|plane| {
+        let extents = hollowed
+            .voids
+            .iter()
+            .zip(&breadths)
+            .map(|(void, &breadth_mm)| extent(void, &plane.normal, breadth_mm));
+        candidate(plane, &extents.collect::<Vec<_>>())
+    });
     let middles = middles.filter(|middle| middle.met != 0);
     Ok(rows.concat().into_iter().chain(middles).collect())
 }
 
 /// Returns the planes of symmetry of the model.
-fn symmetry_planes(model: &TriMesh) -> Vec<Plane> {
-    let center = Body::new(&moments_of_mesh(model), 1.0).center;
-    mirror_planes(model, &center, &principal_axes(model))
+fn symmetry_planes(model: &Solid) -> Vec<Plane> {
+    let center = Body::new(&moments_of_mesh(model.mesh()), 1.0).center;
+    mirror_planes(model, &center, &principal_axes(model.mesh()))
 }
 
 /// Returns the directions of the family. The axes of the object that is looked at come first, then

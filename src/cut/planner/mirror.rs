@@ -1,8 +1,8 @@
 //! The planes of symmetry of a body, where a print shop would cut it first.
 
 use crate::{
-    geom::{Bvh, Plane, Point, Vector},
-    mesh::TriMesh,
+    geom::{Plane, Point, Vector},
+    mesh::Solid,
 };
 
 /// Greatest number of reflected vertices, taken at even steps from all.
@@ -16,8 +16,8 @@ const TOLERANCE_RATIO: f64 = 0.01;
 ///
 /// Every plane of symmetry contains the centre of mass and is normal to a principal axis. So the
 /// principal axes can miss one only if two moments are equal.
-pub(crate) fn mirror_planes(mesh: &TriMesh, center: &Point, directions: &[Vector]) -> Vec<Plane> {
-    let bvh = Bvh::new(mesh.iter_corners());
+pub(crate) fn mirror_planes(model: &Solid, center: &Point, directions: &[Vector]) -> Vec<Plane> {
+    let (mesh, bvh) = (model.mesh(), model.bvh());
     let farthest_mm = TOLERANCE_RATIO * mesh.aabb().size().norm();
     let samples: Vec<Point> = mesh
         .vertices()
@@ -50,6 +50,7 @@ mod tests {
     #[test]
     fn a_box_has_three_planes_of_symmetry_and_no_skew_one() {
         let mesh = cuboid(&Point::new(1.0, 2.0, 3.0), &Point::new(11.0, 8.0, 7.0));
+        let mesh = Solid::new(mesh).unwrap();
         let center = Point::new(6.0, 5.0, 5.0);
         assert_eq!(mirror_planes(&mesh, &center, &axes()).len(), 3);
         assert!(mirror_planes(&mesh, &center, &[Vector::new(0.6, 0.8, 0.0)]).is_empty());
@@ -64,6 +65,7 @@ mod tests {
                 *p
             }
         });
+        let bumped = Solid::new(bumped).unwrap();
         let planes = mirror_planes(&bumped, &Point::origin(), &axes());
         assert_eq!(
             planes.iter().map(|plane| plane.normal).collect::<Vec<_>>(),

@@ -9,14 +9,14 @@ use crate::{
             tree::CutTree,
         },
         hollowed::Hollowed,
-        pieces::split::{Piece, split_body},
+        pieces::split::{Piece, split_for_trial},
         planner::cover::VoidSet,
         request::PlanRequest,
         seam::clear::ClearBalls,
     },
     geom::Plane,
     mass::moments_of_mesh,
-    mesh::{Csg, TriMesh},
+    mesh::TriMesh,
 };
 
 /// The body to cut, and the data against which every plane is compared.
@@ -25,8 +25,6 @@ pub(crate) struct Scene<'a> {
     pub(crate) request: &'a PlanRequest,
     /// Surface of the material: the outside and the inverted voids.
     pub(crate) material: TriMesh,
-    /// The material, prepared for cutting.
-    body: Csg,
     /// The voids, prepared for cutting and line-of-sight tests.
     pub(crate) chambers: Vec<Chamber<'a>>,
     /// The balls that no seam enters.
@@ -38,11 +36,9 @@ pub(crate) struct Scene<'a> {
 impl<'a> Scene<'a> {
     pub(crate) fn new(hollowed: &'a Hollowed, request: &'a PlanRequest) -> Result<Self, CutError> {
         let material = hollowed.to_mesh();
-        let chambers = || Chamber::all(hollowed, &request.watch);
-        let (body, chambers) = rayon::join(|| Csg::of_mesh(&material), chambers);
+        let chambers = Chamber::all(hollowed, &request.watch)?;
         let volume_mm3 = moments_of_mesh(&material).volume();
         let diagonal_mm = hollowed.outer.mesh().aabb().size().norm();
-        let (body, chambers) = (body?, chambers?);
         // A cut may still move by half a layer.
         let clear = &request.seams.keep_clear;
         let clear = ClearBalls::new(clear, hollowed.outer.mesh(), request.layer_mm);
@@ -50,7 +46,6 @@ impl<'a> Scene<'a> {
             hollowed,
             request,
             material,
-            body,
             chambers,
             clear,
             volume_mm3,
@@ -58,9 +53,9 @@ impl<'a> Scene<'a> {
         })
     }
 
-    /// Returns the pieces of the body between the cuts.
+    /// Returns the pieces of the body between the cuts, to be looked at.
     pub(crate) fn split(&self, tree: &CutTree) -> Result<Vec<Piece>, CutError> {
-        split_body(&self.body, tree, &self.request.watch)
+        split_for_trial(&self.material, tree, &self.request.watch)
     }
 
     /// Returns whether a seam may run where the plane cuts the outside.

@@ -4,6 +4,7 @@ use std::ops::ControlFlow;
 
 use super::probe::Probe;
 use super::ray::{box_entry, crossing, is_above, triangle_crossing};
+use super::stack::Stack;
 use super::tree::Bvh;
 use crate::geom::triangle::{
     Feature, TrianglePoint, closest_on_triangle, segment_triangle_distance_squared,
@@ -13,10 +14,6 @@ use crate::geom::{Aabb, Point, Vector};
 
 /// The hint of a query without any.
 pub const NO_HINT: u32 = u32::MAX;
-
-/// Initial capacity of the stack of postponed boxes. Trees are a few times log₂ n deep; for a
-/// deeper one the stack grows, which is only slower.
-const STACK_CAPACITY: usize = 64;
 
 /// The triangle nearest to a point.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -115,29 +112,42 @@ impl Bvh {
     /// Returns true if the segment from `a` to `b` passes through a triangle. Decided in double
     /// precision: for a segment that only touches an edge, either answer may come.
     pub fn crosses_segment(&self, a: &Point, b: &Point) -> bool {
+        self.find_crossed(a, b, NO_HINT).is_some()
+    }
+
+    /// Returns a token of a triangle through which the segment from `a` to `b` passes; `None` if
+    /// there is none, decided as by [`Bvh::crosses_segment`].
+    ///
+    /// `hint` is the token of an earlier answer nearby (or [`NO_HINT`]). It saves time.
+    pub fn find_crossed(&self, a: &Point, b: &Point, hint: u32) -> Option<u32> {
         let along = b - a;
+        let is_crossed = |corners: &[Point; 3]| triangle_crossing(a, &along, corners).is_some();
+        if self.corners.get(hint as usize).is_some_and(is_crossed) {
+            return Some(hint);
+        }
         let inverse = along.map(f64::recip);
-        self.visit(
-            false,
-            |aabb| {
-                if box_entry(a, &inverse, aabb).is_some() {
-                    0.0
-                } else {
-                    f64::INFINITY
+        let is_met = |index: u32| {
+            let node = self.nodes.get(index as usize);
+            node.is_some_and(|node| box_entry(a, &inverse, &node.aabb).is_some())
+        };
+        let mut stack = Stack::default();
+        if is_met(0) {
+            stack.push(0);
+        }
+        while let Some(index) = stack.pop() {
+            let node = &self.nodes[index as usize];
+            if node.count > 0 {
+                let crossed = Self::leaf_range(node).find(|&slot| is_crossed(&self.corners[slot]));
+                if let Some(slot) = crossed {
+                    return Some(slot as u32);
                 }
-            },
-            |&is_crossed| {
-                if is_crossed {
-                    f64::NEG_INFINITY
-                } else {
-                    f64::INFINITY
-                }
-            },
-            |is_crossed, slot| {
-                *is_crossed =
-                    *is_crossed || triangle_crossing(a, &along, &self.corners[slot]).is_some();
-            },
-        )
+                continue;
+            }
+            let children = [node.first, index + 1];
+            let met = children.into_iter().filter(|&child| is_met(child));
+            met.for_each(|child| stack.push(child));
+        }
+        None
     }
 
     /// Returns the first point at which the segment from `a` to `b` passes through a triangle,
@@ -220,7 +230,7 @@ impl Bvh {
         limit: impl Fn(&S) -> f64,
         mut leaf: impl FnMut(&mut S, usize),
     ) -> S {
-        let mut stack: Vec<(u32, f64)> = Vec::with_capacity(STACK_CAPACITY);
+        let mut stack: Stack<(u32, f64)> = Stack::default();
         if let Some(root) = self.nodes.first() {
             stack.push((0, bound(&root.aabb)));
         }
@@ -240,11 +250,11 @@ impl Bvh {
             } else {
                 (right, left)
             };
-            stack.extend(
-                [far, near]
-                    .into_iter()
-                    .filter(|child| child.1 < limit(&state)),
-            );
+            for child in [far, near] {
+                if child.1 < limit(&state) {
+                    stack.push(child);
+                }
+            }
         }
         state
     }
@@ -317,7 +327,15 @@ mod tests {
         let answers: Vec<bool> = (0..400)
             .map(|i| {
                 let (a, b) = (noise_point(1000 + i, 1.0), noise_point(5000 + i, 1.0));
-                assert_eq!(bvh.crosses_segment(&a, &b), brute(&a, &b), "{a} {b}");
+                let found = bvh.find_crossed(&a, &b, NO_HINT);
+                assert_eq!(found.is_some(), brute(&a, &b), "{a} {b}");
+                for hint in [0, i as u32 % 300, 1000] {
+                    let hinted = bvh.find_crossed(&a, &b, hint);
+                    assert_eq!(hinted.is_some(), found.is_some(), "{a} {b} {hint}");
+                }
+                if let Some(token) = found {
+                    assert_eq!(bvh.find_crossed(&a, &b, token), found);
+                }
                 brute(&a, &b)
             })
             .collect();

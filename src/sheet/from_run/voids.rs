@@ -2,7 +2,7 @@
 
 use super::facts::Facts;
 use crate::cut::{Cut, CutPlan, CutSide, VoidAccess, VoidId};
-use crate::geom::{Bvh, Point};
+use crate::geom::Point;
 use crate::run::{CleaningRound, KeptSolid, Made, Placed, WrittenPart};
 use crate::sheet::{CleaningRow, CutRow, KeptRow, SideRow, VoidRow, is_clean};
 use crate::verify::{PromisedCut, PromisedVoid};
@@ -44,10 +44,10 @@ pub fn void_rows(facts: &Facts) -> Vec<VoidRow> {
 /// Returns the ids of the parts that have vertices of a void's wall: a cut keeps the vertices
 /// beside it.
 fn holders(made: &Made, void: VoidId) -> Vec<String> {
-    let Some(body) = made.hollowed.voids.get(void.index()) else {
+    let Some(void) = made.hollowed.voids.get(void.index()) else {
         return Vec::new();
     };
-    let wall = Bvh::new(body.mesh().iter_corners());
+    let wall = void.body.bvh();
     let holds = |written: &&WrittenPart| {
         let corners = written.part.solid.mesh().vertices().iter();
         let on_wall = |p: &&Point| wall.closest(p, SAME_MM, &[]).is_some();
