@@ -122,6 +122,7 @@ fn request(dice: &mut Dice) -> PlanRequest {
     PlanRequest {
         wants_wide_joints: false,
         worth_ratio: 0.0,
+        part_weight: PlanRequest::PART_WEIGHT,
         cleaning: Cleaning::MELT_OUT,
         min_opening_mm: dice.between(1.0, 5.0),
         build_volume_mm: None,

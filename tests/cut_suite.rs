@@ -26,6 +26,7 @@ fn request() -> PlanRequest {
     PlanRequest {
         wants_wide_joints: false,
         worth_ratio: 0.0,
+        part_weight: PlanRequest::PART_WEIGHT,
         min_opening_mm: OPENING_MM,
         cleaning: Cleaning::MELT_OUT,
         build_volume_mm: None,

@@ -11,6 +11,9 @@ impl PlanRequest {
     /// it a kit gets extra joints and tiny parts for no gain.
     pub const WORTH_RATIO: f64 = 0.02;
 
+    /// The usual score of a part beyond two. Each is one more to print, clean and glue.
+    pub const PART_WEIGHT: f64 = 0.3;
+
     /// Least distance of a joint's farthest pins, as a share of its longest diagonal. Whoever puts
     /// the parts together must feel the turn.
     pub const SPREAD_RATIO: f64 = 1.0 / 3.0;
@@ -27,6 +30,7 @@ impl PlanRequest {
         let pixel_mm = printer.pixel_x_mm.value.max(printer.pixel_y_mm.value);
         Self {
             worth_ratio: Self::WORTH_RATIO,
+            part_weight: Self::PART_WEIGHT,
             wants_wide_joints: false,
             min_opening_mm: printer.min_opening_mm.value,
             cleaning: printer.cleaning_rule(),

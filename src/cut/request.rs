@@ -20,6 +20,8 @@ pub struct PlanRequest {
     /// Whatever only a cut with a smaller gain would open stays unclean, to be kept solid. With 0,
     /// every cut is worth its joint.
     pub worth_ratio: f64,
+    /// Score of each part beyond two, against 3 for a seam as long as the circle about the model.
+    pub part_weight: f64,
     /// `true` to rate the room for pins with the voids filled, so that bosses have room beside the
     /// opening. `false` rates the walls alone. Meant for a second plan, if the first leaves joints
     /// without pins.

@@ -88,6 +88,7 @@ pub(crate) fn with_balls(outer: Solid, balls: &[[f64; 4]]) -> Hollowed {
 pub(crate) fn request() -> PlanRequest {
     PlanRequest {
         worth_ratio: 0.0,
+        part_weight: PlanRequest::PART_WEIGHT,
         wants_wide_joints: false,
         min_opening_mm: 3.0,
         cleaning: Cleaning::MELT_OUT,

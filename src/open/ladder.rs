@@ -109,7 +109,6 @@ impl<'a> Ladder<'a> {
     fn climb_once(mut self, drafted: Way<'a>) -> Result<Vec<Candidate<'a>>, Error> {
         let walls = self.hide_seams(drafted)?;
         let walls = self.join_parts(walls)?;
-        let walls = self.finish(walls)?;
         let usual = self.add_bosses(walls.clone(), Rung::Bosses)?;
         let mut ways: Vec<Way> = Vec::new();
         let mut faults: Vec<Remark> = Vec::new();

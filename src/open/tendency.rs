@@ -8,11 +8,17 @@ const SAME_CUT_MM: f64 = 0.5;
 /// Length of the difference of two unit normals up to which their cuts are one: 0.1°.
 const SAME_NORMAL: f64 = 2e-3;
 
+/// Score of a part beyond two where few are wanted: as much as a seam half around the model.
+const FEW_PARTS_WEIGHT: f64 = 1.5;
+
 /// Returns a request with a tendency.
 pub fn lean(mut request: PlanRequest, tendency: Tendency) -> PlanRequest {
     let seams = &mut request.seams;
     match tendency {
-        Tendency::FewerParts => request.worth_ratio = 1.0,
+        Tendency::FewerParts => {
+            request.worth_ratio = 1.0;
+            request.part_weight = FEW_PARTS_WEIGHT;
+        }
         Tendency::Level => seams.only_level = true,
         Tendency::Short => *seams = seams.unseen(),
         _ => {}

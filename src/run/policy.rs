@@ -120,6 +120,9 @@ pub struct Policy {
     pub seam_loss_ratio: f64,
     /// Greatest loss for a plan with fewer parts that is taken unasked.
     pub part_loss_ratio: f64,
+    /// Greatest loss for such a plan if its walls have room for the pins of every joint, and those
+    /// of the other have not.
+    pub aligned_loss_ratio: f64,
     /// Times that parts are made. The first are right but for the rounding of their files, unless
     /// the plan had to change.
     pub max_assemblies: usize,
@@ -167,9 +170,10 @@ impl Policy {
         dear_seam_ratio: 0.12,
         lack_weight: 7.0,
         lack_growth: 3.0,
-        hidden_rounds: 3,
+        hidden_rounds: 2,
         seam_loss_ratio: 0.1,
         part_loss_ratio: 0.02,
+        aligned_loss_ratio: 0.25,
         max_assemblies: 3,
         correction_rounds: 8,
     };

@@ -11,7 +11,7 @@ use crate::{
         ids::{CutId, VoidId},
         planner::{
             attempt::Attempt,
-            score::{EXTRA_PART_WEIGHT, Scene, burden, estimate_seam_penalty},
+            score::{Scene, burden, estimate_seam_penalty},
         },
         remark::{Remark, SightGain},
         seam::skin::Skin,
@@ -69,7 +69,7 @@ fn is_worth_its_seam(scene: &Scene, next: &Attempt, gain_mm2: f64) -> bool {
     let (Some(weight), Some(plane)) = (weight, next.planes.last()) else {
         return true;
     };
-    let price = EXTRA_PART_WEIGHT + estimate_seam_penalty(scene, plane);
+    let price = scene.request.part_weight + estimate_seam_penalty(scene, plane);
     weight * gain_mm2 >= price * next.area_mm2()
 }
 

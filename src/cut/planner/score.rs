@@ -6,7 +6,7 @@
 //! | opening | narrowest opening, mm | nothing; good from three times the least | 1 |
 //! | room for pins | largest disc in the tightest joint, mm | half of what pins need | 2 |
 //! | smallest part | share of the volume | nothing; good from 2 % | 2 |
-//! | parts | pieces beyond two | each | 0.2 |
+//! | parts | pieces beyond two | each | 0.3 |
 //! | contact | distance of the cut from the contact point, mm | nothing; good from 3 mm | 1 |
 //! | seam, looked at | length on the outside, weighted by what is seen | circle of average weight | 3 |
 //! | slant, looked at | angle from level and upright in the object's frame | 15°, unless it follows the body | 0.6 |
@@ -55,8 +55,6 @@ const OPENING_WEIGHT: f64 = 1.0;
 const ROOM_WEIGHT: f64 = 2.0;
 /// Weight of crumbs. They get lost or are glued wrongly.
 const SMALL_PART_WEIGHT: f64 = 2.0;
-/// Weight of each piece beyond two. Every part is one more to print, clean and glue.
-pub(crate) const EXTRA_PART_WEIGHT: f64 = 0.2;
 /// Weight of a cut through the contact point. The tip wears along a seam.
 const CONTACT_WEIGHT: f64 = 1.0;
 /// Weight of a seam as dear as a circle about the model of average weight. A seam through a face
@@ -349,7 +347,10 @@ impl Burden {
                 Term::SmallestPart,
                 SMALL_PART_WEIGHT * shortfall(self.smallest_ratio, ample_part_ratio),
             ),
-            (Term::Parts, EXTRA_PART_WEIGHT * self.extra_parts as f64),
+            (
+                Term::Parts,
+                scene.request.part_weight * self.extra_parts as f64,
+            ),
             (
                 Term::Contact,
                 CONTACT_WEIGHT * shortfall(self.contact_mm, AMPLE_CONTACT_MM),

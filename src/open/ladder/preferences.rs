@@ -51,36 +51,53 @@ impl<'a> Ladder<'a> {
         Ok(usual)
     }
 
-    /// Returns a plan with fewer parts in place of one with more than two, if it costs next to
-    /// nothing of the goal's figure. Else the sheet offers it with its price.
+    /// Places the pins of a draft, or of one with fewer parts in its place.
+    ///
+    /// That is taken if it costs next to nothing of the goal's figure, or little and all its joints
+    /// have pins where those of the other lack them. Else the sheet offers it with its price.
     pub(super) fn join_parts(&mut self, usual: Way<'a>) -> Result<Way<'a>, Error> {
-        let parts = usual.bossed.plan.count_parts();
-        if !(self.joins_parts && self.is_free() && parts > 2) {
-            return Ok(usual);
-        }
-        let request = lean(self.request.clone(), Tendency::FewerParts);
-        let other = self.plan_in_walls(&self.ground, &request, Rung::Walls, &|_| false);
-        let Some(other) = unless_refused(other)? else {
-            return Ok(usual);
+        let Some(fewer) = self.draft_fewer_parts(&usual)? else {
+            return self.finish(usual);
         };
-        let count = other.bossed.plan.count_parts();
-        if count >= parts || !other.bossed.voids.solution.is_usable() {
-            return Ok(usual);
-        }
-        let is_as_clean = are_clean(&other.bossed.plan, &other.request)
+        let [many, few] = [&usual, &fewer].map(|way| way.bossed.plan.count_parts());
+        let is_as_clean = are_clean(&fewer.bossed.plan, &fewer.request)
             || !are_clean(&usual.bossed.plan, &usual.request);
-        let is_cheap = other.loss_ratio(&usual) <= self.policy.part_loss_ratio;
-        let is_hidden = other.seam_price()? <= usual.seam_price()?.max(self.policy.dear_seam_ratio);
-        if is_as_clean && is_cheap && is_hidden {
-            self.request = request;
-            return Ok(other);
+        let is_hidden = fewer.seam_price()? <= usual.seam_price()?.max(self.policy.dear_seam_ratio);
+        let loss_ratio = fewer.loss_ratio(&usual);
+        let is_as_good = is_as_clean && is_hidden;
+        if is_as_good && loss_ratio <= self.policy.part_loss_ratio {
+            self.request = fewer.request.clone();
+            return self.finish(fewer);
+        }
+        let usual = self.finish(usual)?;
+        if is_as_good && loss_ratio <= self.policy.aligned_loss_ratio && !usual.is_full() {
+            let fewer = self.finish(fewer.clone())?;
+            if fewer.is_full() {
+                self.request = fewer.request.clone();
+                self.notes.push(fewer.price(&usual));
+                return Ok(fewer);
+            }
         }
         let certificate = |way: &Way| way.bossed.voids.solution.certificate;
         self.notes.push(Remark::FewerParts {
-            parts: [count, parts],
+            parts: [few, many],
             figure: certificate(&usual).figure,
-            values: [certificate(&other).value, certificate(&usual).value],
+            values: [certificate(&fewer).value, certificate(&usual).value],
         });
         Ok(usual)
+    }
+
+    /// Drafts a plan with fewer parts than one with more than two; `None` if there is none.
+    fn draft_fewer_parts(&self, usual: &Way<'a>) -> Result<Option<Way<'a>>, Error> {
+        let parts = usual.bossed.plan.count_parts();
+        if !(self.joins_parts && self.is_free() && parts > 2) {
+            return Ok(None);
+        }
+        let request = lean(self.request.clone(), Tendency::FewerParts);
+        let fewer = self.plan_in_walls(&self.ground, &request, Rung::FewerCuts, &|_| false);
+        let is_better = |way: &Way| {
+            way.bossed.plan.count_parts() < parts && way.bossed.voids.solution.is_usable()
+        };
+        Ok(unless_refused(fewer)?.filter(is_better))
     }
 }
