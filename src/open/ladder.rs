@@ -1,6 +1,6 @@
 //! The ladder: rungs are tried in order until one gives every joint its pins; the best are kept.
 
-use super::aligned::{count_unaligned, count_unaligned_in_best};
+use super::aligned::count_unaligned;
 use super::bosses::{Bossed, add_bosses, pay_for_bosses};
 use super::clean::clean;
 use super::ground::Ground;
@@ -11,7 +11,7 @@ use super::resolve::Resolver;
 use super::tendency::lean;
 use super::way::{Candidate, Way};
 use crate::base::watch::{Phase, Watch};
-use crate::cut::{CutPlan, PlanRequest, find_ends_beyond_unpinned_joints};
+use crate::cut::{CutError, CutPlan, PlanRequest, find_ends_beyond_unpinned_joints};
 use crate::error::Error;
 use crate::job::CutMode;
 use crate::run::{KeptCause, Placed, Policy, Remark, Rung, Solved, Tendency, Voids};
@@ -26,6 +26,14 @@ pub fn climb<'a>(
     watch: &Watch,
 ) -> Result<Vec<Candidate<'a>>, Error> {
     Ladder::new(placed, solved, watch)?.climb()
+}
+
+/// Counts the joints of the best plan that neither pins nor a jig align.
+fn count_unaligned_in_best(candidates: &[Candidate]) -> Result<usize, CutError> {
+    let best = candidates.first().map(|candidate| &candidate.opened);
+    best.map_or(Ok(0), |best| {
+        count_unaligned(&best.voids, &best.plan, &best.request)
+    })
 }
 
 /// The ladder from one set of voids.
@@ -80,47 +88,60 @@ impl<'a> Ladder<'a> {
 
     /// Climbs it. Returns the plans worth making, best first and never none.
     ///
-    /// Hidden seams give way to others if neither pins nor a jig align a joint of theirs.
-    pub(super) fn climb(self) -> Result<Vec<Candidate<'a>>, Error> {
+    /// The search ends with the first plan of which pins or jigs align every joint. Hidden seams
+    /// that nothing aligns give way to others, and are not followed beyond the usual rungs.
+    pub(super) fn climb(mut self) -> Result<Vec<Candidate<'a>>, Error> {
         let drafted = self.plan_in_walls(&self.ground, &self.request, Rung::Walls, &|_| false)?;
         let shown = Self {
             hides_seams: false,
             ..self.clone()
         };
-        let found = self.climb_once(drafted.clone())?;
-        if !found[0].opened.remarks.iter().any(Remark::hides_seams) {
-            return Ok(found);
+        let walls = self.hide_seams(drafted.clone())?;
+        let (usual, walls) = self.place_pins(walls)?;
+        if !self.policy.jigs_first {
+            return self.climb_beyond(usual, walls);
         }
-        let left = count_unaligned_in_best(&found)?;
+        let left = usual.count_unaligned()?;
         if left == 0 {
-            return Ok(found);
+            return Ok(self.candidates(None, usual, walls, Vec::new()));
         }
-        match unless_refused(shown.climb_once(drafted))? {
+        let seen = self.plan_seen_seams(&usual)?;
+        if seen.is_some() {
+            return Ok(self.candidates(seen, usual, walls, Vec::new()));
+        }
+        if !self.notes.iter().any(Remark::hides_seams) {
+            return self.climb_beyond(usual, walls);
+        }
+        match unless_refused(shown.climb_shown(drafted))? {
             Some(mut aligned) if count_unaligned_in_best(&aligned)? <= left => {
                 aligned[0].opened.remarks.push(Remark::SeamsAligned);
                 Ok(aligned)
             }
-            _ => Ok(found),
+            _ => Ok(self.candidates(None, usual, walls, Vec::new())),
         }
     }
 
-    /// Climbs it once from the draft of a plan in the walls. Hidden seams are not followed beyond
-    /// the usual rungs if they leave a joint that nothing aligns.
-    fn climb_once(mut self, drafted: Way<'a>) -> Result<Vec<Candidate<'a>>, Error> {
-        let walls = self.hide_seams(drafted)?;
-        let walls = self.join_parts(walls)?;
+    /// Climbs all rungs from a draft without hidden seams.
+    fn climb_shown(mut self, drafted: Way<'a>) -> Result<Vec<Candidate<'a>>, Error> {
+        let (usual, walls) = self.place_pins(drafted)?;
+        self.climb_beyond(usual, walls)
+    }
+
+    /// Places the pins of a draft, in its walls and in bosses that cost little. Returns the way
+    /// with bosses, and the one without.
+    fn place_pins(&mut self, drafted: Way<'a>) -> Result<(Way<'a>, Way<'a>), Error> {
+        let walls = self.join_parts(drafted)?;
         let usual = self.add_bosses(walls.clone(), Rung::Bosses)?;
+        Ok((usual, walls))
+    }
+
+    /// Climbs the rungs beyond the usual plan.
+    fn climb_beyond(self, usual: Way<'a>, walls: Way<'a>) -> Result<Vec<Candidate<'a>>, Error> {
         let mut ways: Vec<Way> = Vec::new();
         let mut faults: Vec<Remark> = Vec::new();
-        let is_done = self.policy.jigs_first && {
-            let Bossed { voids, plan, .. } = &usual.bossed;
-            self.notes.iter().any(Remark::hides_seams)
-                || usual.is_full()
-                || count_unaligned(voids, plan, &usual.request)? == 0
-        };
         for rung in Rung::BEYOND_USUAL {
             self.watch.check()?;
-            if is_done || !self.needs(rung, &usual, &ways) {
+            if !self.needs(rung, &usual, &ways) {
                 continue;
             }
             match self.try_rung(rung, &usual, &ways) {
@@ -163,7 +184,7 @@ impl<'a> Ladder<'a> {
             return false;
         }
         match rung {
-            Rung::Walls | Rung::Bosses => false,
+            Rung::Walls | Rung::Bosses | Rung::SeenSeams => false,
             Rung::FewerCuts => self.is_free() && usual.bossed.plan.cuts.len() > 1,
             Rung::WideJoints | Rung::SolidEnds => self.is_free() && !is_solved,
             Rung::DearBosses => usual.bossed.has_dear() && !solving.any(is_cheap),
@@ -186,7 +207,7 @@ impl<'a> Ladder<'a> {
             ..self.request.clone()
         };
         let way = match rung {
-            Rung::Walls | Rung::Bosses => None,
+            Rung::Walls | Rung::Bosses | Rung::SeenSeams => None,
             Rung::FewerCuts => {
                 let fewer = PlanRequest {
                     worth_ratio: 1.0,

@@ -1,9 +1,10 @@
 //! One way to open the voids, gone through to its pins, and its rank among others.
 
+use super::aligned::count_unaligned;
 use super::bosses::Bossed;
 use super::plan::are_clean;
 use super::resolve::Resolver;
-use crate::cut::{self, PlanRequest};
+use crate::cut::{self, CutError, PlanRequest};
 use crate::error::Error;
 use crate::run::{Achieved, CleaningRound, Opened, Policy, Remark, Rung};
 
@@ -42,6 +43,12 @@ impl<'a> Way<'a> {
     /// Returns whether every joint has its pins.
     pub fn is_full(&self) -> bool {
         self.lacking() == [0, 0]
+    }
+
+    /// Counts the joints that neither pins nor a jig align.
+    pub fn count_unaligned(&self) -> Result<usize, CutError> {
+        let Bossed { voids, plan, .. } = &self.bossed;
+        count_unaligned(voids, plan, &self.request)
     }
 
     fn achieved(&self) -> Achieved {

@@ -16,6 +16,8 @@ pub enum Rung {
     Walls,
     /// Material is kept solid around pins, where it costs little.
     Bosses,
+    /// Cuts run wherever their joints have room for pins, though their seams are seen.
+    SeenSeams,
     /// No cut is made for cleaning alone; hidden ends of voids stay solid.
     FewerCuts,
     /// Cuts pass through the widest places.
@@ -44,6 +46,7 @@ impl fmt::Display for Rung {
         f.write_str(match self {
             Self::Walls => "pins in the walls",
             Self::Bosses => "bosses",
+            Self::SeenSeams => "cuts where their seams are seen",
             Self::FewerCuts => "fewer cuts for cleaning alone",
             Self::WideJoints => "cuts through wider places",
             Self::DearBosses | Self::SomeBosses => "dear bosses",

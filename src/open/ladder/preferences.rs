@@ -100,4 +100,28 @@ impl<'a> Ladder<'a> {
         };
         Ok(unless_refused(fewer)?.filter(is_better))
     }
+
+    /// Returns a plan that minds no seam, if its walls have room for the pins of every joint and it
+    /// costs little of the figure; `None` if there is none, or if nobody looks at seams anyway.
+    pub(super) fn plan_seen_seams(&self, usual: &Way<'a>) -> Result<Option<Way<'a>>, Error> {
+        if !(self.is_free() && self.hides_seams) {
+            return Ok(None);
+        }
+        let request = lean(self.request.clone(), Tendency::Short);
+        let is_lost = |voids: &Voids| {
+            let before = Achieved::of(&usual.bossed.voids);
+            before.loss_ratio(&Achieved::of(voids)) > self.policy.aligned_loss_ratio
+        };
+        let seen = self.plan_in_walls(&self.ground, &request, Rung::SeenSeams, &is_lost);
+        let Some(seen) = unless_refused(seen)? else {
+            return Ok(None);
+        };
+        let is_as_clean = are_clean(&seen.bossed.plan, &seen.request)
+            || !are_clean(&usual.bossed.plan, &usual.request);
+        let is_cheap = seen.loss_ratio(usual) <= self.policy.aligned_loss_ratio;
+        if !(is_as_clean && is_cheap && seen.bossed.voids.solution.is_usable()) {
+            return Ok(None);
+        }
+        Ok(Some(self.finish(seen)?).filter(Way::is_full))
+    }
 }
