@@ -23,7 +23,7 @@ use crate::{
         request::PlanRequest,
     },
     geom::{Plane, Point, Vector},
-    mesh::{TriMesh, bodies, union_find::UnionFind},
+    mesh::{Csg, TriMesh, bodies, union_find::UnionFind},
 };
 
 /// Hidden points belong to one patch if they are nearer than this many times their spacing.
@@ -332,12 +332,13 @@ fn end_behind(
     let mut heights: Vec<f64> = patch.points.iter().map(|p| normal.dot(&p.coords)).collect();
     heights.sort_by(f64::total_cmp);
     let offset_mm = heights[(START_QUANTILE * heights.len() as f64) as usize];
-    let (beyond, _) = piece.mesh.split_by_plane(&Plane { normal, offset_mm })?;
+    let (beyond, _) = Csg::of_mesh(&piece.mesh)?.split_by_plane(&Plane { normal, offset_mm })?;
     let holds = |body: &TriMesh| {
         let room = body.aabb().inflated(seen.share_mm2.sqrt());
         patch.points.iter().any(|p| room.distance_squared(p) == 0.0)
     };
-    let ends: Vec<TriMesh> = bodies(&beyond).into_iter().filter(holds).collect();
+    let ends = bodies(&beyond.to_mesh()?).into_iter();
+    let ends: Vec<TriMesh> = ends.filter(holds).collect();
     let volume_mm3: f64 = ends.iter().map(TriMesh::signed_volume_mm3).sum();
     Ok(if volume_mm3 > WHOLE_RATIO * piece.volume_mm3 {
         whole()
@@ -354,7 +355,7 @@ mod tests {
             CutOrder,
             scenes::{plan_by, request},
         },
-        mesh::{Csg, Solid, primitives},
+        mesh::{Solid, primitives},
         printer::{Cleaning, CleaningRule},
     };
 
