@@ -107,6 +107,8 @@ impl<'a> Ladder<'a> {
         }
         let seen = self.plan_seen_seams(&usual)?;
         if seen.is_some() {
+            self.notes
+                .retain(|note| !note.is_offer() && !note.hides_seams());
             return Ok(self.candidates(seen, usual, walls, Vec::new()));
         }
         if !self.notes.iter().any(Remark::hides_seams) {
@@ -268,7 +270,7 @@ impl<'a> Ladder<'a> {
     }
 
     /// Adds bosses around pins, where they cost little.
-    fn add_bosses(&self, mut way: Way<'a>, rung: Rung) -> Result<Way<'a>, Error> {
+    pub(super) fn add_bosses(&self, mut way: Way<'a>, rung: Rung) -> Result<Way<'a>, Error> {
         self.watch.enter(Phase::Bosses);
         way.bossed = add_bosses(&mut way.resolver, way.bossed, &way.request)?;
         Ok(Way { rung, ..way })

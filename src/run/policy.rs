@@ -176,7 +176,7 @@ impl Policy {
         hidden_rounds: 2,
         seam_loss_ratio: 0.1,
         part_loss_ratio: 0.02,
-        aligned_loss_ratio: 0.25,
+        aligned_loss_ratio: 0.3,
         max_assemblies: 3,
         correction_rounds: 8,
     };

@@ -101,8 +101,8 @@ impl<'a> Ladder<'a> {
         Ok(unless_refused(fewer)?.filter(is_better))
     }
 
-    /// Returns a plan that minds no seam, if its walls have room for the pins of every joint and it
-    /// costs little of the figure; `None` if there is none, or if nobody looks at seams anyway.
+    /// Returns a plan that minds no seam, if pins or jigs align all its joints and it costs little
+    /// of the figure; `None` if there is none, or if nobody looks at seams anyway.
     pub(super) fn plan_seen_seams(&self, usual: &Way<'a>) -> Result<Option<Way<'a>>, Error> {
         if !(self.is_free() && self.hides_seams) {
             return Ok(None);
@@ -122,6 +122,9 @@ impl<'a> Ladder<'a> {
         if !(is_as_clean && is_cheap && seen.bossed.voids.solution.is_usable()) {
             return Ok(None);
         }
-        Ok(Some(self.finish(seen)?).filter(Way::is_full))
+        let seen = self.add_bosses(self.finish(seen)?, Rung::SeenSeams)?;
+        let is_aligned = seen.loss_ratio(usual) <= self.policy.aligned_loss_ratio
+            && seen.count_unaligned()? == 0;
+        Ok(is_aligned.then_some(seen))
     }
 }
