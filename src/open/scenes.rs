@@ -2,6 +2,7 @@
 
 use super::bosses::Bossed;
 use super::clean::clean;
+use super::plan::finish_once;
 use super::request::request;
 use super::resolve::Resolver;
 use super::way::Way;
@@ -145,6 +146,8 @@ pub(super) fn standing(bodies: &[TriMesh], wall_mm: f64, objective: Objective) -
             dear_loss_ratio: 0.65,
             pin_spread_ratio: 0.0,
             jigs_first: false,
+            // The rungs are looked at one by one.
+            aligned_loss_ratio: -1.0,
             boss_rounds: 3,
             boss_patterns: 3,
             ..Policy::STANDARD
@@ -258,12 +261,13 @@ pub(super) fn plan_walls(placed: &Placed) -> Way<'_> {
     let (mut resolver, voids) = draw(placed);
     let request = unwatched(placed);
     let cleaned = clean(&mut resolver, voids, &request, &|_| false).unwrap();
+    let plan = finish_once(placed, &cleaned.voids, &request, cleaned.plan).unwrap();
     Way {
         rung: Rung::Walls,
         resolver,
         request,
         cleaning: cleaned.rounds,
-        bossed: Bossed::without(cleaned.voids, cleaned.plan),
+        bossed: Bossed::without(cleaned.voids, plan),
     }
 }
 

@@ -37,7 +37,8 @@ fn ladder_of(placed: &Placed) -> Ladder<'_> {
 /// Returns the plan that every ladder begins with.
 fn usual_of<'a>(ladder: &Ladder<'a>) -> Way<'a> {
     let walls = ladder.plan_in_walls(&ladder.ground, &ladder.request, Rung::Walls, &|_| false);
-    ladder.add_bosses(walls.unwrap(), Rung::Bosses).unwrap()
+    let finished = ladder.finish(walls.unwrap()).unwrap();
+    ladder.add_bosses(finished, Rung::Bosses).unwrap()
 }
 
 fn rungs(candidates: &[Candidate]) -> Vec<Rung> {

@@ -98,6 +98,20 @@ fn a_cut_for_cleaning_alone_is_left_out_and_the_hidden_end_stays_solid() {
 }
 
 #[test]
+fn fewer_parts_with_pins_come_before_more_without_up_to_a_limit() {
+    let mut placed = deep_box();
+    placed.policy.aligned_loss_ratio = 1.0;
+    let candidates = climb_silently(&placed);
+    let best = &candidates[0].opened;
+    assert!(best.plan.joints.iter().all(|joint| joint.is_aligned()));
+    assert_eq!((best.plan.count_parts(), best.bosses.len()), (2, 0));
+    let [Remark::Pins { rung, lacking, .. }] = best.remarks[..] else {
+        panic!("{:?}", best.remarks)
+    };
+    assert!(rung == Rung::FewerCuts && lacking > 0);
+}
+
+#[test]
 fn cuts_pass_where_the_filled_body_has_room_for_pins() {
     let placed = dumbbell();
     let candidates = climb_silently(&placed);
