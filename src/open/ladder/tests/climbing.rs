@@ -129,7 +129,8 @@ fn voids_end_before_joints_without_room() {
     let candidates = climb_silently(&placed);
     assert_eq!(rungs(&candidates), [Rung::SolidEnds, Rung::Bosses]);
     let [ended, usual] = [&candidates[0].opened, &candidates[1].opened];
-    assert_eq!((bare_joints(ended), bare_joints(usual)), (0, 2));
+    assert!(ended.plan.joints.iter().all(|joint| joint.is_aligned()));
+    assert!(!usual.plan.joints.iter().all(|joint| joint.is_aligned()));
     assert!(!ended.plan.solid.is_empty() && usual.plan.solid.is_empty());
     let round = &ended.cleaning[0];
     assert!(round.by_plan, "{round:?}");
