@@ -67,7 +67,10 @@ fn promise(poses: &[Pose]) -> Promise {
         goal: Aim::new(GoalKind::Top, [0.0; 3], [0.0, 0.0, 1.0]),
         promise: None,
         wall: WallOrder { required_mm: WALL },
-        cuts: Vec::new(),
+        cuts: vec![PromisedCut {
+            point_mm: [0.0, 0.0, SEAT[2]],
+            normal: [0.0, 0.0, 1.0],
+        }],
         voids: Vec::new(),
         parts: poses.iter().enumerate().map(part).collect(),
         hardware: Vec::new(),

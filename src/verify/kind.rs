@@ -63,6 +63,10 @@ pub enum CheckKind {
     SelfIntersections,
     /// Cavities that no cut opens.
     ClosedCavities,
+    /// Files that hold more than one body, or none.
+    OneBody,
+    /// Triangles of the parts that are not where they should be.
+    PartSurfaces,
     /// Height of the parts over the plate.
     Resting,
     /// Deviation of the poses from rigid motions.
@@ -148,6 +152,8 @@ impl fmt::Display for CheckKind {
             Self::BrokenSurfaces => "broken surfaces",
             Self::SelfIntersections => "self-intersections",
             Self::ClosedCavities => "closed cavities",
+            Self::OneBody => "one body",
+            Self::PartSurfaces => "part surfaces",
             Self::Resting => "resting",
             Self::Pose => "pose",
             Self::BuildVolume => "build volume",
@@ -179,7 +185,7 @@ mod tests {
     use serde_json::json;
 
     /// The keys and names of all kinds without data.
-    const KEYS: [(CheckKind, &str, &str); 40] = [
+    const KEYS: [(CheckKind, &str, &str); 42] = [
         (CheckKind::AxisOffset, "axis-offset", "axis offset"),
         (CheckKind::AxisTilt, "axis-tilt", "axis tilt"),
         (CheckKind::Dominance, "dominance", "dominance"),
@@ -217,6 +223,8 @@ mod tests {
             "closed-cavities",
             "closed cavities",
         ),
+        (CheckKind::OneBody, "one-body", "one body"),
+        (CheckKind::PartSurfaces, "part-surfaces", "part surfaces"),
         (CheckKind::Resting, "resting", "resting"),
         (CheckKind::Pose, "pose", "pose"),
         (CheckKind::BuildVolume, "build-volume", "build volume"),

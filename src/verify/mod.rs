@@ -24,15 +24,18 @@ mod support;
 mod water;
 // The facts about surfaces, parts and joints.
 mod cleaning;
+mod cover;
 mod cups;
 mod jigs;
 mod joints;
 mod measure;
 mod mouths;
 mod part_probe;
+mod peg_shape;
 mod pegs;
 mod play;
 mod rim;
+mod shape;
 mod shells;
 // The checks and the verdict.
 mod check;
@@ -42,6 +45,7 @@ mod judge;
 mod judgement;
 mod kind;
 mod limits;
+mod shape_checks;
 mod thin_checks;
 mod void_checks;
 // The checks of the files of a kit as they were delivered.
@@ -95,6 +99,7 @@ pub use measure::{PartFacts, SurfaceFacts};
 pub use pegs::PegFacts;
 pub use play::JointFacts;
 pub use rotor::Unbalance;
+pub use shape::{ShapeFacts, Stray};
 pub use shells::Shells;
 pub use spin::SpinFacts;
 pub use support::{SUPPORT_BAND_RATIO, Support};
