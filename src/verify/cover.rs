@@ -54,6 +54,13 @@ pub(super) enum Lie {
     Off(Point),
 }
 
+/// A triangle that is looked for.
+struct Query<'a> {
+    corners: &'a [Point; 3],
+    normal: Option<Vector>,
+    part: Option<usize>,
+}
+
 /// A convex piece of a triangle, with the sheets it may lie on.
 struct Piece {
     corners: Vec<Point>,
@@ -93,21 +100,34 @@ impl Sheets {
     /// A triangle near one sheet is decided at once, since the distance from a convex sheet is
     /// convex. Others are cut along the sheets beneath them, until each piece lies on one.
     pub(super) fn lie(&self, corners: &[Point; 3], part: Option<usize>) -> Lie {
-        let normal = normal_of(corners);
-        let faces = |sheet: u32| match (normal, self.normals[sheet as usize]) {
-            (Some(own), Some(other)) => own.dot(&other) > 0.0,
-            _ => true,
+        let query = Query {
+            normal: normal_of(corners),
+            corners,
+            part,
         };
+        let under_middle = Aabb::of_points(&[middle_of(corners)]).inflated(ON_SHEET_MM);
+        if let (Some(sheet), _) = self.find_sheet(&query, &under_middle) {
+            return Lie::On(sheet);
+        }
+        let under_all = Aabb::of_points(corners).inflated(ON_SHEET_MM);
+        match self.find_sheet(&query, &under_all) {
+            (Some(sheet), _) => Lie::On(sheet),
+            (None, near) => self.lie_in_pieces(corners, near),
+        }
+    }
+
+    /// Returns the sheet under all of a triangle, if there is one, of those that meet a box. With
+    /// it, or without it, returns the sheets that were tried.
+    fn find_sheet(&self, query: &Query, aabb: &Aabb) -> (Option<u32>, Vec<u32>) {
         let mut near = Vec::new();
         let mut best: Option<(u32, f64)> = None;
-        let aabb = Aabb::of_points(corners).inflated(ON_SHEET_MM);
-        self.tree.visit_overlapping(&aabb, |sheet, _| {
-            if !self.sheets[sheet as usize].whose.allows(part) || !faces(sheet) {
+        self.tree.visit_overlapping(aabb, |sheet, _| {
+            if !self.is_open_to(query, sheet) {
                 return ControlFlow::Continue(());
             }
             near.push(sheet);
             let limit_mm = best.map_or(ON_SHEET_MM, |(_, off_mm)| off_mm);
-            if let Some(off_mm) = self.find_offset_mm(corners, sheet, limit_mm) {
+            if let Some(off_mm) = self.find_offset_mm(query.corners, sheet, limit_mm) {
                 best = Some((sheet, off_mm));
                 if off_mm <= AT_ONCE_MM {
                     return ControlFlow::Break(());
@@ -115,10 +135,17 @@ impl Sheets {
             }
             ControlFlow::Continue(())
         });
-        match best {
-            Some((sheet, _)) => Lie::On(sheet),
-            None => self.lie_in_pieces(corners, near),
-        }
+        (best.map(|(sheet, _)| sheet), near)
+    }
+
+    /// Returns true if a triangle may lie on a sheet: it faces the same way, and is of a part that
+    /// may.
+    fn is_open_to(&self, query: &Query, sheet: u32) -> bool {
+        let faces = match (query.normal, self.normals[sheet as usize]) {
+            (Some(own), Some(other)) => own.dot(&other) > 0.0,
+            _ => true,
+        };
+        faces && self.sheets[sheet as usize].whose.allows(query.part)
     }
 
     /// Returns the greatest distance of some points from a sheet, mm; `None` if it is above a

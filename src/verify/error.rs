@@ -2,6 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
+use super::files::CHECKLIST_FILE;
+use super::seal::is_checklist_damaged;
 use super::{Change, FileChange, SCHEMA};
 use crate::base::watch::Cancelled;
 use crate::io::ReadError;
@@ -95,6 +97,23 @@ impl VerifyError {
                     file,
                     change: Change::Unreadable(why),
                 }]
+            }
+            Self::File { path, .. } if *path == folder.join(CHECKLIST_FILE) => {
+                let is_damaged = is_checklist_damaged(folder, None);
+                let change = FileChange {
+                    file: CHECKLIST_FILE.to_owned(),
+                    change: Change::Missing,
+                };
+                is_damaged.then_some(change).into_iter().collect()
+            }
+            Self::Checklist { path, .. } | Self::Schema { path, .. } => {
+                let bytes = std::fs::read(path).unwrap_or_default();
+                let change = FileChange {
+                    file: CHECKLIST_FILE.to_owned(),
+                    change: Change::Altered,
+                };
+                let is_damaged = is_checklist_damaged(folder, Some(&bytes));
+                is_damaged.then_some(change).into_iter().collect()
             }
             _ => Vec::new(),
         }

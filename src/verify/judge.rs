@@ -80,6 +80,7 @@ pub fn judge(evidence: &Evidence, watch: &Watch) -> Result<Judgement, Cancelled>
         lost_strokes: count_lost_strokes(promise, &probes),
         checks: Vec::new(),
         changes: Vec::new(),
+        unlisted: Vec::new(),
     };
     judgement.checks = checks(promise, &judgement);
     Ok(judgement)

@@ -55,6 +55,8 @@ pub struct Judgement {
     pub checks: Vec<Check>,
     /// The files changed since the kit was made; empty while it is made.
     pub changes: Vec<FileChange>,
+    /// Files in the kit's folder that are not on its list and cannot be printed.
+    pub unlisted: Vec<String>,
 }
 
 impl Judgement {

@@ -7,6 +7,7 @@ use super::packages::packages_check;
 use super::reading::{read_checklist, read_evidence};
 use super::seal::find_paper_changes;
 use super::sheet::{find_misstatements, sheet_check};
+use super::strangers::find_strangers;
 use super::{Judgement, VerifyError, judge};
 use crate::base::watch::Watch;
 
@@ -26,6 +27,9 @@ pub fn verify_kit(folder: &Path, watch: &Watch) -> Result<Judgement, VerifyError
     judgement
         .changes
         .extend(find_paper_changes(folder, &evidence.promise)?);
+    let strangers = find_strangers(folder, &evidence.promise)?;
+    judgement.changes.extend(strangers.changes);
+    judgement.unlisted = strangers.others;
     judgement.checks.push(sheet_check(&misstated));
     judgement.checks.push(files_check(&judgement.changes));
     judgement.checks.extend(packages_check(folder, &evidence)?);

@@ -55,6 +55,7 @@ mod kit;
 mod packages;
 mod seal;
 mod sheet;
+mod strangers;
 
 #[cfg(test)]
 mod cleaning_tests;

@@ -73,7 +73,7 @@ fn check_files(folder: &Path, promise: &Promise) -> Result<(), VerifyError> {
     let hollowed = HOLLOWED_FILE.to_owned();
     let missing = parts()
         .chain([&hollowed])
-        .filter(|file| !folder.join(file).exists());
+        .filter(|file| !folder.join(file).is_file());
     let files: Vec<String> = missing.cloned().collect();
     if files.is_empty() {
         Ok(())
