@@ -51,6 +51,7 @@ mod void_checks;
 // The checks of the files of a kit as they were delivered.
 mod change;
 mod changes;
+mod claims;
 mod kit;
 mod packages;
 mod seal;
@@ -65,6 +66,8 @@ pub(crate) mod judge_tests;
 mod kit_tests;
 #[cfg(test)]
 mod pegs_tests;
+#[cfg(test)]
+mod shape_tests;
 #[cfg(test)]
 pub(crate) mod test_meshes;
 

@@ -31,6 +31,8 @@ pub(super) struct Relief {
     pub(super) own: Vec<[Point; 3]>,
     /// Its mouth in the cut, turned as the face of the part on the other side is.
     pub(super) mouth: Vec<[Point; 3]>,
+    /// The base of a pin, inside its part.
+    pub(super) base: Vec<[Point; 3]>,
 }
 
 impl Peg {
@@ -46,7 +48,8 @@ impl Peg {
         ];
         Relief {
             own: self.revolve(&profile),
-            mouth: Vec::new(),
+            base: self.disc(profile[0]),
+            ..Relief::default()
         }
     }
 
@@ -61,15 +64,19 @@ impl Peg {
             (radius, chamfer),
             (radius, self.length_mm),
         ];
-        let center = Point::from(self.center_mm);
-        let mouth = (0..SIDES).map(|side| {
-            let [from, to] = [side, side + 1].map(|k| self.corner(profile[0], k));
-            [center, from, to]
-        });
         Relief {
             own: turn_over(self.revolve(&profile)),
-            mouth: mouth.collect(),
+            mouth: self.disc(profile[0]),
+            ..Relief::default()
         }
+    }
+
+    /// Returns the disc within a ring, facing along the axis.
+    fn disc(&self, ring: (f64, f64)) -> Vec<[Point; 3]> {
+        let hub = self.corner((0.0, ring.1), 0);
+        let sides = 0..SIDES;
+        let fan = sides.map(|side| [hub, self.corner(ring, side), self.corner(ring, side + 1)]);
+        fan.collect()
     }
 
     /// Returns a corner of the ring with this radius and height.
@@ -82,16 +89,13 @@ impl Peg {
 
     /// Returns the sides and the end of a body of revolution, turned outward. The profile rises.
     fn revolve(&self, profile: &[(f64, f64); 3]) -> Vec<[Point; 3]> {
-        let mut triangles = Vec::new();
-        let end = profile[2];
-        let hub = self.corner((0.0, end.1), 0);
+        let mut triangles = self.disc(profile[2]);
         for side in 0..SIDES {
             for rings in profile.windows(2) {
                 let [a, b] = [side, side + 1].map(|k| self.corner(rings[0], k));
                 let [c, d] = [side + 1, side].map(|k| self.corner(rings[1], k));
                 triangles.extend([[a, b, c], [a, c, d]]);
             }
-            triangles.push([hub, self.corner(end, side), self.corner(end, side + 1)]);
         }
         triangles
     }

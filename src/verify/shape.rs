@@ -142,7 +142,7 @@ impl Plan {
         let (of_outer, of_body) = (outer.triangles().len(), body.len());
         let sheet = |corners: Corners, whose: Whose| Sheet { corners, whose };
         let mut sheets: Vec<Sheet> = body.into_iter().map(|c| sheet(c, Whose::Any)).collect();
-        for (index, Relief { own, mouth }) in reliefs(evidence) {
+        for (index, Relief { own, mouth, .. }) in reliefs(evidence) {
             wanted.extend(own.iter().map(|&corners| (corners, Some(index))));
             sheets.extend(own.into_iter().map(|c| sheet(c, Whose::Only(index))));
             sheets.extend(mouth.into_iter().map(|c| sheet(c, Whose::AllBut(index))));

@@ -3,6 +3,7 @@
 
 use serde_json::{Map, Value, json};
 
+use super::claims::find_false_claims;
 use super::limits::SHEET_LIMIT_RATIO;
 use super::{
     Check, CheckKind, Evidence, FigureName, Fingerprint, JointFacts, Judgement, Limit, PartFacts,
@@ -55,6 +56,10 @@ pub fn find_misstatements(
         misstatements: exact.misstatements,
     };
     rough.object("", sheet, &restate_before_rounding(evidence, judgement));
+    if (0..evidence.parts.len()).all(|part| evidence.is_part_as_made(part)) {
+        let claims = find_false_claims(sheet, evidence, judgement);
+        rough.misstatements.extend(claims);
+    }
     rough.misstatements
 }
 

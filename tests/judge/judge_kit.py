@@ -12,6 +12,7 @@ integrates them again, and prints promise against measurement. Exit code 0: all 
 import hashlib
 import json
 import math
+import re
 import struct
 import sys
 import zipfile
@@ -74,6 +75,8 @@ SAMPLE_MM = 1.0
 # The strokes of a seven-segment character: left, right, bottom and top, in strokes; and which strokes a character has.
 SEGMENTS = [(0, 4, 0, 1), (0, 4, 3.5, 4.5), (0, 4, 7, 8), (0, 1, 1.4, 3.1), (0, 1, 4.9, 6.6), (3, 4, 1.4, 3.1), (3, 4, 4.9, 6.6)]
 CHARACTERS = {"0": "023456", "1": "56", "2": "01236", "3": "01256", "4": "1456", "5": "01245", "6": "012345", "7": "256", "8": "0123456", "9": "012456", "P": "12346"}
+# The endings of files that somebody could print by mistake.
+PRINTABLE = {".3mf", ".amf", ".bgcode", ".g", ".gco", ".gcode", ".obj", ".ply", ".stl", ".x3g"}
 # How many points of the voids are measured to the outside.
 WALL_SAMPLES = 50_000
 
@@ -1268,12 +1271,23 @@ def digest(path):
 
 
 def check_sums(table, kit):
-    """The list of hashes, as sha256sum --check reads it, holds every file of the kit but itself."""
-    lines = (kit / "SHA256SUMS").read_text().splitlines() if (kit / "SHA256SUMS").exists() else []
-    listed = dict(reversed(line.split("  ", 1)) for line in lines)
+    """The list of hashes, as sha256sum --check reads it, holds every file of the kit but itself, each once. What is not listed
+    and could be printed, and any link, is no part of a kit; other files are only named."""
+    sums = kit / "SHA256SUMS"
+    lines = sums.read_bytes().decode(errors="replace").split("\n") if sums.exists() else [""]
+    rows = [re.fullmatch(r"([0-9a-f]{64})  ([^\r]+)", line) for line in lines[:-1]]
+    table.none("lines of SHA256SUMS of another form", sum(row is None for row in rows) + (lines[-1] != ""))
+    listed = {row[2]: row[1] for row in rows if row}
+    table.none("files listed twice", sum(row is not None for row in rows) - len(listed))
+    links = [p for p in kit.rglob("*") if p.is_symlink()]
+    table.none("links", len(links))
     there = {p.relative_to(kit).as_posix() for p in kit.rglob("*") if p.is_file()} - {"SHA256SUMS"}
-    wrong = [name for name in listed.keys() | there if name not in there or digest(kit / name) != listed.get(name)]
+    wrong = [name for name in listed if name not in there or digest(kit / name) != listed[name]]
     table.none("files unlike SHA256SUMS", len(wrong))
+    strange = sorted(there - listed.keys())
+    table.none("unlisted files that could be printed", sum(Path(name).suffix.lower() in PRINTABLE for name in strange))
+    if strange:
+        print(f"  not listed: {', '.join(strange[:10])}")
 
 
 def judge(kit):
