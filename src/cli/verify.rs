@@ -8,7 +8,7 @@ use super::show::{GREEN, RED, paint, say};
 use super::summary::{checks_table, summary};
 use super::voice::{Manner, Voice};
 use crate::base::watch::Watch;
-use crate::verify::{Check, CheckKind, FileChange, VerifyError, files_check, verify_kit};
+use crate::verify::{Check, CheckKind, FileChange, VerifyError, files_check, verify_kit_of};
 
 /// Greatest number of files that are not on the list and are named.
 const MAX_NAMED: usize = 10;
@@ -28,13 +28,15 @@ pub enum VerifyCommandError {
     Json(#[from] serde_json::Error),
 }
 
-/// Judges the kit in `folder` from its files; prints the findings to `out`.
+/// Judges the kit in `folder` from its files, and by its model if that is given; prints the
+/// findings to `out`.
 pub fn verify(
     folder: &Path,
+    model: Option<&Path>,
     voice: Voice,
     out: &mut dyn Write,
 ) -> Result<Exit, VerifyCommandError> {
-    let judged = verify_kit(folder, &Watch::silent())
+    let judged = verify_kit_of(folder, model, &Watch::silent())
         .map(|judgement| (judgement.checks, judgement.changes, judgement.unlisted));
     let (checks, changes, unlisted) = judged.or_else(|error| match error.changes(folder) {
         changes if changes.is_empty() => Err(error),

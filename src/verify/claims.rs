@@ -211,7 +211,10 @@ impl Claims<'_> {
                 }
                 let lies_in = |plane: &Plane| {
                     let middles = mark.strokes_mm.iter().map(|p| Point::from(*p));
-                    middles.map(|p| plane.distance(&p).abs()).fold(0.0, f64::max) <= NEAR_MM
+                    middles
+                        .map(|p| plane.distance(&p).abs())
+                        .fold(0.0, f64::max)
+                        <= NEAR_MM
                 };
                 let mut cuts = self.cuts.iter();
                 if !cuts.any(|(id, plane)| *id == mark.cut && lies_in(plane)) {
@@ -231,7 +234,10 @@ impl Claims<'_> {
         });
         let hardware = self.evidence.promise.hardware.iter();
         let points = points.chain(hardware.flat_map(bounds));
-        let empty = [Vector::repeat(f64::INFINITY), Vector::repeat(f64::NEG_INFINITY)];
+        let empty = [
+            Vector::repeat(f64::INFINITY),
+            Vector::repeat(f64::NEG_INFINITY),
+        ];
         let [low, high] = points.fold(empty, |[low, high], p| {
             [low.inf(&p.coords), high.sup(&p.coords)]
         });
@@ -250,7 +256,12 @@ impl Claims<'_> {
         };
         let has_tip = self.judgement.spin.is_some_and(|spin| spin.has_tip);
         if !has_tip {
-            self.compare("goal.contact_gap_mm", &goal["contact_gap_mm"], gap_mm, CONTACT_LIMIT_MM);
+            self.compare(
+                "goal.contact_gap_mm",
+                &goal["contact_gap_mm"],
+                gap_mm,
+                CONTACT_LIMIT_MM,
+            );
         }
         let Some(objective) = goal["objective"].as_str() else {
             return;
@@ -261,7 +272,10 @@ impl Claims<'_> {
         }
         let certified = serde_json::from_value(self.sheet["certificate"]["figure"].clone()).ok();
         let promise = self.evidence.promise.promise.map(|promise| promise.figure);
-        let figures = [("certificate.figure", certified), ("promise.figure", promise)];
+        let figures = [
+            ("certificate.figure", certified),
+            ("promise.figure", promise),
+        ];
         for (at, figure) in figures {
             if figure.is_some_and(|figure: FigureName| !promised.contains(&figure)) {
                 self.blame(at, &objective.into(), "a figure of another objective");

@@ -82,7 +82,10 @@ impl Sheets {
     /// Makes the sheets ready.
     pub(super) fn new(sheets: Vec<Sheet>) -> Self {
         Self {
-            normals: sheets.iter().map(|sheet| normal_of(&sheet.corners)).collect(),
+            normals: sheets
+                .iter()
+                .map(|sheet| normal_of(&sheet.corners))
+                .collect(),
             tree: Bvh::new(sheets.iter().map(|sheet| sheet.corners)),
             sheets,
         }
@@ -185,7 +188,10 @@ impl Sheets {
                 continue;
             }
             let middle = middle_of(&piece.corners);
-            let distances = piece.near.iter().map(|&sheet| (sheet, self.distance_mm(&middle, sheet)));
+            let distances = piece
+                .near
+                .iter()
+                .map(|&sheet| (sheet, self.distance_mm(&middle, sheet)));
             let nearest = distances.min_by(|a, b| a.1.total_cmp(&b.1));
             let Some((sheet, _)) = nearest.filter(|(_, off_mm)| *off_mm <= ON_SHEET_MM) else {
                 return Lie::Off(middle);

@@ -115,6 +115,8 @@ pub enum CheckKind {
     ChangedFiles,
     /// Agreement of the 3MF files with the parts.
     Packages,
+    /// Agreement of the outside with the model.
+    Model,
 }
 
 impl CheckKind {
@@ -175,6 +177,7 @@ impl fmt::Display for CheckKind {
             Self::Checklist => "checklist",
             Self::ChangedFiles => "changed files",
             Self::Packages => "3MF files",
+            Self::Model => "model",
         })
     }
 }
@@ -185,7 +188,7 @@ mod tests {
     use serde_json::json;
 
     /// The keys and names of all kinds without data.
-    const KEYS: [(CheckKind, &str, &str); 42] = [
+    const KEYS: [(CheckKind, &str, &str); 43] = [
         (CheckKind::AxisOffset, "axis-offset", "axis offset"),
         (CheckKind::AxisTilt, "axis-tilt", "axis tilt"),
         (CheckKind::Dominance, "dominance", "dominance"),
@@ -248,6 +251,7 @@ mod tests {
         (CheckKind::Checklist, "checklist", "checklist"),
         (CheckKind::ChangedFiles, "changed-files", "changed files"),
         (CheckKind::Packages, "packages", "3MF files"),
+        (CheckKind::Model, "model", "model"),
     ];
 
     fn assert_reads_back(kind: &CheckKind, value: &serde_json::Value) {

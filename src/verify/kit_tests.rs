@@ -369,19 +369,30 @@ fn a_list_of_hashes_of_another_form_is_reported() {
         &|list| list.to_uppercase(),
     ];
     for form in forms {
-        assert_eq!(with_list(form), "SHA256SUMS was changed: it has other bytes");
+        assert_eq!(
+            with_list(form),
+            "SHA256SUMS was changed: it has other bytes"
+        );
     }
 }
 
 #[test]
 fn a_file_that_could_be_printed_and_is_not_on_the_list_is_reported_and_others_are_named() {
-    for stranger in ["parts/evil_P03of03.STL", "plate_2.3mf", "x/y/z.gcode", "m.obj"] {
+    for stranger in [
+        "parts/evil_P03of03.STL",
+        "plate_2.3mf",
+        "x/y/z.gcode",
+        "m.obj",
+    ] {
         let words = changes(|kit| {
             let path = kit.join(stranger);
             fs::create_dir_all(path.parent().unwrap()).unwrap();
             fs::write(path, "solid").unwrap();
         });
-        assert_eq!(words, format!("{stranger} does not belong to the kit: it is not on its list"));
+        assert_eq!(
+            words,
+            format!("{stranger} does not belong to the kit: it is not on its list")
+        );
     }
     let judgement = kit_with(|kit| fs::write(kit.join("README.txt"), "hello").unwrap()).unwrap();
     assert!(judgement.passes());
@@ -392,11 +403,18 @@ fn a_file_that_could_be_printed_and_is_not_on_the_list_is_reported_and_others_ar
 #[test]
 fn a_link_is_no_file_of_a_kit() {
     let words = changes(|kit| {
-        let outside = kit.parent().unwrap().join(kit.file_name().unwrap()).join("../moved.stl");
+        let outside = kit
+            .parent()
+            .unwrap()
+            .join(kit.file_name().unwrap())
+            .join("../moved.stl");
         fs::rename(kit.join("parts/P01.stl"), &outside).unwrap();
         std::os::unix::fs::symlink(&outside, kit.join("parts/P01.stl")).unwrap();
     });
-    assert_eq!(words, "parts/P01.stl is a link: the kit must hold the file itself");
+    assert_eq!(
+        words,
+        "parts/P01.stl is a link: the kit must hold the file itself"
+    );
 }
 
 #[test]
@@ -407,7 +425,10 @@ fn a_damaged_checklist_of_a_listed_kit_is_a_change_and_one_without_a_list_is_no_
         change(room.path());
         let error = verify_kit(room.path(), &Watch::silent()).unwrap_err();
         let changes = error.changes(room.path());
-        changes.iter().map(FileChange::to_string).collect::<Vec<_>>()
+        changes
+            .iter()
+            .map(FileChange::to_string)
+            .collect::<Vec<_>>()
     };
     let checklist = |kit: &Path| kit.join(CHECKLIST_FILE);
     let missing = named(&|kit| fs::remove_file(checklist(kit)).unwrap());

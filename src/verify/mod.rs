@@ -53,6 +53,7 @@ mod change;
 mod changes;
 mod claims;
 mod kit;
+mod model;
 mod packages;
 mod seal;
 mod sheet;
@@ -76,7 +77,7 @@ pub use error::VerifyError;
 pub use evidence::{Evidence, PartEvidence, assembly_moments};
 pub use judge::judge;
 pub use judgement::Judgement;
-pub use kit::verify_kit;
+pub use kit::{verify_kit, verify_kit_of};
 pub use reading::read_promise;
 
 // The promises.

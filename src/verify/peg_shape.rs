@@ -13,7 +13,7 @@ const HALVINGS: usize = 60;
 /// Distance from one character to the next, in strokes.
 const ADVANCE: f64 = 5.5;
 /// The seven strokes of a character, [left, right, bottom, top] in strokes from its lower left
-/// corner: bottom, middle, top, left below and above, right below and above.
+/// corner. Bottom, middle and top come first, then left and right, each from below.
 const STROKES: [[f64; 4]; 7] = [
     [0.0, 4.0, 0.0, 1.0],
     [0.0, 4.0, 3.5, 4.5],
@@ -127,7 +127,9 @@ impl Mark {
             relief.mouth.extend(turn_over(halve(rim)));
             for i in 0..4 {
                 let j = (i + 1) % 4;
-                relief.own.extend(halve([rim[i], rim[j], floor[j], floor[i]]));
+                relief
+                    .own
+                    .extend(halve([rim[i], rim[j], floor[j], floor[i]]));
             }
         }
         relief

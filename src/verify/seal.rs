@@ -95,16 +95,3 @@ fn parse_sums(list: &[u8]) -> Option<BTreeMap<String, String>> {
     }
     Some(listed)
 }
-
-/// Returns true if the list of a kit in this folder names its checklist, with another hash than
-/// that of these bytes.
-pub(super) fn is_checklist_damaged(folder: &Path, bytes: Option<&[u8]>) -> bool {
-    let Ok(list) = read_file(&folder.join(SUMS_FILE)) else {
-        return false;
-    };
-    let listed = String::from_utf8_lossy(&list);
-    let line = listed
-        .lines()
-        .find_map(|line| line.strip_suffix(CHECKLIST_FILE)?.strip_suffix("  "));
-    line.is_some_and(|sha256| bytes.is_none_or(|bytes| sha256_hex(&[bytes]) != sha256))
-}

@@ -13,6 +13,10 @@ use crate::base::watch::{Cancelled, Watch};
 use crate::geom::{Bvh, Plane, Point, Vector};
 use crate::mesh::{MeshDistance, TriMesh};
 
+/// A triangle that lies on nothing is compared with surfaces that face as it does to 60°: a face of
+/// a cut is no wall.
+const ALIKE_COSINE: f64 = 0.5;
+
 /// Triangles that are not where they should be.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Stray {
@@ -119,7 +123,10 @@ impl Sheets {
         // A point on a sheet that faces away or belongs to another part counts as just off.
         let distance = |off: &Off| {
             let nearest = self.nearest(&off.at);
-            (nearest.map_or(f64::INFINITY, |(_, mm)| mm).max(ON_SHEET_MM), off.at)
+            (
+                nearest.map_or(f64::INFINITY, |(_, mm)| mm).max(ON_SHEET_MM),
+                off.at,
+            )
         };
         let distances: Vec<(f64, Point)> = off.par_iter().map(distance).collect();
         let worst = distances.iter().copied();
@@ -174,7 +181,8 @@ impl Plan {
     }
 
     /// Returns the smallest distance between the voids' and the outer triangles of the parts, mm.
-    /// Triangles that lie on nothing count as what is nearest to them and faces as they do.
+    /// Triangles that lie on nothing count as what is nearest to them, if it faces about as they
+    /// do.
     fn wall_mm(&self, parts: &[Vec<Corners>]) -> Option<f64> {
         let body = &self.wanted[..self.of_body];
         let [outside, inside] = [&body[..self.of_outer], &body[self.of_outer..]]
@@ -184,15 +192,16 @@ impl Plan {
             Lie::On(sheet) if sheet as usize >= self.of_body => None,
             Lie::On(sheet) => Some(sheet as usize >= self.of_outer),
             Lie::Off(at) => {
-                let normal = normal_of(corners);
-                let rank = |tree: &Bvh, first: usize| {
+                let normal = normal_of(corners)?;
+                let distance = |tree: &Bvh, first: usize| {
                     let nearest = tree.closest(&at, f64::INFINITY, &[])?;
                     let (sheet, _) = body[first + nearest.triangle as usize];
-                    let turned = normal.zip(normal_of(&sheet)).map(|(a, b)| a.dot(&b) <= 0.0);
-                    Some((turned.unwrap_or(false), nearest.distance_squared))
+                    let is_alike = normal.dot(&normal_of(&sheet)?) >= ALIKE_COSINE;
+                    is_alike.then_some(nearest.distance_squared)
                 };
-                let (outer, inner) = (rank(&outside, 0)?, rank(&inside, self.of_outer)?);
-                Some(inner < outer)
+                let outer = distance(&outside, 0).unwrap_or(f64::INFINITY);
+                let inner = distance(&inside, self.of_outer).unwrap_or(f64::INFINITY);
+                (outer.min(inner) < f64::INFINITY).then_some(inner < outer)
             }
         };
         let parts = parts.par_iter().enumerate();

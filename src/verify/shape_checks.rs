@@ -7,7 +7,9 @@ use super::{Check, CheckKind, Limit, PartFacts, ShapeFacts, Stray};
 /// the parts and jigs.
 pub(super) fn shape_checks(found: &ShapeFacts, printed: &[PartFacts]) -> [Check; 2] {
     let torn: Vec<&PartFacts> = printed.iter().filter(|part| part.bodies != 1).collect();
-    let words = torn.iter().map(|part| format!("{}: {}", part.id, part.bodies));
+    let words = torn
+        .iter()
+        .map(|part| format!("{}: {}", part.id, part.bodies));
     let one_body = Check::new(
         CheckKind::OneBody,
         "every printed file holds one body",

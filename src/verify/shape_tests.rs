@@ -41,7 +41,10 @@ fn strays(evidence: &Evidence) -> Vec<Stray> {
 
 fn assert_blamed(evidence: &Evidence, what: &str) {
     let failed = failures(evidence);
-    assert!(failed.contains(&"part surfaces".to_owned()), "{what}: {failed:?}");
+    assert!(
+        failed.contains(&"part surfaces".to_owned()),
+        "{what}: {failed:?}"
+    );
 }
 
 #[test]
@@ -55,20 +58,28 @@ fn parts_of_other_triangles_with_the_same_surface_are_as_they_should_be() {
     assert_eq!(strays(&kit_with_pin(PIN, SOCKET, Vector::zeros())), []);
 }
 
-/// The part prints upside down with its floor on the plate at z = 0; its outside reaches from 0 to
-/// 60 and 40 mm, its void from 3 to 57 and 37 mm.
+/// The part prints upside down with its floor on the plate at z = 0. Its outside reaches from 0 to
+/// 60 and 40 mm.
 #[test]
 fn a_dent_of_five_micrometres_is_named_with_its_part_and_place() {
     for depth_mm in [0.005, -0.005, 0.3] {
         let dented = kit_with(1, |mesh| {
-            pull(&refine(mesh), Point::origin(), Vector::new(0.0, 0.0, depth_mm))
+            pull(
+                &refine(mesh),
+                Point::origin(),
+                Vector::new(0.0, 0.0, depth_mm),
+            )
         });
         let found = strays(&dented);
         let stray = found.iter().find(|stray| stray.of == "P02").unwrap();
         assert!(!stray.is_missing && stray.off_mm >= 0.002, "{stray:?}");
         let corner = dented.parts[1].pose.to_model(&Point::origin());
         assert!((stray.at - corner).norm() < 30.0, "{stray:?}");
-        assert!(found.iter().any(|stray| stray.of == "hollowed.stl" && stray.is_missing));
+        assert!(
+            found
+                .iter()
+                .any(|stray| stray.of == "hollowed.stl" && stray.is_missing)
+        );
     }
 }
 
@@ -77,7 +88,13 @@ fn a_wall_that_is_thin_in_the_part_alone_is_measured_there() {
     // All corners of the void's floor, 3 mm over the plate, go down to 0.1 mm.
     let thinned = kit_with(0, |mesh| {
         let is_floor = |p: &Point| (p.z - 3.0).abs() < 1e-9 && p.x > 1.0 && p.x < 59.0;
-        mesh.map_vertices(|p| if is_floor(p) { Point::new(p.x, p.y, 0.1) } else { *p })
+        mesh.map_vertices(|p| {
+            if is_floor(p) {
+                Point::new(p.x, p.y, 0.1)
+            } else {
+                *p
+            }
+        })
     });
     assert_blamed(&thinned, "a thin floor");
     let wall_mm = judge(&thinned).wall_min_mm.unwrap();
@@ -93,7 +110,8 @@ fn loose_bodies_and_hidden_cavities_are_found() {
         assert_blamed(&loose(center), "a loose ball");
     }
     let hidden = kit_with(0, |mesh| {
-        mesh.clone().joined(&ball(Point::new(30.0, 20.0, 1.5), 0.3, 6).reversed())
+        mesh.clone()
+            .joined(&ball(Point::new(30.0, 20.0, 1.5), 0.3, 6).reversed())
     });
     assert_blamed(&hidden, "a hidden cavity");
 }
