@@ -2,8 +2,10 @@
 
 use super::judge_tests::{SEAT, failures, judge, sound_kit};
 use super::pegs_tests::{PIN, SOCKET, kit_with_pin};
+use super::shape::measure_shapes;
 use super::test_meshes::ball;
 use super::*;
+use crate::base::watch::Watch;
 use crate::geom::{Point, Vector};
 use crate::mesh::TriMesh;
 
@@ -160,4 +162,111 @@ fn a_pin_or_socket_of_another_size_or_none_is_found() {
     let mut turned = kit_with_pin(PIN, SOCKET, Vector::zeros());
     turned.promise.parts[0].pins[0].center_mm = [SEAT[0] - 0.01, SEAT[1], SEAT[2]];
     assert_blamed(&turned, "a pin that is elsewhere");
+}
+
+/// Number of kits that are changed at random.
+const CHANGES: usize = 1200;
+
+/// Numbers that look random, the same in every run (Steele, Lea and Flood, 2014).
+struct Dice(u64);
+
+impl Dice {
+    fn roll(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mixed = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        let mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        mixed ^ (mixed >> 31)
+    }
+
+    fn pick(&mut self, count: usize) -> usize {
+        (self.roll() % count as u64) as usize
+    }
+
+    fn share(&mut self) -> f64 {
+        (self.roll() >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    fn direction(&mut self) -> Vector {
+        let [x, y, z] = [(); 3].map(|()| self.share() - 0.5);
+        Vector::new(x, y, z).normalize()
+    }
+
+    /// Returns a place in the box of a mesh.
+    fn place(&mut self, mesh: &TriMesh) -> Point {
+        let (aabb, shares) = (mesh.aabb(), [(); 3].map(|()| self.share()));
+        aabb.min + aabb.size().component_mul(&Vector::from(shares))
+    }
+}
+
+/// Moves the corner of a triangle that is no sliver along the normals about it.
+fn dent(mesh: &TriMesh, dice: &mut Dice, way_mm: f64) -> TriMesh {
+    let corners: Vec<[Point; 3]> = mesh.iter_corners().collect();
+    let normal = |[a, b, c]: &[Point; 3]| (b - a).cross(&(c - a));
+    let broad: Vec<&[Point; 3]> = corners.iter().filter(|c| normal(c).norm() > 0.05).collect();
+    let at = broad[dice.pick(broad.len())][dice.pick(3)];
+    let about = corners.iter().filter(|corners| corners.contains(&at));
+    let way: Vector = about.map(|c| normal(c).normalize()).sum();
+    pull(mesh, at, way.normalize() * way_mm)
+}
+
+/// Changes a part at random; returns what was done.
+fn change(evidence: &mut Evidence, dice: &mut Dice) -> String {
+    let part = dice.pick(2);
+    let sign = if dice.share() < 0.5 { -1.0 } else { 1.0 };
+    let amount_mm = sign * 0.005 * 60f64.powf(dice.share());
+    let mesh = evidence.parts[part].mesh.clone();
+    let (what, changed) = match dice.pick(8) {
+        0..3 => ("dent", dent(&mesh, dice, amount_mm)),
+        3 => {
+            let loose = ball(dice.place(&mesh), 0.02 + amount_mm.abs(), 6);
+            let loose = if sign < 0.0 { loose.reversed() } else { loose };
+            ("loose body", mesh.joined(&loose))
+        }
+        4 => {
+            let way = dice.direction() * 0.02;
+            ("shift", mesh.map_vertices(|p| p + way))
+        }
+        5 => ("scale", mesh.map_vertices(|p| p * (1.0 + sign * 1e-4))),
+        6 => {
+            let mut faces = mesh.triangles().to_vec();
+            let corners: Vec<[Point; 3]> = mesh.iter_corners().collect();
+            let area = |[a, b, c]: &[Point; 3]| (b - a).cross(&(c - a)).norm();
+            let broad: Vec<usize> = (0..faces.len())
+                .filter(|&i| area(&corners[i]) > 0.05)
+                .collect();
+            faces.remove(broad[dice.pick(broad.len())]);
+            (
+                "hole",
+                TriMesh::new(mesh.vertices().to_vec(), faces).unwrap(),
+            )
+        }
+        _ => {
+            let way = dice.direction() * 0.02;
+            let pose = &mut evidence.parts[part].pose;
+            (0..3).for_each(|row| pose.rows[row][3] += way[row]);
+            ("pose", mesh)
+        }
+    };
+    evidence.parts[part].mesh = changed;
+    format!("{what} of part {part} by {amount_mm}")
+}
+
+#[test]
+fn every_one_of_many_random_changes_of_a_part_is_named() {
+    let mut sound = kit_with_pin(PIN, SOCKET, Vector::zeros());
+    for part in &mut sound.parts {
+        part.mesh = refine(&part.mesh);
+    }
+    let shells = Shells::of_mesh(&crate::repair::weld(&sound.hollowed));
+    let strays = |evidence: &Evidence| {
+        let found = measure_shapes(evidence, &shells, &Watch::silent()).unwrap();
+        found.strays
+    };
+    assert_eq!(strays(&sound), []);
+    let mut dice = Dice(1);
+    for _ in 0..CHANGES {
+        let mut changed = sound.clone();
+        let what = change(&mut changed, &mut dice);
+        assert!(!strays(&changed).is_empty(), "{what}");
+    }
 }
