@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 
 use serde_json::Value;
 
+use super::hardware::mass_moments;
 use super::limits::CONTACT_LIMIT_MM;
 use super::{Evidence, FigureName, Hardware, Judgement, Peg};
 use crate::geom::{Plane, Point, Vector};
@@ -12,9 +13,11 @@ use crate::goal::GoalKind;
 
 /// A stated opening may differ from the found one by this share, since the widest disc is found by
 /// steps.
-const OPENING_RATIO: f64 = 0.01;
+const OPENING_RATIO: f64 = 5e-3;
 /// The area of a joint may differ by this share from that of the faces in the files.
 const AREA_RATIO: f64 = 1e-3;
+/// The mass of a rod may differ by this share from that of its volume.
+const MASS_RATIO: f64 = 1e-6;
 /// Points within this distance of a cut lie in it, and sizes within it are equal, mm.
 const NEAR_MM: f64 = 1e-3;
 /// Directions with at least this cosine are equal.
@@ -54,6 +57,7 @@ pub(super) fn find_false_claims(
     claims.judge_pegs();
     claims.judge_marks();
     claims.judge_size();
+    claims.judge_hardware();
     claims.judge_goal();
     claims.faults
 }
@@ -247,6 +251,16 @@ impl Claims<'_> {
         }
     }
 
+    /// Judges the masses of the hardware and the dowels.
+    fn judge_hardware(&mut self) {
+        let promise = &self.evidence.promise;
+        for rod in promise.hardware.iter().chain(&promise.dowels) {
+            let found_g = mass_moments(std::slice::from_ref(rod)).volume();
+            let at = format!("{}.mass_g", rod.id);
+            self.compare(&at, &rod.mass_g.into(), found_g, MASS_RATIO * found_g);
+        }
+    }
+
     /// Judges the contact of a top, and whether the figures are those of the goal's objective.
     fn judge_goal(&mut self) {
         let (goal, kind) = (&self.sheet["goal"], self.evidence.promise.goal.kind);
@@ -270,7 +284,11 @@ impl Claims<'_> {
         if promised.is_empty() {
             self.blame("goal.objective", &objective.into(), "another goal");
         }
-        let certified = serde_json::from_value(self.sheet["certificate"]["figure"].clone()).ok();
+        let stated = &self.sheet["certificate"]["figure"];
+        let certified = serde_json::from_value(stated.clone()).ok();
+        if certified.is_none() && !stated.is_null() {
+            self.blame("certificate.figure", stated, "no such figure");
+        }
         let promise = self.evidence.promise.promise.map(|promise| promise.figure);
         let figures = [
             ("certificate.figure", certified),

@@ -231,11 +231,12 @@ impl Sheets {
 
     /// Cuts a polygon along the three sides of a sheet. `None` if that cuts nothing off it.
     fn cut_along(&self, corners: &[Point], sheet: u32) -> Option<Vec<Vec<Point>>> {
-        let normal = self.normals[sheet as usize]?;
         let [a, b, c] = self.sheets[sheet as usize].corners;
+        // A sliver's own normal may be noise, but any cut is a right one.
+        let normal = (b - a).cross(&(c - a)).try_normalize(0.0)?;
         let (mut inside, mut parts) = (corners.to_vec(), Vec::new());
         for (from, to) in [(a, b), (b, c), (c, a)] {
-            let inward = normal.cross(&(to - from)).normalize();
+            let inward = normal.cross(&(to - from)).try_normalize(0.0)?;
             let height = |p: &Point| inward.dot(&(p - from));
             if inside.iter().all(|p| height(p) >= -TRIM_MM) {
                 continue;

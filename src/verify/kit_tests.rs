@@ -31,6 +31,7 @@ fn write_kit(folder: &Path) {
         "goal": { "kind": "top", "origin_mm": [0.0, 0.0, 0.0], "axis": [0.0, 0.0, 1.0], "objective": "critical_speed" },
         "wall": { "required_mm": 3.0 },
         "cuts": [{ "id": "C1", "point_mm": [0.0, 0.0, 16.0], "normal": [0.0, 0.0, 1.0] }],
+        "joints": [{ "id": "J1", "cut": "C1", "parts": ["P01", "P02"], "clearance_mm": 0.1, "area_mm2": 564.0 }],
         "parts": parts,
         "voids": [{ "id": "V1" }],
         "files": { HOLLOWED_FILE: sha256_hex(&[&hollowed]) },

@@ -53,6 +53,7 @@ mod change;
 mod changes;
 mod claims;
 mod kit;
+mod machine;
 mod model;
 mod packages;
 mod seal;

@@ -181,8 +181,8 @@ impl Plan {
     }
 
     /// Returns the smallest distance between the voids' and the outer triangles of the parts, mm.
-    /// Triangles that lie on nothing count as what is nearest to them, if it faces about as they
-    /// do.
+    /// Triangles that lie on nothing count as what is nearest to them, if that faces about as they
+    /// do. Those nearest to a joint do not count.
     fn wall_mm(&self, parts: &[Vec<Corners>]) -> Option<f64> {
         let body = &self.wanted[..self.of_body];
         let [outside, inside] = [&body[..self.of_outer], &body[self.of_outer..]]
@@ -193,6 +193,10 @@ impl Plan {
             Lie::On(sheet) => Some(sheet as usize >= self.of_outer),
             Lie::Off(at) => {
                 let normal = normal_of(corners)?;
+                let (nearest, _) = self.sheets.nearest(&at)?;
+                if nearest as usize >= self.of_body {
+                    return None;
+                }
                 let distance = |tree: &Bvh, first: usize| {
                     let nearest = tree.closest(&at, f64::INFINITY, &[])?;
                     let (sheet, _) = body[first + nearest.triangle as usize];

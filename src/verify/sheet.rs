@@ -5,6 +5,7 @@ use serde_json::{Map, Value, json};
 
 use super::claims::find_false_claims;
 use super::limits::SHEET_LIMIT_RATIO;
+use super::machine::find_false_numbers;
 use super::{
     Check, CheckKind, Evidence, FigureName, Fingerprint, JointFacts, Judgement, Limit, PartFacts,
     Promise, PromisedJoint, PromisedVoid, Shells,
@@ -59,6 +60,8 @@ pub fn find_misstatements(
     if (0..evidence.parts.len()).all(|part| evidence.is_part_as_made(part)) {
         let claims = find_false_claims(sheet, evidence, judgement);
         rough.misstatements.extend(claims);
+        let numbers = find_false_numbers(sheet, evidence);
+        rough.misstatements.extend(numbers);
     }
     rough.misstatements
 }
