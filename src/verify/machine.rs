@@ -125,10 +125,14 @@ impl Faults {
         if let Some(asked_mm) = asked.as_f64().filter(|_| row["what"] == "wall") {
             self.compare(&format!("{at}.asked_mm"), &row["asked_mm"], &[asked_mm]);
         }
-        let is_layers = row["steps_of"] == "layers";
-        let is_upright = row["along"] == "z" || steps_mm.last().copied() == Some(step_mm);
-        if is_layers && !is_upright {
-            let stated = &row["steps_of"];
+        let stated = &row["steps_of"];
+        let is_upright = row["along"] == "z" || steps_mm.last() == Some(&step_mm);
+        let is_right = match stated.as_str() {
+            Some("layers") => is_upright,
+            Some("pixels" | "line widths") => row["along"] != "z",
+            _ => stated.is_null(),
+        };
+        if !is_right {
             self.0.push(format!("{at}.steps_of states {stated}"));
         }
     }
