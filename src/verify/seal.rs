@@ -89,7 +89,8 @@ fn parse_sums(list: &[u8]) -> Option<BTreeMap<String, String>> {
                 .bytes()
                 .all(|digit| matches!(digit, b'0'..=b'9' | b'a'..=b'f'));
         let is_new = listed.insert(file.to_owned(), sha256.to_owned()).is_none();
-        if !(is_hash && is_new && is_inside_kit(file)) {
+        let is_plain = !file.chars().any(char::is_control);
+        if !(is_hash && is_new && is_plain && is_inside_kit(file)) {
             return None;
         }
     }
