@@ -198,14 +198,20 @@ impl Dice {
     }
 }
 
+/// Returns true for a triangle that is higher than ten times what the judge lets pass.
+fn is_broad([a, b, c]: &[Point; 3]) -> bool {
+    let sides = [b - a, c - b, a - c].map(|side| side.norm());
+    (b - a).cross(&(c - a)).norm() > 0.02 * sides.into_iter().fold(0.0, f64::max)
+}
+
 /// Moves the corner of a triangle that is no sliver along the normals about it.
 fn dent(mesh: &TriMesh, dice: &mut Dice, way_mm: f64) -> TriMesh {
     let corners: Vec<[Point; 3]> = mesh.iter_corners().collect();
-    let normal = |[a, b, c]: &[Point; 3]| (b - a).cross(&(c - a));
-    let broad: Vec<&[Point; 3]> = corners.iter().filter(|c| normal(c).norm() > 0.05).collect();
+    let broad: Vec<&[Point; 3]> = corners.iter().filter(|corners| is_broad(corners)).collect();
     let at = broad[dice.pick(broad.len())][dice.pick(3)];
-    let about = corners.iter().filter(|corners| corners.contains(&at));
-    let way: Vector = about.map(|c| normal(c).normalize()).sum();
+    let about = broad.iter().filter(|corners| corners.contains(&at));
+    let normals = about.map(|[a, b, c]| (b - a).cross(&(c - a)).normalize());
+    let way: Vector = normals.sum();
     pull(mesh, at, way.normalize() * way_mm)
 }
 
@@ -230,9 +236,8 @@ fn change(evidence: &mut Evidence, dice: &mut Dice) -> String {
         6 => {
             let mut faces = mesh.triangles().to_vec();
             let corners: Vec<[Point; 3]> = mesh.iter_corners().collect();
-            let area = |[a, b, c]: &[Point; 3]| (b - a).cross(&(c - a)).norm();
             let broad: Vec<usize> = (0..faces.len())
-                .filter(|&i| area(&corners[i]) > 0.05)
+                .filter(|&i| is_broad(&corners[i]))
                 .collect();
             faces.remove(broad[dice.pick(broad.len())]);
             (
