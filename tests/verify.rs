@@ -234,10 +234,39 @@ fn a_file_without_a_mesh_is_reported() {
 }
 
 #[test]
-fn a_folder_without_a_checklist_is_no_kit() {
+fn a_kit_without_its_checklist_is_damaged_and_a_folder_without_its_list_too_is_no_kit() {
     let kit = Kit::new();
     fs::remove_file(kit.folder.join("checklist.json")).unwrap();
+    kit.assert_fails("checklist.json is missing");
+    fs::remove_file(kit.folder.join("SHA256SUMS")).unwrap();
     assert_eq!(verify(&kit.folder).0, Some(2));
+}
+
+#[test]
+fn a_dent_of_a_hundredth_of_a_millimetre_is_named_with_its_place() {
+    let kit = Kit::new();
+    let mesh = kit.mesh(0);
+    let highest = mesh.vertices().iter().map(|p| p.x).fold(0.0, f64::max);
+    let dented = mesh.map_vertices(|p| {
+        if p.x == highest {
+            p - Vector::x() * 0.01
+        } else {
+            *p
+        }
+    });
+    kit.write(0, &dented);
+    kit.assert_fails("part surfaces");
+}
+
+#[test]
+fn a_strange_part_in_the_folder_is_reported() {
+    let kit = Kit::new();
+    fs::copy(
+        kit.folder.join(kit.file(0)),
+        kit.folder.join("parts/P03.stl"),
+    )
+    .unwrap();
+    kit.assert_fails("parts/P03.stl does not belong to the kit");
 }
 
 impl Kit {

@@ -80,7 +80,12 @@ fn dispatch(cli: Cli, manner: Manner) -> Result<Exit, Box<dyn Error + Send + Syn
         Command::Coupon(args) => Ok(coupon::coupon(&args, voice, &Stop::on_signals(), out)?),
         Command::Verify(args) => {
             end_process_on_signal();
-            Ok(verify::verify(&args.kit, voice, out)?)
+            Ok(verify::verify(
+                &args.kit,
+                args.model.as_deref(),
+                voice,
+                out,
+            )?)
         }
         Command::Completions(args) => {
             manual::completions(args.shell, out)?;

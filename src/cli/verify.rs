@@ -8,7 +8,10 @@ use super::show::{GREEN, RED, paint, say};
 use super::summary::{checks_table, summary};
 use super::voice::{Manner, Voice};
 use crate::base::watch::Watch;
-use crate::verify::{Check, CheckKind, FileChange, VerifyError, files_check, verify_kit};
+use crate::verify::{Check, CheckKind, FileChange, VerifyError, files_check, verify_kit_of};
+
+/// Greatest number of files that are not on the list and are named.
+const MAX_NAMED: usize = 10;
 
 /// A reason why `verify` could not run.
 #[derive(Debug, thiserror::Error)]
@@ -25,27 +28,43 @@ pub enum VerifyCommandError {
     Json(#[from] serde_json::Error),
 }
 
-/// Judges the kit in `folder` from its files; prints the findings to `out`.
+/// Judges the kit in `folder` from its files, and by its model if that is given; prints the
+/// findings to `out`.
 pub fn verify(
     folder: &Path,
+    model: Option<&Path>,
     voice: Voice,
     out: &mut dyn Write,
 ) -> Result<Exit, VerifyCommandError> {
-    let judged =
-        verify_kit(folder, &Watch::silent()).map(|judgement| (judgement.checks, judgement.changes));
-    let (checks, changes) = judged.or_else(|error| match error.changes(folder) {
+    let judged = verify_kit_of(folder, model, &Watch::silent())
+        .map(|judgement| (judgement.checks, judgement.changes, judgement.unlisted));
+    let (checks, changes, unlisted) = judged.or_else(|error| match error.changes(folder) {
         changes if changes.is_empty() => Err(error),
-        changes => Ok((vec![files_check(&changes)], changes)),
+        changes => Ok((vec![files_check(&changes)], changes, Vec::new())),
     })?;
     let is_kept = checks.iter().all(|check| check.pass);
     if voice.json {
         writeln!(out, "{}", serde_json::to_string_pretty(&checks)?)?;
     } else if !voice.manner.quiet {
         write!(out, "{}", text(&checks, &changes, voice.manner))?;
+        write!(out, "{}", name_unlisted(&unlisted))?;
     } else if !is_kept {
         say(text(&checks, &changes, voice.manner).trim_end());
     }
     Ok(if is_kept { Exit::Kept } else { Exit::NotKept })
+}
+
+/// Returns a line about the files that are not on the kit's list; empty without any.
+fn name_unlisted(unlisted: &[String]) -> String {
+    let named = unlisted[..unlisted.len().min(MAX_NAMED)].join(", ");
+    match unlisted.len() {
+        0 => String::new(),
+        count if count > MAX_NAMED => {
+            let more = count - MAX_NAMED;
+            format!("not on the kit's list, and not judged: {named} and {more} more\n")
+        }
+        _ => format!("not on the kit's list, and not judged: {named}\n"),
+    }
 }
 
 /// Returns the changed files first, then the broken promises or all checks, then the sum.

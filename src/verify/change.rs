@@ -25,6 +25,10 @@ pub enum Change {
     Unreadable(String),
     /// It belongs to another checklist.
     OfAnother,
+    /// It can be printed, and is not on the kit's list.
+    Unlisted,
+    /// It is a link to another place.
+    Link,
     /// It has other bytes but the same triangles: another program saved it again.
     Resaved,
     /// It has the same shape except for rounded coordinates or single moved corners.
@@ -50,6 +54,8 @@ impl fmt::Display for FileChange {
             Change::Altered => "was changed: it has other bytes".to_owned(),
             Change::Unreadable(why) => format!("holds no mesh: {why}"),
             Change::OfAnother => "belongs to another checklist.json".to_owned(),
+            Change::Unlisted => "does not belong to the kit: it is not on its list".to_owned(),
+            Change::Link => "is a link: the kit must hold the file itself".to_owned(),
             Change::Resaved => "was saved again: other bytes, the same triangles".to_owned(),
             Change::Touched => {
                 "was changed a little: its coordinates were rounded, or a corner was moved"
@@ -80,6 +86,8 @@ impl FileChange {
             Change::Altered | Change::OfAnother => {
                 "restore the original file; if the change was intended, make the kit again from its job.toml"
             }
+            Change::Unlisted => "do not print it; move it out of the kit's folder",
+            Change::Link => "put the file itself in its place, or remove the link",
             Change::Resaved => "its shape is unchanged; print the original file to be sure",
             Change::Exchanged(_) => "give the file its original name, or copy it again",
             Change::Scaled(_) => "print the original file, at 100 %",
@@ -98,7 +106,11 @@ impl FileChange {
     pub fn is_of_shape(&self) -> bool {
         match self.change {
             Change::Altered => self.file == HOLLOWED_FILE,
-            Change::Missing | Change::OfAnother | Change::Resaved => false,
+            Change::Missing
+            | Change::OfAnother
+            | Change::Unlisted
+            | Change::Link
+            | Change::Resaved => false,
             _ => true,
         }
     }

@@ -57,7 +57,7 @@ fn hash_files(folder: &Path, promise: &Promise) -> Result<BTreeMap<String, Strin
         .map(|part| &part.file)
         .chain(promise.files.keys());
     let mut hashes = BTreeMap::new();
-    for file in files.filter(|file| folder.join(file).exists()) {
+    for file in files.filter(|file| folder.join(file).is_file()) {
         hashes.insert(file.clone(), sha256_hex(&[&read_file(&folder.join(file))?]));
     }
     Ok(hashes)

@@ -9,6 +9,7 @@ use super::limits::{
     STRING_GAP_TOLERANCE_MM, VOLUME_SUM_LIMIT_RATIO, WALL_TOLERANCE_MM,
 };
 use super::play::worst_joint;
+use super::shape_checks::shape_checks;
 use super::thin_checks::thin_checks;
 use super::void_checks::void_checks;
 use super::{
@@ -35,6 +36,7 @@ pub fn checks(promise: &Promise, found: &Judgement) -> Vec<Check> {
     checks.extend(found.ballast_room_mm.map(ballast_check));
     checks.extend(surface_checks(found));
     let printed = printed(found);
+    checks.extend(shape_checks(&found.shape, &printed));
     checks.extend(plate_checks(&printed));
     checks.extend(
         promise

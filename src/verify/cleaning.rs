@@ -1,6 +1,8 @@
 //! Facts about the cleaning of voids: the openings, and the share of each wall in sight of them, on
 //! the written parts.
 
+use std::collections::BTreeSet;
+
 use rayon::prelude::*;
 use serde::Serialize;
 
@@ -41,6 +43,10 @@ pub struct VoidFacts {
     /// Share of its wall that is in sight, or printed without support since it does not face down
     /// or is steep enough.
     pub clean_ratio: f64,
+    /// Indices of the cuts in which the rims of its pieces lie.
+    pub cuts: BTreeSet<usize>,
+    /// Indices of the parts that hold a piece of it.
+    pub holders: BTreeSet<usize>,
 }
 
 /// A point in a mouth, with the index of its cut.
@@ -128,13 +134,16 @@ impl Inspector<'_> {
         let mouths = self.planes.iter().map(mouths);
         let mouths = mouths.collect::<Result<Vec<Vec<MouthPoint>>, Cancelled>>()?;
         let (mut openings_mm, mut found, mut seen, mut clean) = (Vec::new(), 0.0, 0.0, 0.0);
-        for part in parts {
+        let (mut cuts, mut holders) = (BTreeSet::new(), BTreeSet::new());
+        for (index, part) in parts.iter().enumerate() {
             for patch in self.patches(&surface, part) {
                 let wall_mm2 = surface_mm2(&patch.wall);
                 if wall_mm2 < SLIVER_RATIO * area {
                     continue;
                 }
                 self.watch.check()?;
+                cuts.extend(patch.rims.iter().map(|(cut, _)| *cut));
+                holders.insert(index);
                 let own = patch.own_points(&mouths);
                 openings_mm.extend(self.openings(&patch, &own));
                 let [seen_ratio, clean_ratio] =
@@ -151,6 +160,8 @@ impl Inspector<'_> {
             openings_mm,
             sight_ratio: seen / whole,
             clean_ratio: clean / whole,
+            cuts,
+            holders,
         })
     }
 

@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use super::files::{CHECKLIST_FILE, is_checklist_damaged};
 use super::{Change, FileChange, SCHEMA};
 use crate::base::watch::Cancelled;
 use crate::io::ReadError;
@@ -82,19 +83,33 @@ impl VerifyError {
                     change: Change::Missing,
                 })
                 .collect(),
-            Self::Mesh { path, source } => {
+            // A model beside the kit is none of its files.
+            Self::Mesh { path, source } if path.starts_with(folder) => {
                 let causes =
                     std::iter::successors(Some(source as &dyn std::error::Error), |e| e.source());
                 let why = causes.last().map(ToString::to_string).unwrap_or_default();
-                let file = path
-                    .strip_prefix(folder)
-                    .unwrap_or(path)
-                    .display()
-                    .to_string();
+                let file = path.strip_prefix(folder).unwrap_or(path);
                 vec![FileChange {
-                    file,
+                    file: file.display().to_string(),
                     change: Change::Unreadable(why),
                 }]
+            }
+            Self::File { path, .. } if *path == folder.join(CHECKLIST_FILE) => {
+                let is_damaged = is_checklist_damaged(folder, None);
+                let change = FileChange {
+                    file: CHECKLIST_FILE.to_owned(),
+                    change: Change::Missing,
+                };
+                is_damaged.then_some(change).into_iter().collect()
+            }
+            Self::Checklist { path, .. } | Self::Schema { path, .. } => {
+                let bytes = std::fs::read(path).unwrap_or_default();
+                let change = FileChange {
+                    file: CHECKLIST_FILE.to_owned(),
+                    change: Change::Altered,
+                };
+                let is_damaged = is_checklist_damaged(folder, Some(&bytes));
+                is_damaged.then_some(change).into_iter().collect()
             }
             _ => Vec::new(),
         }

@@ -1,6 +1,9 @@
 //! The names of the files of a kit, and the paths that stay inside it.
 
+use std::fs;
 use std::path::{Component, Path};
+
+use crate::base::digest::sha256_hex;
 
 /// The checklist of a kit.
 pub const CHECKLIST_FILE: &str = "checklist.json";
@@ -19,4 +22,17 @@ pub(super) fn is_inside_kit(file: &str) -> bool {
         && Path::new(file)
             .components()
             .all(|part| matches!(part, Component::Normal(_)))
+}
+
+/// Returns true if the list of a kit in this folder names its checklist, with another hash than
+/// that of these bytes. `None` stands for a checklist that cannot be read.
+pub(super) fn is_checklist_damaged(folder: &Path, bytes: Option<&[u8]>) -> bool {
+    let Ok(list) = fs::read(folder.join(SUMS_FILE)) else {
+        return false;
+    };
+    let listed = String::from_utf8_lossy(&list);
+    let line = listed
+        .lines()
+        .find_map(|line| line.strip_suffix(CHECKLIST_FILE)?.strip_suffix("  "));
+    line.is_some_and(|sha256| bytes.is_none_or(|bytes| sha256_hex(&[bytes]) != sha256))
 }

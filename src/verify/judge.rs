@@ -12,6 +12,7 @@ use super::joints::{count_lost_strokes, film_error, film_moments};
 use super::part_probe::PartProbe;
 use super::pegs::{count_overlaps, measure_pegs};
 use super::play::measure_joints;
+use super::shape::measure_shapes;
 use super::{
     Evidence, Figures, Judgement, PartEvidence, PartFacts, Setting, Shells, SpinFacts,
     SurfaceFacts, assembly_moments,
@@ -43,6 +44,7 @@ pub fn judge(evidence: &Evidence, watch: &Watch) -> Result<Judgement, Cancelled>
     let probes: Vec<PartProbe> = evidence.parts.par_iter().map(PartProbe::new).collect();
     let part_facts = |part: &PartEvidence| PartFacts::of_part(part, watch);
     let jigs = measure_jigs(evidence, &outer, watch)?;
+    let shape = measure_shapes(evidence, &shells, watch)?;
     let figures = |printed: &Moments, load: &Moments| {
         watch.check()?;
         Ok(Figures::with_load(printed, load, &setting))
@@ -57,7 +59,8 @@ pub fn judge(evidence: &Evidence, watch: &Watch) -> Result<Judgement, Cancelled>
             .par_iter()
             .map(part_facts)
             .collect::<Result<_, _>>()?,
-        wall_min_mm: shells.smallest_wall_mm(watch)?,
+        wall_min_mm: least(shells.smallest_wall_mm(watch)?, shape.wall_mm),
+        shape,
         fit: measure_fit(
             &promise.hardware,
             &promise.goal.frame(),
@@ -77,7 +80,13 @@ pub fn judge(evidence: &Evidence, watch: &Watch) -> Result<Judgement, Cancelled>
         lost_strokes: count_lost_strokes(promise, &probes),
         checks: Vec::new(),
         changes: Vec::new(),
+        unlisted: Vec::new(),
     };
     judgement.checks = checks(promise, &judgement);
     Ok(judgement)
+}
+
+/// Returns the smaller of two lengths that may be missing.
+fn least(a: Option<f64>, b: Option<f64>) -> Option<f64> {
+    a.into_iter().chain(b).min_by(f64::total_cmp)
 }

@@ -3,7 +3,7 @@
 use super::joints::FilmError;
 use super::{
     Check, CupFacts, Figures, FileChange, Fit, JigFacts, JointFacts, PartFacts, PegFacts,
-    SpinFacts, SurfaceFacts, VoidFacts,
+    ShapeFacts, SpinFacts, SurfaceFacts, VoidFacts,
 };
 use crate::thin::ThinFeatures;
 
@@ -20,8 +20,11 @@ pub struct Judgement {
     pub surface: SurfaceFacts,
     /// Facts about each part.
     pub parts: Vec<PartFacts>,
-    /// The smallest wall between a void and the outside, mm; `None` without voids.
+    /// The smallest wall between a void and the outside, in the uncut result and the parts, mm;
+    /// `None` without voids.
     pub wall_min_mm: Option<f64>,
+    /// The surfaces of the parts against what they should be.
+    pub shape: ShapeFacts,
     /// The fit of the hardware in the outer surface; `None` without hardware.
     pub fit: Option<Fit>,
     /// The contact of a top; `None` for other goals.
@@ -52,6 +55,8 @@ pub struct Judgement {
     pub checks: Vec<Check>,
     /// The files changed since the kit was made; empty while it is made.
     pub changes: Vec<FileChange>,
+    /// Files in the kit's folder that are not on its list and cannot be printed.
+    pub unlisted: Vec<String>,
 }
 
 impl Judgement {

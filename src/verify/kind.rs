@@ -63,6 +63,10 @@ pub enum CheckKind {
     SelfIntersections,
     /// Cavities that no cut opens.
     ClosedCavities,
+    /// Files that hold more than one body, or none.
+    OneBody,
+    /// Triangles of the parts that are not where they should be.
+    PartSurfaces,
     /// Height of the parts over the plate.
     Resting,
     /// Deviation of the poses from rigid motions.
@@ -111,6 +115,8 @@ pub enum CheckKind {
     ChangedFiles,
     /// Agreement of the 3MF files with the parts.
     Packages,
+    /// Agreement of the outside with the model.
+    Model,
 }
 
 impl CheckKind {
@@ -148,6 +154,8 @@ impl fmt::Display for CheckKind {
             Self::BrokenSurfaces => "broken surfaces",
             Self::SelfIntersections => "self-intersections",
             Self::ClosedCavities => "closed cavities",
+            Self::OneBody => "one body",
+            Self::PartSurfaces => "part surfaces",
             Self::Resting => "resting",
             Self::Pose => "pose",
             Self::BuildVolume => "build volume",
@@ -169,6 +177,7 @@ impl fmt::Display for CheckKind {
             Self::Checklist => "checklist",
             Self::ChangedFiles => "changed files",
             Self::Packages => "3MF files",
+            Self::Model => "model",
         })
     }
 }
@@ -179,7 +188,7 @@ mod tests {
     use serde_json::json;
 
     /// The keys and names of all kinds without data.
-    const KEYS: [(CheckKind, &str, &str); 40] = [
+    const KEYS: [(CheckKind, &str, &str); 43] = [
         (CheckKind::AxisOffset, "axis-offset", "axis offset"),
         (CheckKind::AxisTilt, "axis-tilt", "axis tilt"),
         (CheckKind::Dominance, "dominance", "dominance"),
@@ -217,6 +226,8 @@ mod tests {
             "closed-cavities",
             "closed cavities",
         ),
+        (CheckKind::OneBody, "one-body", "one body"),
+        (CheckKind::PartSurfaces, "part-surfaces", "part surfaces"),
         (CheckKind::Resting, "resting", "resting"),
         (CheckKind::Pose, "pose", "pose"),
         (CheckKind::BuildVolume, "build-volume", "build volume"),
@@ -240,6 +251,7 @@ mod tests {
         (CheckKind::Checklist, "checklist", "checklist"),
         (CheckKind::ChangedFiles, "changed-files", "changed files"),
         (CheckKind::Packages, "packages", "3MF files"),
+        (CheckKind::Model, "model", "model"),
     ];
 
     fn assert_reads_back(kind: &CheckKind, value: &serde_json::Value) {

@@ -3,10 +3,12 @@
 use std::path::Path;
 
 use super::changes::{files_check, find_changes};
+use super::model::model_check;
 use super::packages::packages_check;
 use super::reading::{read_checklist, read_evidence};
 use super::seal::find_paper_changes;
 use super::sheet::{find_misstatements, sheet_check};
+use super::strangers::find_strangers;
 use super::{Judgement, VerifyError, judge};
 use crate::base::watch::Watch;
 
@@ -18,6 +20,19 @@ use crate::base::watch::Watch;
 /// If there is no kit in the folder, if one of its files cannot be read, or if the watch was
 /// stopped.
 pub fn verify_kit(folder: &Path, watch: &Watch) -> Result<Judgement, VerifyError> {
+    verify_kit_of(folder, None, watch)
+}
+
+/// Judges a kit as [`verify_kit`] does, and holds its outside against the model in this file.
+///
+/// # Errors
+///
+/// As [`verify_kit`], or if the model cannot be read.
+pub fn verify_kit_of(
+    folder: &Path,
+    model: Option<&Path>,
+    watch: &Watch,
+) -> Result<Judgement, VerifyError> {
     let (promise, sheet) = read_checklist(folder)?;
     let evidence = read_evidence(folder, promise)?;
     let mut judgement = judge(&evidence, watch)?;
@@ -26,8 +41,16 @@ pub fn verify_kit(folder: &Path, watch: &Watch) -> Result<Judgement, VerifyError
     judgement
         .changes
         .extend(find_paper_changes(folder, &evidence.promise)?);
+    let strangers = find_strangers(folder, &evidence.promise)?;
+    judgement.changes.extend(strangers.changes);
+    judgement.unlisted = strangers.others;
     judgement.checks.push(sheet_check(&misstated));
     judgement.checks.push(files_check(&judgement.changes));
     judgement.checks.extend(packages_check(folder, &evidence)?);
+    if let Some(model) = model {
+        judgement
+            .checks
+            .push(model_check(model, &sheet, &evidence)?);
+    }
     Ok(judgement)
 }

@@ -28,8 +28,10 @@ fn write_kit(folder: &Path) {
         "schema": SCHEMA,
         "printer": { "build_volume_mm": null, "minimum_wall_mm": 1.0 },
         "material": { "density_g_cm3": 1.2 },
-        "goal": { "kind": "top", "origin_mm": [0.0, 0.0, 0.0], "axis": [0.0, 0.0, 1.0], "objective": "any" },
+        "goal": { "kind": "top", "origin_mm": [0.0, 0.0, 0.0], "axis": [0.0, 0.0, 1.0], "objective": "critical_speed" },
         "wall": { "required_mm": 3.0 },
+        "cuts": [{ "id": "C1", "point_mm": [0.0, 0.0, 16.0], "normal": [0.0, 0.0, 1.0] }],
+        "joints": [{ "id": "J1", "cut": "C1", "parts": ["P01", "P02"], "clearance_mm": 0.1, "area_mm2": 564.0 }],
         "parts": parts,
         "voids": [{ "id": "V1" }],
         "files": { HOLLOWED_FILE: sha256_hex(&[&hollowed]) },
@@ -339,4 +341,124 @@ fn a_part_that_is_no_mesh_is_named() {
         matches!(&error, VerifyError::Mesh { path, .. } if path.ends_with("parts/P01.stl")),
         "{error}"
     );
+}
+
+/// Returns the words of all changes of a kit.
+fn changes(change: impl FnOnce(&Path)) -> String {
+    let judgement = kit_with(change).unwrap();
+    assert_eq!(failures(&judgement), ["changed files"]);
+    let words = judgement.changes.iter().map(FileChange::to_string);
+    words.collect::<Vec<_>>().join("; ")
+}
+
+#[test]
+fn a_list_of_hashes_of_another_form_is_reported() {
+    let with_list = |change: &dyn Fn(&str) -> String| {
+        changes(|kit| {
+            let list = fs::read_to_string(kit.join(SUMS_FILE)).unwrap();
+            fs::write(kit.join(SUMS_FILE), change(&list)).unwrap();
+        })
+    };
+    let nobody = "0".repeat(64);
+    let forms: [&dyn Fn(&str) -> String; 7] = [
+        &|list| list.replace('\n', "\r\n"),
+        &|list| format!("{list}{nobody}  ../../etc/passwd\n"),
+        &|list| format!("{list}{nobody}  absent.txt\n"),
+        &|list| format!("{nobody}  parts/P01.stl\n{list}"),
+        &|list| list.trim_end().to_owned(),
+        &|list| format!("{list}\n"),
+        &|list| list.to_uppercase(),
+    ];
+    for form in forms {
+        assert_eq!(
+            with_list(form),
+            "SHA256SUMS was changed: it has other bytes"
+        );
+    }
+}
+
+#[test]
+fn a_file_that_could_be_printed_and_is_not_on_the_list_is_reported_and_others_are_named() {
+    for stranger in [
+        "parts/evil_P03of03.STL",
+        "plate_2.3mf",
+        "x/y/z.gcode",
+        "m.obj",
+    ] {
+        let words = changes(|kit| {
+            let path = kit.join(stranger);
+            fs::create_dir_all(path.parent().unwrap()).unwrap();
+            fs::write(path, "solid").unwrap();
+        });
+        assert_eq!(
+            words,
+            format!("{stranger} does not belong to the kit: it is not on its list")
+        );
+    }
+    let judgement = kit_with(|kit| fs::write(kit.join("README.txt"), "hello").unwrap()).unwrap();
+    assert!(judgement.passes());
+    assert_eq!(judgement.unlisted, ["README.txt"]);
+}
+
+#[cfg(unix)]
+#[test]
+fn a_link_is_no_file_of_a_kit() {
+    let words = changes(|kit| {
+        let outside = kit
+            .parent()
+            .unwrap()
+            .join(kit.file_name().unwrap())
+            .join("../moved.stl");
+        fs::rename(kit.join("parts/P01.stl"), &outside).unwrap();
+        std::os::unix::fs::symlink(&outside, kit.join("parts/P01.stl")).unwrap();
+    });
+    assert_eq!(
+        words,
+        "parts/P01.stl is a link: the kit must hold the file itself"
+    );
+}
+
+#[test]
+fn a_damaged_checklist_of_a_listed_kit_is_a_change_and_one_without_a_list_is_no_kit() {
+    let named = |change: &dyn Fn(&Path)| {
+        let room = tempfile::tempdir().unwrap();
+        write_kit(room.path());
+        change(room.path());
+        let error = verify_kit(room.path(), &Watch::silent()).unwrap_err();
+        let changes = error.changes(room.path());
+        changes
+            .iter()
+            .map(FileChange::to_string)
+            .collect::<Vec<_>>()
+    };
+    let checklist = |kit: &Path| kit.join(CHECKLIST_FILE);
+    let missing = named(&|kit| fs::remove_file(checklist(kit)).unwrap());
+    assert_eq!(missing, ["checklist.json is missing"]);
+    let folder = named(&|kit| {
+        fs::remove_file(checklist(kit)).unwrap();
+        fs::create_dir(checklist(kit)).unwrap();
+    });
+    assert_eq!(folder, ["checklist.json is missing"]);
+    for bytes in ["", "{", "{\"schema\": 2}"] {
+        let damaged = named(&|kit| fs::write(checklist(kit), bytes).unwrap());
+        assert_eq!(damaged, ["checklist.json was changed: it has other bytes"]);
+    }
+    let no_kit = named(&|kit| {
+        fs::remove_file(checklist(kit)).unwrap();
+        fs::remove_file(kit.join(SUMS_FILE)).unwrap();
+    });
+    assert_eq!(no_kit, [""; 0]);
+}
+
+#[test]
+fn a_folder_in_the_place_of_a_file_is_a_missing_file() {
+    for file in ["parts/P01.stl", HOLLOWED_FILE, SHEET_FILE, SUMS_FILE] {
+        let room = tempfile::tempdir().unwrap();
+        write_kit(room.path());
+        fs::remove_file(room.path().join(file)).unwrap();
+        fs::create_dir(room.path().join(file)).unwrap();
+        let judged = verify_kit(room.path(), &Watch::silent());
+        let changes = judged.map_or_else(|error| error.changes(room.path()), |kit| kit.changes);
+        assert!(changes.iter().any(|change| change.file == file), "{file}");
+    }
 }

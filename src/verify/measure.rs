@@ -26,6 +26,8 @@ pub struct PartFacts {
     pub id: String,
     /// Its surface.
     pub surface: SurfaceFacts,
+    /// Number of bodies: shells that are turned outward.
+    pub bodies: usize,
     /// Number of closed cavities: shells that are turned inward.
     pub cavities: usize,
     /// The height of its lowest vertex over the plate, mm.
@@ -58,9 +60,11 @@ impl PartFacts {
         watch.check()?;
         let welded = weld(&part.mesh);
         let aabb = welded.aabb();
+        let shells = Shells::of_mesh(&welded);
         Ok(Self {
             id: part.id.clone(),
-            cavities: Shells::of_mesh(&welded).inward.len(),
+            bodies: shells.outward.len(),
+            cavities: shells.inward.len(),
             lowest_mm: aabb.min.z,
             size_mm: aabb.size().into(),
             pose_error: part.pose.rigidity_error(),

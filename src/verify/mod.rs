@@ -24,15 +24,18 @@ mod support;
 mod water;
 // The facts about surfaces, parts and joints.
 mod cleaning;
+mod cover;
 mod cups;
 mod jigs;
 mod joints;
 mod measure;
 mod mouths;
 mod part_probe;
+mod peg_shape;
 mod pegs;
 mod play;
 mod rim;
+mod shape;
 mod shells;
 // The checks and the verdict.
 mod check;
@@ -42,15 +45,20 @@ mod judge;
 mod judgement;
 mod kind;
 mod limits;
+mod shape_checks;
 mod thin_checks;
 mod void_checks;
 // The checks of the files of a kit as they were delivered.
 mod change;
 mod changes;
+mod claims;
 mod kit;
+mod machine;
+mod model;
 mod packages;
 mod seal;
 mod sheet;
+mod strangers;
 
 #[cfg(test)]
 mod cleaning_tests;
@@ -61,6 +69,8 @@ mod kit_tests;
 #[cfg(test)]
 mod pegs_tests;
 #[cfg(test)]
+mod shape_tests;
+#[cfg(test)]
 pub(crate) mod test_meshes;
 
 // The judgement: from a folder, or from evidence in memory.
@@ -68,7 +78,7 @@ pub use error::VerifyError;
 pub use evidence::{Evidence, PartEvidence, assembly_moments};
 pub use judge::judge;
 pub use judgement::Judgement;
-pub use kit::verify_kit;
+pub use kit::{verify_kit, verify_kit_of};
 pub use reading::read_promise;
 
 // The promises.
@@ -95,6 +105,7 @@ pub use measure::{PartFacts, SurfaceFacts};
 pub use pegs::PegFacts;
 pub use play::JointFacts;
 pub use rotor::Unbalance;
+pub use shape::{ShapeFacts, Stray};
 pub use shells::Shells;
 pub use spin::SpinFacts;
 pub use support::{SUPPORT_BAND_RATIO, Support};

@@ -53,7 +53,7 @@ pub fn packages_check(folder: &Path, evidence: &Evidence) -> Result<Option<Check
         return Ok(None);
     }
     let (mut faults, mut packages) = (Vec::new(), Vec::new());
-    for file in files.into_iter().filter(|file| folder.join(file).exists()) {
+    for file in files.into_iter().filter(|file| folder.join(file).is_file()) {
         match decode_objects(&read_file(&folder.join(file))?) {
             Err(error) => faults.push(format!("{file}: {error}")),
             Ok(objects) => packages.push(Package::new(file, objects, promise)),

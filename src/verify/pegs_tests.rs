@@ -7,18 +7,23 @@ use crate::mass::FlatFace;
 use crate::mesh::{Csg, TriMesh, primitives::cylinder};
 
 const GAP_MM: f64 = 0.1;
-const PIN: [f64; 2] = [0.6, 1.2];
-const SOCKET: [f64; 2] = [PIN[0] + 2.0 * GAP_MM, PIN[1] + 0.3];
+pub(super) const PIN: [f64; 2] = [0.6, 1.2];
+pub(super) const SOCKET: [f64; 2] = [PIN[0] + 2.0 * GAP_MM, PIN[1] + 0.3];
 
-/// Returns a cylinder of 96 sides about the seat, from `below` under the cut to `above` over it.
+/// Returns a cylinder of 48 sides about the seat, from `below` under the cut to `above` over it.
 fn rod(diameter_mm: f64, [below, above]: [f64; 2]) -> TriMesh {
     let base = Vector::from(SEAT) - Vector::z() * below;
-    cylinder(diameter_mm / 2.0, below + above, 96).map_vertices(|p| p + base)
+    cylinder(diameter_mm / 2.0, below + above, 48).map_vertices(|p| p + base)
+}
+
+/// Returns the body of a socket: its sides touch the circle of its diameter.
+fn bore(diameter_mm: f64, reach: [f64; 2]) -> TriMesh {
+    rod(diameter_mm / (std::f64::consts::PI / 48.0).cos(), reach)
 }
 
 /// Returns the sound kit with a pin and a socket made in these sizes (diameter and length), the
 /// socket moved by `shift`. The sizes [`PIN`] and [`SOCKET`] are promised.
-fn kit_with_pin(pin: [f64; 2], socket: [f64; 2], shift: Vector) -> Evidence {
+pub(super) fn kit_with_pin(pin: [f64; 2], socket: [f64; 2], shift: Vector) -> Evidence {
     let mut evidence = sound_kit();
     let body = |evidence: &Evidence, i: usize| {
         let part = &evidence.parts[i];
@@ -27,7 +32,7 @@ fn kit_with_pin(pin: [f64; 2], socket: [f64; 2], shift: Vector) -> Evidence {
     let carrier = body(&evidence, 0)
         .union(&Csg::of_mesh(&rod(pin[0], [0.5, pin[1]])).unwrap())
         .unwrap();
-    let hole = rod(socket[0], [0.5, socket[1]]).map_vertices(|p| p + shift);
+    let hole = bore(socket[0], [0.5, socket[1]]).map_vertices(|p| p + shift);
     let receiver = body(&evidence, 1)
         .subtract(&Csg::of_mesh(&hole).unwrap())
         .unwrap();
@@ -37,9 +42,10 @@ fn kit_with_pin(pin: [f64; 2], socket: [f64; 2], shift: Vector) -> Evidence {
             .unwrap()
             .map_vertices(|p| part.pose.to_print(p));
     }
-    let volume = |[diameter, length]: [f64; 2]| rod(diameter, [0.0, length]).signed_volume_mm3();
-    evidence.promise.parts[0].pins = vec![peg(PIN[0], PIN[1], volume(PIN))];
-    evidence.promise.parts[1].sockets = vec![peg(SOCKET[0], SOCKET[1], volume(SOCKET))];
+    let of_pin = rod(PIN[0], [0.0, PIN[1]]).signed_volume_mm3();
+    let of_socket = bore(SOCKET[0], [0.0, SOCKET[1]]).signed_volume_mm3();
+    evidence.promise.parts[0].pins = vec![peg(PIN[0], PIN[1], of_pin)];
+    evidence.promise.parts[1].sockets = vec![peg(SOCKET[0], SOCKET[1], of_socket)];
     let joint = PromisedJoint {
         id: "J1".to_owned(),
         parts: ["P01".to_owned(), "P02".to_owned()],
@@ -54,10 +60,11 @@ fn kit_with_pin(pin: [f64; 2], socket: [f64; 2], shift: Vector) -> Evidence {
 }
 
 /// Returns the failures except those of any single pin at the side, which moves the centre of mass.
+/// The surfaces have tests of their own and are left out.
 fn pin_failures(evidence: &Evidence) -> Vec<String> {
     failures(evidence)
         .into_iter()
-        .filter(|name| name != "axis offset" && name != "volumes")
+        .filter(|name| !["axis offset", "volumes", "part surfaces"].contains(&name.as_str()))
         .collect()
 }
 
@@ -72,9 +79,9 @@ fn a_pin_that_stands_in_its_socket_keeps_every_promise() {
     );
     assert!(!failures(&evidence).contains(&"volumes".to_owned()));
     let found = judge(&evidence).pegs.remove(0);
-    // Sides of 96-gons lie at most 5e-4 of their radius inside the circle.
+    // Sides of 48-gons lie at most 2.2e-3 of their radius inside the circle.
     assert!(
-        found.deviation_mm < 5e-4 && (found.gap_mm.unwrap() - GAP_MM).abs() < 5e-4,
+        found.deviation_mm < 1e-3 && (found.gap_mm.unwrap() - GAP_MM).abs() < 1e-3,
         "{found:?}"
     );
     // The side is 3 mm thick, the seat in its middle.
@@ -128,13 +135,13 @@ fn kit_with_dowel(made: [f64; 2]) -> Evidence {
     let below = &mut evidence.parts[0];
     let whole = sound_kit().parts.remove(0);
     let body = Csg::of_mesh(&whole.mesh.map_vertices(|p| whole.pose.to_model(p))).unwrap();
-    let hole = rod(made[0], [made[1], 0.5]);
+    let hole = bore(made[0], [made[1], 0.5]);
     let body = body.subtract(&Csg::of_mesh(&hole).unwrap()).unwrap();
     below.mesh = body
         .to_mesh()
         .unwrap()
         .map_vertices(|p| below.pose.to_print(p));
-    let volume_mm3 = rod(SOCKET[0], [SOCKET[1], 0.0]).signed_volume_mm3();
+    let volume_mm3 = bore(SOCKET[0], [SOCKET[1], 0.0]).signed_volume_mm3();
     let second = Peg {
         axis: [0.0, 0.0, -1.0],
         ..peg(SOCKET[0], SOCKET[1], volume_mm3)

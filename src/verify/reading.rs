@@ -73,7 +73,7 @@ fn check_files(folder: &Path, promise: &Promise) -> Result<(), VerifyError> {
     let hollowed = HOLLOWED_FILE.to_owned();
     let missing = parts()
         .chain([&hollowed])
-        .filter(|file| !folder.join(file).exists());
+        .filter(|file| !folder.join(file).is_file());
     let files: Vec<String> = missing.cloned().collect();
     if files.is_empty() {
         Ok(())
@@ -101,8 +101,8 @@ pub(super) fn undo_print_scale(mesh: TriMesh, scale_ratio: Option<[f64; 3]>) -> 
     }
 }
 
-/// Reads a mesh of the kit, in the units of its file.
-fn read_mesh(path: &Path) -> Result<TriMesh, VerifyError> {
+/// Reads a mesh, in the units of its file.
+pub(super) fn read_mesh(path: &Path) -> Result<TriMesh, VerifyError> {
     read_model(path).map_err(|source| VerifyError::Mesh {
         path: path.to_owned(),
         source,

@@ -9,6 +9,9 @@ use super::reading::read_file;
 use super::{Change, FileChange, Promise, VerifyError};
 use crate::base::digest::sha256_hex;
 
+/// Number of digits of a hash in hex.
+const HASH_DIGITS: usize = 64;
+
 /// Returns the list of these files, in their order. Each line has the hash, two blanks and the
 /// path.
 pub fn sums<'a>(files: impl IntoIterator<Item = (&'a str, &'a [u8])>) -> String {
@@ -41,9 +44,11 @@ pub fn find_paper_changes(
     if !folder.join(SUMS_FILE).is_file() {
         return Ok(changes);
     }
-    let listed = parse_sums(&String::from_utf8_lossy(&read_file(
-        &folder.join(SUMS_FILE),
-    )?));
+    let list = read_file(&folder.join(SUMS_FILE))?;
+    let Some(listed) = parse_sums(&list) else {
+        changes.push(changed(SUMS_FILE, Change::Altered));
+        return Ok(changes);
+    };
     let json = sha256_hex(&[&read_file(&folder.join(CHECKLIST_FILE))?]);
     let is_listed = listed.get(CHECKLIST_FILE) == Some(&json);
     if !is_listed {
@@ -60,21 +65,34 @@ pub fn find_paper_changes(
             changes.push(changed(paper, Change::OfAnother));
         }
     }
-    if promise
+    let papers = [CHECKLIST_FILE, SHEET_FILE, CERTIFICATE_FILE];
+    let is_whole = promise
         .files
         .iter()
-        .any(|(file, sha256)| listed.get(file) != Some(sha256))
-    {
+        .all(|(file, sha256)| listed.get(file) == Some(sha256))
+        && listed.len() == promise.files.len() + papers.len();
+    if !is_whole {
         changes.push(changed(SUMS_FILE, Change::Altered));
     }
     Ok(changes)
 }
 
-/// Returns the hashes of a list by path. Lines without a hash or outside the kit are skipped.
-fn parse_sums(text: &str) -> BTreeMap<String, String> {
-    let line = |line: &str| {
-        let (sha256, file) = line.split_once("  ")?;
-        is_inside_kit(file).then(|| (file.to_owned(), sha256.to_owned()))
-    };
-    text.lines().filter_map(line).collect()
+/// Returns the hashes of a list by path. `None` unless each line is as [`sums`] writes it, for a
+/// file inside the kit, once each.
+fn parse_sums(list: &[u8]) -> Option<BTreeMap<String, String>> {
+    let text = std::str::from_utf8(list).ok()?;
+    let mut listed = BTreeMap::new();
+    for line in text.split_inclusive('\n') {
+        let (sha256, file) = line.strip_suffix('\n')?.split_once("  ")?;
+        let is_hash = sha256.len() == HASH_DIGITS
+            && sha256
+                .bytes()
+                .all(|digit| matches!(digit, b'0'..=b'9' | b'a'..=b'f'));
+        let is_new = listed.insert(file.to_owned(), sha256.to_owned()).is_none();
+        let is_plain = !file.chars().any(char::is_control);
+        if !(is_hash && is_new && is_plain && is_inside_kit(file)) {
+            return None;
+        }
+    }
+    Some(listed)
 }

@@ -3,7 +3,9 @@
 
 use serde_json::{Map, Value, json};
 
+use super::claims::find_false_claims;
 use super::limits::SHEET_LIMIT_RATIO;
+use super::machine::find_false_numbers;
 use super::{
     Check, CheckKind, Evidence, FigureName, Fingerprint, JointFacts, Judgement, Limit, PartFacts,
     Promise, PromisedJoint, PromisedVoid, Shells,
@@ -23,6 +25,8 @@ const NEGLIGIBLE: f64 = 1e-6;
 /// Greatest number of misstatements that are listed; the rest are counted.
 const MAX_LISTED: usize = 6;
 
+/// Checks that kits of older versions do not state. They are judged all the same.
+const NEWER_CHECKS: [CheckKind; 2] = [CheckKind::OneBody, CheckKind::PartSurfaces];
 /// The keys of a check's kind, with its void or figure.
 const KIND_KEYS: [&str; 3] = ["kind", "void", "figure"];
 
@@ -53,6 +57,12 @@ pub fn find_misstatements(
         misstatements: exact.misstatements,
     };
     rough.object("", sheet, &restate_before_rounding(evidence, judgement));
+    if (0..evidence.parts.len()).all(|part| evidence.is_part_as_made(part)) {
+        let claims = find_false_claims(sheet, evidence, judgement);
+        rough.misstatements.extend(claims);
+        let numbers = find_false_numbers(sheet, evidence);
+        rough.misstatements.extend(numbers);
+    }
     rough.misstatements
 }
 
@@ -139,8 +149,15 @@ fn restate_whole(sheet: &Value, promise: &Promise, judgement: &Judgement) -> Map
 }
 
 /// Returns the rows of the checks. Kits made before checks had kinds state their names alone, so
-/// the kind of such a row is left out.
+/// the kind of such a row is left out. Kits made before there was a check do not state it.
 fn check_rows(stated: &Value, judgement: &Judgement) -> Value {
+    let names = |check: &Check| {
+        let name = json!(check.kind.to_string());
+        let mut rows = stated.as_array().into_iter().flatten();
+        rows.any(|row| row["name"] == name)
+    };
+    let is_newer = |check: &Check| NEWER_CHECKS.contains(&check.kind) && !names(check);
+    let checks = judgement.checks.iter().filter(|check| !is_newer(check));
     let row = |(index, check): (usize, &Check)| {
         let is_old = stated
             .get(index)
@@ -151,7 +168,7 @@ fn check_rows(stated: &Value, judgement: &Judgement) -> Value {
         }
         row
     };
-    judgement.checks.iter().enumerate().map(row).collect()
+    checks.enumerate().map(row).collect()
 }
 
 /// Returns the keys whose values the checklist states from before the rounding to a file's digits.

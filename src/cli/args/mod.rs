@@ -134,6 +134,9 @@ pub struct InspectArgs {
 pub struct VerifyArgs {
     /// The folder of the kit
     pub kit: PathBuf,
+    /// Also compare its outside with this model, which it was made of
+    #[arg(long, value_name = "FILE")]
+    pub model: Option<PathBuf>,
 }
 
 /// The arguments of `completions`.
