@@ -82,9 +82,7 @@ impl Claims<'_> {
         let (sheet, judgement) = (self.sheet, self.judgement);
         for (row, facts) in rows(sheet, "voids").iter().zip(&judgement.voids) {
             let at = |key: &str| format!("voids[{}].{key}", facts.id);
-            let widest = facts.openings_mm.iter();
-            let widest = widest.map(|piece| piece.first().copied().unwrap_or(0.0));
-            if let Some(found) = widest.reduce(f64::min) {
+            if let Some(found) = facts.opening_mm() {
                 let slack = OPENING_RATIO * found;
                 self.compare(&at("opening_mm"), &row["opening_mm"], found, slack);
             }

@@ -49,6 +49,16 @@ pub struct VoidFacts {
     pub holders: BTreeSet<usize>,
 }
 
+impl VoidFacts {
+    /// Returns the diameter of the widest mouth of the piece whose widest is narrowest, mm; `None`
+    /// if all are dimples.
+    pub fn opening_mm(&self) -> Option<f64> {
+        let widest = self.openings_mm.iter();
+        let widest = widest.map(|piece| piece.first().copied().unwrap_or(0.0));
+        widest.reduce(f64::min)
+    }
+}
+
 /// A point in a mouth, with the index of its cut.
 type OwnPoint = (usize, MouthPoint);
 

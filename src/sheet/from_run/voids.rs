@@ -5,7 +5,7 @@ use crate::cut::{Cut, CutPlan, CutSide, VoidAccess, VoidId};
 use crate::geom::Point;
 use crate::run::{CleaningRound, KeptSolid, Made, Placed, WrittenPart};
 use crate::sheet::{CleaningRow, CutRow, KeptRow, SideRow, VoidRow, is_clean};
-use crate::verify::{PromisedCut, PromisedVoid};
+use crate::verify::{PromisedCut, PromisedVoid, VoidFacts};
 
 /// Distance up to which a vertex lies on a void's wall, mm; booleans keep vertices to 1e-6 mm.
 const SAME_MM: f64 = 1e-5;
@@ -16,13 +16,15 @@ const LEAST_VERTICES: usize = 8;
 /// Returns a row for each void.
 pub fn void_rows(facts: &Facts) -> Vec<VoidRow> {
     let (placed, made) = (facts.placed, facts.made);
+    let judged = |void: VoidId| facts.judgement.voids.get(void.index());
+    let measured_mm = |void: VoidId| judged(void).and_then(VoidFacts::opening_mm);
     let row = |access: &VoidAccess| {
         let id = access.void.to_string();
         VoidRow {
             volume_mm3: access.volume_mm3,
             opened_by: access.opened_by.iter().map(ToString::to_string).collect(),
             parts: holders(facts.made, access.void),
-            opening_mm: access.opening_mm,
+            opening_mm: measured_mm(access.void).unwrap_or(access.opening_mm),
             least_opening_mm: least_opening_mm(placed, access),
             depth_mm: access.depth_mm,
             sight_ratio: Some(access.sight_ratio),
