@@ -112,7 +112,12 @@ fn policy() -> impl Iterator<Item = (String, f64)> {
     let fields = text.trim_start_matches("Policy { ").trim_end_matches(" }");
     let field = |field: &str| {
         let (name, value) = field.split_once(": ").unwrap();
-        (name.to_owned(), value.parse().unwrap())
+        let value = match value {
+            "true" => 1.0,
+            "false" => 0.0,
+            number => number.parse().unwrap(),
+        };
+        (name.to_owned(), value)
     };
     fields
         .split(", ")
