@@ -1,4 +1,4 @@
-//! A plane cut of closed triangles for trials, much faster than a boolean.
+//! A plane cut of closed triangles for trials, without a boolean.
 //!
 //! Every vertex keeps its exact place. The triangles that cross the plane are divided, and the
 //! section is closed by a flat cap on both sides. Nothing else is cleaned up: thin triangles stay.

@@ -8,7 +8,7 @@
 //!   ([`Crossings`]), exact distances ([`MeshDistance`]), and points spread evenly over a surface
 //!   ([`spread_points`]).
 //! * **Operations:** booleans, plane cuts and simplification ([`Csg`]); `clip` cuts by a plane for
-//!   trials, much faster; `cut_planes` keeps cuts off vertices and faces.
+//!   trials; `cut_planes` keeps cuts off vertices and faces.
 //! * **Shapes:** [`primitives`] for tests and tools.
 
 mod axial;

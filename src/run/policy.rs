@@ -123,8 +123,8 @@ pub struct Policy {
     pub seam_loss_ratio: f64,
     /// Greatest loss for a plan with fewer parts that is taken unasked.
     pub part_loss_ratio: f64,
-    /// Greatest loss for such a plan if its walls have room for the pins of every joint, and those
-    /// of the other have not.
+    /// Greatest loss for a plan with fewer parts, or whose seams are seen, in place of another.
+    /// All its joints are aligned, and those of the other are not.
     pub aligned_loss_ratio: f64,
     /// Times that parts are made. The first are right but for the rounding of their files, unless
     /// the plan had to change.

@@ -1,4 +1,4 @@
-//! What the checklist claims of voids, joints, pins, ids, sizes and the goal, held against the
+//! The claims of the checklist about voids, joints, pins, ids, sizes and the goal, held against the
 //! files.
 
 use std::collections::BTreeSet;

@@ -1,4 +1,4 @@
-//! What the checklist claims of the machine, held against its profile and against itself.
+//! The claims of the checklist about the machine, held against its profile and against itself.
 //!
 //! It is about the printer's numbers, the lengths on its grid, and the gap of the certificate.
 

@@ -36,7 +36,7 @@ pub struct Stray {
 /// The surfaces of the parts, compared with what they should be.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct ShapeFacts {
-    /// What is too much or missing; empty for parts as they should be.
+    /// The surfaces that are too much or missing; empty for parts as they should be.
     pub strays: Vec<Stray>,
     /// The smallest wall in the parts, mm, if they are not as they should be. Otherwise it is that
     /// of the uncut body. `None` without voids.
@@ -46,7 +46,7 @@ pub struct ShapeFacts {
 /// A triangle, model frame, mm.
 type Corners = [Point; 3];
 
-/// What the parts should be.
+/// The surfaces that the parts should have.
 struct Plan {
     sheets: Sheets,
     /// Number of sheets of the outer surface. Those of the voids follow, up to `of_body`.

@@ -102,7 +102,7 @@ pub(crate) fn split(mesh: &TriMesh, tree: &CutTree, watch: &Watch) -> Result<Vec
     find_pieces(&cells.collect::<Result<Vec<_>, _>>()?, tree, watch)
 }
 
-/// Returns the pieces as in [`split`], only to be looked at: cut many times faster, with thin
+/// Returns the pieces as in [`split`], only to be looked at: cut without booleans, with thin
 /// triangles along the cuts.
 pub(crate) fn split_for_trial(
     mesh: &TriMesh,

@@ -22,7 +22,7 @@ use crate::{
 };
 
 /// Finds the cuts of [`plan`](super::plan) and leaves out pins, labels and the move to whole
-/// layers. Takes about two thirds of its time.
+/// layers.
 pub fn draft(
     hollowed: &Hollowed,
     request: &PlanRequest,

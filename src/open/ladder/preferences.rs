@@ -1,4 +1,4 @@
-//! What a person prefers in a plan that opens every void: seams that are not seen, and few parts.
+//! The preferences of a person among plans that open every void: hidden seams, and few parts.
 
 use super::Ladder;
 use crate::error::Error;
