@@ -22,7 +22,7 @@ const JUDGE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/judge/judge_kit.
 /// The judge of its 3MF packages.
 const JUDGE_3MF: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/judge/judge_3mf.py");
 /// The Python packages that each of them imports.
-const PACKAGES: &str = "numpy, rtree, scipy, shapely, trimesh";
+const PACKAGES: &str = "networkx, numpy, rtree, scipy, shapely, trimesh";
 const PACKAGES_3MF: &str = "lib3mf, numpy";
 
 /// Returns `EQUIPOISE_JUDGE_PYTHON`, or `python3`; `None`, with a message, if it lacks a package.
