@@ -15,7 +15,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use common::{assert_exit, checklist, make_kit, number, prepare, printed, words};
+use common::{assert_exit, checklist, list, make_kit, number, prepare, printed, words};
 
 /// The judge of a kit's folder.
 const JUDGE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/judge/judge_kit.py");
@@ -118,6 +118,39 @@ fn an_independent_judge_agrees_with_the_checklist_and_finds_a_false_mass() {
     fs::write(kit.join("checklist.json"), sheet.to_string()).unwrap();
     let (code, said) = judge(JUDGE, &python, &kit);
     assert!(code == Some(1) && said.contains("FAIL mass"), "{said}");
+}
+
+/// Moves one corner of a binary STL file, in all triangles that have it, mm.
+fn dent(stl: &Path, by_mm: f32) {
+    let mut bytes = fs::read(stl).unwrap();
+    let corners = (84..bytes.len()).step_by(50).flat_map(|triangle| {
+        let first = triangle + 12;
+        [first, first + 12, first + 24]
+    });
+    let corners: Vec<usize> = corners.collect();
+    let moved: [u8; 12] = bytes[corners[0]..][..12].try_into().unwrap();
+    let z_mm = f32::from_le_bytes(moved[8..].try_into().unwrap()) + by_mm;
+    for at in corners {
+        if bytes[at..][..12] == moved {
+            bytes[at + 8..][..4].copy_from_slice(&z_mm.to_le_bytes());
+        }
+    }
+    fs::write(stl, bytes).unwrap();
+}
+
+#[test]
+fn an_independent_judge_finds_a_dent_of_a_tenth_in_one_part() {
+    let Some(python) = find_python(PACKAGES) else {
+        return;
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let kit = folder.path().join("kit");
+    let sheet = make_kit(&kit, "--goal top --up z --wall 1mm");
+    let part = &list(&sheet, "parts")[0];
+    dent(&kit.join(part["file"].as_str().unwrap()), 0.1);
+    let (code, said) = judge(JUDGE, &python, &kit);
+    let complaint = format!("FAIL {} off its surfaces", part["id"].as_str().unwrap());
+    assert!(code == Some(1) && said.contains(&complaint), "{said}");
 }
 
 /// Makes a kit that states its parts in a format.

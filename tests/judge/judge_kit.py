@@ -12,6 +12,7 @@ integrates them again, and prints promise against measurement. Exit code 0: all 
 import hashlib
 import json
 import math
+import re
 import struct
 import sys
 import zipfile
@@ -64,6 +65,20 @@ SIGHT_ALONG = 64
 SUPPORT_LINES = 3
 # A part may enclose this much resin against the film: a socket or a letter drains.
 CUP_LIMIT_MM3 = 150.0
+# The sides of every pin and socket, and how near a point of a part must be to where it should be, mm.
+PEG_SIDES = 48
+ON_SURFACE_MM = 2e-3
+# Vertices at one place in two files: single precision at a few hundred millimetres.
+SAME_PLACE_MM = 1e-4
+# Triangles that are cut are looked at in points at most this far apart, mm.
+SAMPLE_MM = 1.0
+# What is farther off than this is not measured.
+FAR_OFF_MM = 0.1
+# The strokes of a seven-segment character: left, right, bottom and top, in strokes; and which strokes a character has.
+SEGMENTS = [(0, 4, 0, 1), (0, 4, 3.5, 4.5), (0, 4, 7, 8), (0, 1, 1.4, 3.1), (0, 1, 4.9, 6.6), (3, 4, 1.4, 3.1), (3, 4, 4.9, 6.6)]
+CHARACTERS = {"0": "023456", "1": "56", "2": "01236", "3": "01256", "4": "1456", "5": "01245", "6": "012345", "7": "256", "8": "0123456", "9": "012456", "P": "12346"}
+# The endings of files that somebody could print by mistake.
+PRINTABLE = {".3mf", ".amf", ".bgcode", ".g", ".gco", ".gcode", ".obj", ".ply", ".stl", ".x3g"}
 # How many points of the voids are measured to the outside.
 WALL_SAMPLES = 50_000
 
@@ -409,9 +424,8 @@ def inside_distance(points, p):
 
 def split(mesh):
     """The outward and the inward shells of a welded mesh."""
-    groups = trimesh.graph.connected_components(mesh.face_adjacency, nodes=np.arange(len(mesh.faces)))
     corners = mesh.triangles
-    volumes = [(moments(corners[group])[0], group) for group in groups]
+    volumes = [(moments(corners[group])[0], group) for group in groups_of(mesh)]
     pick = lambda test: [corners[group] for volume, group in volumes if test(volume)]
     return pick(lambda v: v > 0), pick(lambda v: v <= 0)
 
@@ -593,6 +607,8 @@ def seats_of(sheet, joint):
 def worst_motion(pins, rooms, rim):
     """The largest turn of a plate held by round pins, radians, and the farthest that a corner of its rim moves, mm: turn by
     turn the shifts are the common part of discs, whose corners and whose farthest points from each corner are tried."""
+    if not len(rim):
+        return 0.0, math.inf
     middle, quarter = pins.mean(axis=0), np.array([[0.0, -1.0], [1.0, 0.0]])
     pins, rim = pins - middle, rim - middle
     pairs = [(i, j) for i in range(len(pins)) for j in range(i)]
@@ -1123,17 +1139,211 @@ def judge_part(table, kit, part, printer):
     return (corners - shift) @ rotation
 
 
+def turned_body(peg, profile):
+    """The sides and the end of a body of revolution (radius, height) about a peg's axis, facing outward, and its mouth."""
+    center, axes = frame({"axis": peg["axis"], "origin_mm": peg["center_mm"]})
+    angles = np.arange(PEG_SIDES) * math.tau / PEG_SIDES
+    round_about = np.cos(angles)[:, None] * axes[0] + np.sin(angles)[:, None] * axes[1]
+    rings = [center + radius * round_about + height * axes[2] for radius, height in profile]
+    after = lambda ring: np.roll(ring, -1, axis=0)
+    fan = lambda ring, height: np.stack([np.broadcast_to(center + height * axes[2], ring.shape), ring, after(ring)], 1)
+    sides = [np.stack(t, 1) for low, high in zip(rings, rings[1:]) for t in ((low, after(low), after(high)), (low, after(high), high))]
+    return np.concatenate([*sides, fan(rings[-1], profile[-1][1])]), fan(rings[0], profile[0][1])
+
+
+def peg_body(peg, is_socket):
+    """The surface of a pin or socket as its part has it, and a socket's mouth facing out of the part on the other side. Its
+    chamfer follows from its volume: a prism of 48 sides, less or more a ring."""
+    area = PEG_SIDES / 2 * math.sin(math.tau / PEG_SIDES)
+    radius, length = peg["diameter_mm"] / 2 / (math.cos(math.pi / PEG_SIDES) if is_socket else 1), peg["length_mm"]
+    change, sign = abs(peg["volume_mm3"] / area - radius**2 * length), 1 if is_socket else -1
+    roots = np.roots([sign / 3, radius, 0, -change])
+    real = roots[np.abs(roots.imag) < 1e-6].real
+    chamfer = max(min(real[real > 0], default=0.0), 0.0)
+    if is_socket:
+        surface, mouth = turned_body(peg, [(radius + chamfer, 0.0), (radius, chamfer), (radius, length)])
+        return surface[:, ::-1], mouth
+    return turned_body(peg, [(radius, 0.0), (radius, length - chamfer), (radius - chamfer, length)])[0], np.empty((0, 3, 3))
+
+
+def mark_body(mark):
+    """The grooves of an engraved id, and their mouths facing out of the part on the other side."""
+    boxes = np.array([np.add(SEGMENTS[int(k)], (5.5 * i, 5.5 * i, 0, 0)) for i, c in enumerate(mark["text"]) for k in CHARACTERS.get(c, "")], float)
+    middles, into = np.array(mark["strokes_mm"], float), np.array(mark["axis"], float)
+    if len(boxes) != len(middles) or not len(boxes):
+        return np.empty((0, 3, 3)), np.empty((0, 3, 3))
+    flat = np.stack([boxes[:, :2].mean(axis=1), boxes[:, 2:].mean(axis=1)], 1) * mark["stroke_mm"]
+    # The turn that fits all middles best: the phase of the sum of products of complex numbers.
+    _, axes = frame({"axis": into, "origin_mm": [0, 0, 0]})
+    there = (middles - middles.mean(axis=0)) @ axes[:2].T @ [1, 1j]
+    drawn = (flat - flat.mean(axis=0)) @ [1, -1j]
+    phase = np.angle((there * np.conj(drawn)).sum())
+    right = math.cos(phase) * axes[0] + math.sin(phase) * axes[1]
+    up = np.cross(right, into)
+    surface, mouth = [], []
+    for (left, end, bottom, top), middle in zip(boxes * mark["stroke_mm"], middles):
+        around = [(-1, -1), (1, -1), (1, 1), (-1, 1)]
+        rim = [middle + x * (end - left) / 2 * right + y * (top - bottom) / 2 * up for x, y in around]
+        floor = [p + mark["depth_mm"] * into for p in rim]
+        quads = [floor] + [[rim[i - 1], rim[i], floor[i], floor[i - 1]] for i in range(4)]
+        surface += [t for a, b, c, d in quads for t in ((a, b, c), (a, c, d))]
+        a, b, c, d = rim
+        mouth += [(a, c, b), (a, d, c)]
+    return np.array(surface), np.array(mouth)
+
+
+def same_triangles(corners, known):
+    """For each triangle the known one with the same corners in the same order about it, or -1."""
+    from scipy.spatial import cKDTree
+
+    places, index = np.unique(known.reshape(-1, 3), axis=0, return_inverse=True)
+    distance, at = cKDTree(places).query(corners.reshape(-1, 3), distance_upper_bound=SAME_PLACE_MM)
+    at = np.where(np.isfinite(distance), at, -1).reshape(-1, 3)
+    first = lambda rows: np.array([np.roll(row, -row.argmin()) for row in rows]) if len(rows) else rows
+    table = {tuple(row): i for i, row in enumerate(first(index.reshape(-1, 3)))}
+    return np.array([table.get(tuple(row), -1) for row in first(at)], int)
+
+
+def spread_over(corners):
+    """Points over each triangle, its corners and middle among them, and whose point each is."""
+    pieces, owner = cut_up(corners, SAMPLE_MM)
+    points = np.concatenate([pieces.reshape(-1, 3), pieces.mean(axis=1)])
+    return points, np.concatenate([np.repeat(owner, 3), owner])
+
+
+class Boxes:
+    """Triangles in a tree of boxes, each cut in halves along its longest side: which of them are near many points at once."""
+
+    LEAF = 4
+
+    def __init__(self, corners):
+        self.corners = corners
+        self.depth = max(0, math.ceil(math.log2(max(len(corners), 1) / self.LEAF)))
+        size = self.LEAF << self.depth
+        # What fills the last leaves up is nowhere.
+        low, high = np.full((size, 3), np.inf), np.full((size, 3), -np.inf)
+        low[: len(corners)], high[: len(corners)] = corners.min(axis=1), corners.max(axis=1)
+        middle = np.full((size, 3), np.inf)
+        middle[: len(corners)] = corners.mean(axis=1)
+        self.order = np.arange(size)
+        for level in range(self.depth):
+            row = self.order.reshape(1 << level, -1)
+            longest = (high[row].max(axis=1) - low[row].min(axis=1)).argmax(axis=1)
+            along = np.take_along_axis(middle[row], longest[:, None, None], axis=2)[:, :, 0]
+            self.order = np.take_along_axis(row, along.argsort(axis=1, kind="stable"), axis=1).ravel()
+        self.levels = [(low[self.order].reshape(-1, self.LEAF, 3).min(axis=1), high[self.order].reshape(-1, self.LEAF, 3).max(axis=1))]
+        for _ in range(self.depth):
+            lower, upper = self.levels[-1]
+            self.levels.append((lower.reshape(-1, 2, 3).min(axis=1), upper.reshape(-1, 2, 3).max(axis=1)))
+        self.levels.reverse()
+
+    def near(self, points, reach):
+        """Pairs of a point and a triangle no farther from it than the reach, and their distances."""
+        found = [self._near(points, chunk, reach) for chunk in np.array_split(np.arange(len(points)), 1 + len(points) // 100000)]
+        return tuple(np.concatenate(column) for column in zip(*found))
+
+    def _near(self, points, who, reach):
+        node = np.zeros(len(who), int)
+        for level, (low, high) in enumerate(self.levels):
+            hit = ((points[who] >= low[node] - reach) & (points[who] <= high[node] + reach)).all(axis=1)
+            who, node = who[hit], node[hit]
+            if level < self.depth:
+                who, node = np.repeat(who, 2), (2 * node[:, None] + [0, 1]).ravel()
+        who, place = np.repeat(who, self.LEAF), self.order[(self.LEAF * node[:, None] + np.arange(self.LEAF)).ravel()]
+        who, place = who[place < len(self.corners)], place[place < len(self.corners)]
+        gaps = np.zeros(0)
+        if len(who):
+            gaps = np.linalg.norm(trimesh.triangles.closest_point(self.corners[place], points[who]) - points[who], axis=1)
+        return who[gaps <= reach], place[gaps <= reach], gaps[gaps <= reach]
+
+
+def farthest_off(corners, sheets):
+    """For each triangle how far its points are from the sheets, at most (up to a limit), and the sheet nearest to its middle.
+    A sheet that faces the other way does not count for triangles that are no slivers."""
+    if not len(corners):
+        return np.zeros(0), np.zeros(0, int)
+    normals, facing = (np.cross(c[:, 1] - c[:, 0], c[:, 2] - c[:, 0]) for c in (corners, sheets))
+    longest = np.linalg.norm(np.roll(corners, -1, axis=1) - corners, axis=2).max(axis=1)
+    sliver = np.linalg.norm(normals, axis=1) < 2 * ON_SURFACE_MM * longest
+    points, owner = spread_over(corners)
+    boxes, off, nearest_of = Boxes(sheets), np.full(len(points), FAR_OFF_MM), np.full(len(points), -1)
+    # Few points are looked for twice: most of them are on a surface.
+    for reach in (ON_SURFACE_MM, FAR_OFF_MM):
+        left = np.flatnonzero(nearest_of < 0)
+        who, place, gaps = boxes.near(points[left], reach)
+        who = left[who]
+        turned = np.einsum("ij,ij->i", normals[owner[who]], facing[place]) < 0
+        counts = ~turned | sliver[owner[who]]
+        # The nearest is written last.
+        by_gap = np.flatnonzero(counts)[np.argsort(-gaps[counts], kind="stable")]
+        off[who[by_gap]], nearest_of[who[by_gap]] = gaps[by_gap], place[by_gap]
+    worst, nearest = np.zeros(len(corners)), np.full(len(corners), -1)
+    np.maximum.at(worst, owner, off)
+    # The middles come last, one of them for each triangle at least.
+    middles = np.arange(len(points) - len(points) // 4, len(points))
+    nearest[owner[middles]] = nearest_of[middles]
+    return worst, nearest
+
+
+def judge_surfaces(table, sheet, parts, outer, voids):
+    """Every triangle of every part lies on the uncut body, on a cut face of another part, or on its own pins, sockets and ids;
+    and nothing of these is missing. Returns the outer triangles of the parts, and those of voids."""
+    body, of_outer = np.concatenate([*outer, *voids]), sum(map(len, outer))
+    own, mouths = [], []
+    for row in sheet["parts"]:
+        bodies = [peg_body(pin, False) for pin in row["pins"]] + [peg_body(socket, True) for socket in row["sockets"]]
+        bodies += [mark_body(mark) for mark in row.get("marks", [])]
+        own.append(np.concatenate([np.empty((0, 3, 3)), *(surface for surface, _ in bodies)]))
+        mouths.append(np.concatenate([np.empty((0, 3, 3)), *(mouth for _, mouth in bodies)]))
+    in_cut = lambda corners, cut: (np.abs((corners - cut["point_mm"]) @ cut["normal"]) <= ON_SURFACE_MM).all(axis=1)
+    faces = [c[np.any([in_cut(c, cut) for cut in sheet["cuts"]], axis=0)] if sheet["cuts"] else c[:0] for c in parts]
+    walls, left = ([], []), np.ones(len(body), bool)
+    for index, (row, corners) in enumerate(zip(sheet["parts"], parts)):
+        same = same_triangles(corners, body)
+        left[same[same >= 0]] = False
+        others = [i for i in range(len(parts)) if i != index]
+        sheets = np.concatenate([body, own[index], *(mouths[i] for i in others), *(faces[i][:, ::-1] for i in others)])
+        cut = np.flatnonzero(same < 0)
+        off, nearest = farthest_off(corners[cut], sheets)
+        same[cut] = nearest
+        walls[0].append(corners[(same >= 0) & (same < of_outer)])
+        walls[1].append(corners[(same >= of_outer) & (same < len(body))])
+        table.at_most(f"{row['id']} off its surfaces, mm", ON_SURFACE_MM, off.max(initial=0.0))
+        table.at_most(f"{row['id']} lacks of pins and ids, mm", ON_SURFACE_MM, farthest_off(own[index], corners)[0].max(initial=0.0))
+        volumes = [moments(welded(corners).triangles[group])[0] for group in groups_of(welded(corners))]
+        table.line(f"{row['id']} bodies", 1, sum(v > 0 for v in volumes), sum(v > 0 for v in volumes) == 1)
+    off, _ = farthest_off(body[left], np.concatenate(parts))
+    table.at_most("missing of the uncut body, mm", ON_SURFACE_MM, off.max(initial=0.0))
+    return walls
+
+
+def groups_of(mesh):
+    """The triangles of each connected piece of a welded mesh."""
+    return trimesh.graph.connected_components(mesh.face_adjacency, nodes=np.arange(len(mesh.faces)))
+
+
 def digest(path):
     return hashlib.sha256(path.read_bytes()).hexdigest()
 
 
 def check_sums(table, kit):
-    """The list of hashes, as sha256sum --check reads it, holds every file of the kit but itself."""
-    lines = (kit / "SHA256SUMS").read_text().splitlines() if (kit / "SHA256SUMS").exists() else []
-    listed = dict(reversed(line.split("  ", 1)) for line in lines)
+    """The list of hashes, as sha256sum --check reads it, holds every file of the kit but itself, each once. What is not listed
+    and could be printed, and any link, is no part of a kit; other files are only named."""
+    sums = kit / "SHA256SUMS"
+    lines = sums.read_bytes().decode(errors="replace").split("\n") if sums.exists() else [""]
+    rows = [re.fullmatch(r"([0-9a-f]{64})  ([^\r]+)", line) for line in lines[:-1]]
+    table.none("lines of SHA256SUMS of another form", sum(row is None for row in rows) + (lines[-1] != ""))
+    listed = {row[2]: row[1] for row in rows if row}
+    table.none("files listed twice", sum(row is not None for row in rows) - len(listed))
+    links = [p for p in kit.rglob("*") if p.is_symlink()]
+    table.none("links", len(links))
     there = {p.relative_to(kit).as_posix() for p in kit.rglob("*") if p.is_file()} - {"SHA256SUMS"}
-    wrong = [name for name in listed.keys() | there if name not in there or digest(kit / name) != listed.get(name)]
+    wrong = [name for name in listed if name not in there or digest(kit / name) != listed[name]]
     table.none("files unlike SHA256SUMS", len(wrong))
+    strange = sorted(there - listed.keys())
+    table.none("unlisted files that could be printed", sum(Path(name).suffix.lower() in PRINTABLE for name in strange))
+    if strange:
+        print(f"  not listed: {', '.join(strange[:10])}")
 
 
 def judge(kit):
@@ -1174,11 +1384,12 @@ def judge(kit):
     judge_dowels(table, sheet, parts)
     judge_films(table, sheet, parts)
     judge_marks(table, sheet, parts)
+    outer_of_parts, voids_of_parts = judge_surfaces(table, sheet, parts, outer, voids)
     if voids:
-        wall = smallest_wall(outer, voids)
+        wall = smallest_wall(outer_of_parts, voids_of_parts)
         table.at_least("wall, mm", sheet["wall"]["required_mm"] - WALL_TOLERANCE_MM, wall)
         # Samples can only miss the thinnest place, never find a thinner one.
-        table.at_least("sampled wall, not under stated", sheet["wall"]["measured_min_mm"] - 1e-6, wall)
+        table.at_least("sampled wall, not under stated", sheet["wall"]["measured_min_mm"] - SAME_PLACE_MM, wall)
     table.line("verdict of the checklist", sheet["verdict"], "fail" if table.failed else "pass", (sheet["verdict"] == "pass") == (not table.failed))
     return not table.failed
 
