@@ -2,6 +2,7 @@
 
 mod choosing;
 mod climbing;
+mod jigs_first;
 
 use super::*;
 use crate::open::scenes::{LEAN, chimneys, cuboid, forbid_bosses, solve, standing};
