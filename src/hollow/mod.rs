@@ -167,7 +167,7 @@ mod dual;
 mod goals;
 mod golden;
 mod log;
-#[cfg(feature = "papers")]
+#[cfg(any(test, feature = "papers"))]
 pub mod papers;
 mod problem;
 mod solution;
@@ -183,7 +183,7 @@ pub use goals::ballast::{Ballast, has_margin, least_ballast};
 pub use goals::fill::Fill;
 pub use golden::golden_section;
 pub use log::{LogRow, Pass, Stage};
-#[cfg(feature = "papers")]
+#[cfg(any(test, feature = "papers"))]
 pub use papers::{
     Accuracy, ByOctree, ByQuadric, ByRays, ByVoxels, Found, Method, MethodError, Outcome, Rounding,
 };
