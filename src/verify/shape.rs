@@ -72,11 +72,13 @@ pub(super) fn measure_shapes(
             corners.map(|c| c.map(|p| part.pose.to_model(&p))).collect()
         })
         .collect();
+    watch.check()?;
     let plan = Plan::new(evidence, shells, &parts);
+    watch.check()?;
     let mut strays = Vec::new();
     for (index, part) in parts.iter().enumerate() {
-        watch.check()?;
-        let off = find_off(&plan.sheets, part.par_iter().map(|c| (*c, Some(index))));
+        let triangles = part.par_iter().map(|c| (*c, Some(index)));
+        let off = find_off(&plan.sheets, triangles, watch)?;
         strays.extend(plan.sheets.stray(&evidence.parts[index].id, false, &off));
     }
     watch.check()?;
@@ -86,8 +88,7 @@ pub(super) fn measure_shapes(
         sheets.collect::<Vec<Sheet>>()
     };
     let found = Sheets::new(parts.iter().enumerate().flat_map(owned).collect());
-    let lacking = find_off(&found, plan.wanted.par_iter().copied());
-    watch.check()?;
+    let lacking = find_off(&found, plan.wanted.par_iter().copied(), watch)?;
     let owners = std::iter::once(None).chain((0..parts.len()).map(Some));
     for owner in owners {
         let of_owner = lacking.iter().filter(|off| off.part == owner).copied();
@@ -109,12 +110,17 @@ struct Off {
 fn find_off(
     sheets: &Sheets,
     triangles: impl IndexedParallelIterator<Item = (Corners, Option<usize>)>,
-) -> Vec<Off> {
-    let off = triangles.map(|(corners, part)| match sheets.lie(&corners, part) {
-        Lie::On(_) => None,
-        Lie::Off(at) => Some(Off { part, at }),
+    watch: &Watch,
+) -> Result<Vec<Off>, Cancelled> {
+    let off = triangles.map(|(corners, part)| {
+        watch.check()?;
+        Ok(match sheets.lie(&corners, part) {
+            Lie::On(_) => None,
+            Lie::Off(at) => Some(Off { part, at }),
+        })
     });
-    off.collect::<Vec<_>>().into_iter().flatten().collect()
+    let off = off.collect::<Result<Vec<_>, Cancelled>>()?;
+    Ok(off.into_iter().flatten().collect())
 }
 
 impl Sheets {
