@@ -82,26 +82,21 @@ fn find_bosses(order: &BossRequest) -> Result<Vec<Boss>, CutError> {
     }
 }
 
-/// The best patterns of two pins with their costs.
-#[derive(Default)]
-struct Found {
+/// The best patterns of two pins.
+struct Found<T> {
     /// The best that leaves every void open.
-    open: Option<(Cost, Placement)>,
+    open: Option<T>,
     /// The best of all.
-    any: Option<(Cost, Placement)>,
-    /// True if a pattern that holds the joint is confused with another joint's.
+    any: Option<T>,
+    /// True if a pattern is confused with another joint's, in a direction that has no other.
     is_confused: bool,
 }
 
-impl Found {
-    /// Returns true if there is no pattern, and pins of other sizes might make one.
-    fn is_only_confused(&self) -> bool {
-        self.any.is_none() && self.is_confused
-    }
-}
+/// A pattern with its cost.
+type Priced = (Cost, Placement);
 
 /// Returns the cheapest placement.
-fn cheapest(found: Vec<Option<(Cost, Placement)>>) -> Option<Placement> {
+fn cheapest(found: Vec<Option<Priced>>) -> Option<Placement> {
     let cheapest = found.into_iter().flatten().min_by(|a, b| a.0.compare(&b.0));
     cheapest.map(|(_, placement)| placement)
 }
@@ -218,28 +213,50 @@ impl Search<'_> {
             let Some((equal, different)) = pairs.split_last() else {
                 continue;
             };
-            let mut is_hopeless = false;
-            for sizes in different.iter().rev().chain([equal]) {
+            let mut tried = Vec::new();
+            for sizes in different.iter().rev() {
+                let found = self.try_sizes(joint, &faces, others, sizes)?;
                 // Thicker pins are no farther apart than thin ones, and close more.
-                if is_hopeless && !std::ptr::eq(sizes, equal) {
-                    continue;
+                let is_last = found.open.is_some() || !found.is_confused;
+                tried.push(found);
+                if is_last {
+                    break;
                 }
-                let along = faces
-                    .iter()
-                    .map(|face| self.find_pattern_along(joint, face, others, sizes));
-                let found = along.collect::<Result<Vec<Found>, CutError>>()?;
-                is_hopeless = found.iter().all(|found| !found.is_only_confused());
-                let (open, any): (Vec<_>, Vec<_>) = found
-                    .into_iter()
-                    .map(|found| (found.open, found.any))
-                    .unzip();
-                if let Some(open) = cheapest(open) {
-                    return Ok(Some(open));
+            }
+            if tried.iter().all(|found| found.open.is_none()) {
+                tried.push(self.try_sizes(joint, &faces, others, equal)?);
+            }
+            for found in tried {
+                if found.open.is_some() {
+                    return Ok(found.open);
                 }
-                closing = closing.or_else(|| cheapest(any));
+                closing = closing.or(found.any);
             }
         }
         Ok(closing)
+    }
+
+    /// Finds the cheapest patterns of two pins of these sizes, in either direction.
+    fn try_sizes(
+        &self,
+        joint: &Joint,
+        faces: &[Face],
+        others: &[&Placement],
+        sizes: &[Size; 2],
+    ) -> Result<Found<Placement>, CutError> {
+        let along = |face| self.find_pattern_along(joint, face, others, sizes);
+        let found = faces.iter().map(along).collect::<Result<Vec<_>, _>>()?;
+        let mut ways = found.iter();
+        let is_confused = ways.any(|found| found.any.is_none() && found.is_confused);
+        let (open, any) = found
+            .into_iter()
+            .map(|found| (found.open, found.any))
+            .unzip();
+        Ok(Found {
+            open: cheapest(open),
+            any: cheapest(any),
+            is_confused,
+        })
     }
 
     /// Returns the faces of a joint in the filled body for pins in either direction.
@@ -258,7 +275,7 @@ impl Search<'_> {
         let Some([_, size]) = size_pairs(self.order.request).pop() else {
             return Ok(None);
         };
-        let mut found: Vec<Option<(Cost, Placement)>> = Vec::new();
+        let mut found: Vec<Option<Priced>> = Vec::new();
         for face in &self.faces(joint, others) {
             let sites = self.sites(joint, face, &size)?.into_iter();
             let costs = sites.map(|site| (Cost::of(&[&site], &self.view), site.at));
@@ -275,14 +292,18 @@ impl Search<'_> {
         face: &Face,
         others: &[&Placement],
         sizes: &[Size; 2],
-    ) -> Result<Found, CutError> {
+    ) -> Result<Found<Priced>, CutError> {
         let sites = self.sites(joint, face, &sizes[0])?;
         let mut open = OpenPairs::new(
             &self.view,
             &sites,
             sizes[0].room_mm(self.order.request) / 2.0,
         );
-        let mut found = Found::default();
+        let mut found = Found {
+            open: None,
+            any: None,
+            is_confused: false,
+        };
         for pair in best_pairs(&sites, face.gap_mm(&sizes[0]), &self.view) {
             let [i, j] = pair.sites;
             let pattern = [(sites[i].at, sizes[0]), (sites[j].at, sizes[1])];
