@@ -61,15 +61,15 @@ pub(crate) struct Slab {
 
 impl Slab {
     /// Cuts the triangles of a surface (in a view) between two heights over the joint, mm.
-    pub(crate) fn of(surface: &TriMesh, [low, high]: [f64; 2]) -> Self {
-        let piece = |corners: [Point; 3]| {
-            let above = clip(&corners, |p| low - p.y);
+    pub(crate) fn of(surface: &[[Point; 3]], [low, high]: [f64; 2]) -> Self {
+        let piece = |corners: &[Point; 3]| {
+            let above = clip(corners, |p| low - p.y);
             let within = clip(&above, |p| p.y - high);
             let flat: Vec<Spot> = within.iter().map(|p| Spot::new(p.x, p.z)).collect();
             (!flat.is_empty()).then_some(flat)
         };
         Self {
-            pieces: surface.iter_corners().filter_map(piece).collect(),
+            pieces: surface.iter().filter_map(piece).collect(),
         }
     }
 
@@ -307,7 +307,8 @@ mod tests {
     #[test]
     fn a_cradle_keeps_its_gap_from_a_ball_wherever_it_is_lifted() {
         let surface = ball([0.0; 3], 10.0);
-        let slab = Slab::of(surface.mesh(), [1.0, 3.0]);
+        let corners: Vec<[Point; 3]> = surface.mesh().iter_corners().collect();
+        let slab = Slab::of(&corners, [1.0, 3.0]);
         let outline = slab.cradle([-12.0, 12.0], [0.2, -2.0]);
         assert!(outline.windows(2).all(|side| side[0].x < side[1].x));
         let body = body_under(&outline, -14.0, [1.2, 2.8]).unwrap();

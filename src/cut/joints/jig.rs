@@ -7,6 +7,8 @@
 
 use std::cmp::Ordering;
 
+use rayon::prelude::*;
+
 use super::cradle::{Slab, View, body_under};
 use crate::{
     base::watch::Watch,
@@ -119,7 +121,8 @@ pub fn jigs(
 
 /// A joint for which jigs are tried.
 struct Bench<'a> {
-    outside: &'a TriMesh,
+    /// The triangles of the outside that the ribs may touch.
+    outside: Vec<[Point; 3]>,
     plane: &'a Plane,
     /// The corners of the joint's rim.
     rim: Vec<Point>,
@@ -159,17 +162,18 @@ impl Sketch {
 }
 
 impl<'a> Bench<'a> {
-    fn new(
-        outside: &'a TriMesh,
-        plane: &'a Plane,
-        joint: &Joint,
-        request: &'a PlanRequest,
-    ) -> Self {
+    fn new(outside: &TriMesh, plane: &'a Plane, joint: &Joint, request: &'a PlanRequest) -> Self {
         let chart = Chart::of_plane(plane);
         let rim: Vec<Point2> =
             corners_of(joint.faces.iter().flat_map(|face| face.outline.corners()));
+        let reach_mm = WIPING_ROOM_MM + RIB_MM + request.pins.snug_gap_mm;
+        let is_near = |corners: &[Point; 3]| {
+            let heights = corners.each_ref().map(|p| plane.distance(p));
+            let [low, high] = range(heights.into_iter());
+            low <= reach_mm && high >= -reach_mm
+        };
         Self {
-            outside,
+            outside: outside.iter_corners().filter(is_near).collect(),
             plane,
             rim: rim.iter().map(|corner| chart.lift(plane, corner)).collect(),
             request,
@@ -182,17 +186,23 @@ impl<'a> Bench<'a> {
         let max_step_mm = self.request.pins.max_step_mm.unwrap_or(f64::INFINITY);
         let max_step_mm = max_step_mm * (1.0 - RESERVE_RATIO);
         let (u, v) = self.plane.basis();
-        let mut best: Option<Sketch> = None;
-        for way in 0..WAYS_OUT {
+        let along = |way: usize| {
             watch.check()?;
             let (sin, cos) = (std::f64::consts::TAU * way as f64 / WAYS_OUT as f64).sin_cos();
-            let view = View::new(self.plane, u * cos + v * sin);
-            for sketch in self.sketches(view) {
-                let is_held = sketch.play.step_mm <= max_step_mm;
-                let is_better = |best: &Sketch| sketch.is_better(best, TIGHT_RATIO * max_step_mm);
-                if is_held && best.as_ref().is_none_or(is_better) {
-                    best = Some(sketch);
-                }
+            Ok(self.sketches(View::new(self.plane, u * cos + v * sin)))
+        };
+        let ways = (0..WAYS_OUT).into_par_iter().map(along);
+        let mut best: Option<Sketch> = None;
+        // In the order of the ways, so that the choice is the same on any number of threads.
+        for sketch in ways
+            .collect::<Result<Vec<_>, CutError>>()?
+            .into_iter()
+            .flatten()
+        {
+            let is_held = sketch.play.step_mm <= max_step_mm;
+            let is_better = |best: &Sketch| sketch.is_better(best, TIGHT_RATIO * max_step_mm);
+            if is_held && best.as_ref().is_none_or(is_better) {
+                best = Some(sketch);
             }
         }
         Ok(best)
@@ -206,7 +216,8 @@ impl<'a> Bench<'a> {
         let [low, high] = range(rim.iter().map(|spot| spot.y));
         let beside_mm = gap_mm + CHEEK_MM;
         let window = [across[0] - beside_mm, across[1] + beside_mm];
-        let surface = self.outside.map_vertices(|p| view.local(p));
+        let local = |corners: &[Point; 3]| corners.each_ref().map(|p| view.local(p));
+        let surface: Vec<[Point; 3]> = self.outside.iter().map(local).collect();
         let [near, far] = [WIPING_ROOM_MM, WIPING_ROOM_MM + RIB_MM];
         // What is beyond a rib's face is no nearer to it than the gap.
         let slabs = [
