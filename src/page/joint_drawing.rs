@@ -3,6 +3,7 @@
 
 use super::cut_drawing::CutFace;
 use super::figure::{Picture, Role};
+use super::names::Names;
 use super::plane_map::{PlaneMap, Window, bounds, doubled_area_mm2, flat, is_inside};
 use crate::base::numbers::{measured, number, quantity};
 use crate::draw::{Anchor, Color, Drawing, Drawn, PAPER, PIN, Paint, Spot, Stroke, part_color};
@@ -181,19 +182,25 @@ impl<'a> Book<'a> {
         let index = self.sheet.parts.iter().position(|row| row.id == part);
         let color = pale(part_color(index.unwrap_or_default()));
         drawing.path(rings, true, Paint::filled(color, Stroke::THICK));
-        for mouth in &self.face.mouths {
-            if self.opens_here(mouth.at) {
-                drawing.text(map.at(mouth.at), Anchor::Middle, &mouth.void);
-            }
-        }
         let (pins, sockets) = (
             self.pegs(part, |row| &row.pins),
             self.pegs(part, |row| &row.sockets),
         );
+        let [pins, sockets] = [pins, sockets].map(|pegs| self.spots(&pegs, map));
+        let mut names = Names::new(WIDTH_PX, TEXT_PX);
+        for peg in pins.iter().chain(&sockets) {
+            names.keep_clear(peg.at, peg.radius_px);
+        }
         let solid = Paint::filled(PIN, Stroke::solid(PAPER, 2.0));
         let ring = Paint::filled(PAPER, Stroke::solid(PIN, 5.0));
         for (pegs, paint) in [(&sockets, ring), (&pins, solid)] {
-            draw_pegs(drawing, &self.spots(pegs, map), paint);
+            draw_pegs(drawing, pegs, paint, &mut names);
+        }
+        for mouth in &self.face.mouths {
+            if self.opens_here(mouth.at) {
+                let at = names.place_at(map.at(mouth.at), &mouth.void);
+                drawing.text(at, Anchor::Middle, &mouth.void);
+            }
         }
     }
 
@@ -224,7 +231,7 @@ struct PegSpot<'a> {
 }
 
 /// Draws pins or holes with their names, each name away from the others.
-fn draw_pegs(drawing: &mut Drawing, pegs: &[PegSpot], paint: Paint) {
+fn draw_pegs(drawing: &mut Drawing, pegs: &[PegSpot], paint: Paint, names: &mut Names) {
     let count = pegs.len().max(1) as f64;
     let sum = pegs
         .iter()
@@ -240,13 +247,8 @@ fn draw_pegs(drawing: &mut Drawing, pegs: &[PegSpot], paint: Paint) {
             [0.0, -1.0]
         };
         let away = peg.radius_px + NAME_AWAY_TEXTS * TEXT_PX;
-        // Words are wider than high.
-        let name = [peg.at[0] + 1.3 * away * way[0], peg.at[1] + away * way[1]];
-        let within = [
-            name[0].clamp(TEXT_PX, WIDTH_PX - TEXT_PX),
-            name[1].max(TEXT_PX),
-        ];
-        drawing.text(within, Anchor::Middle, peg.name);
+        let at = names.place_beside(peg.at, away, way, peg.name);
+        drawing.text(at, Anchor::Middle, peg.name);
     }
 }
 

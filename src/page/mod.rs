@@ -21,6 +21,7 @@ mod inserts;
 mod job_id;
 mod job_sheet;
 mod joint_drawing;
+mod names;
 mod plane_map;
 mod plans;
 mod plate;
