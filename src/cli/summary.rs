@@ -4,18 +4,17 @@
 use std::path::Path;
 
 use super::bars::words as stage_name;
+use super::flags::{NO_BOSSES, OTHER_PLANS};
 use super::show::{GREEN, RED, paint, table, verdict};
 use super::voice::Manner;
 use crate::base::numbers::{measured, measured_extent, quantity as figure};
 use crate::base::units::format_count;
 use crate::base::watch::Phase;
 use crate::goal::GoalKind;
-use crate::page::{promise, spins_on};
-use crate::sheet::{Checklist, Course, LogRow, PassRow};
+use crate::page::{promise, shortfall, spins_on};
+use crate::sheet::{Checklist, Course, LogRow, PassRow, Taker};
 use crate::verify::{Check, SHEET_FILE};
 
-/// Distance from the best from which the reason is told, as a share of the best.
-const FAR_RATIO: f64 = 0.1;
 /// Least length in mm or angle in degrees that is shown. Nobody prints or balances so exactly.
 const MIN_SHOWN_OFFSET: f64 = 0.001;
 /// The order in which a person reads the solver's numbers.
@@ -27,6 +26,7 @@ pub fn ten_lines(checklist: &Checklist, out: &Path, manner: Manner) -> String {
         Some(("what it does", deed(checklist))),
         Some(("if solid", solid_words(checklist))),
         Some(("how good", bound_words(checklist))),
+        shortfall_words(checklist).map(|words| ("short of best", words)),
         balance(checklist).map(|words| ("balance", words)),
         Some((
             "mass, size",
@@ -87,7 +87,7 @@ fn solid_words(checklist: &Checklist) -> String {
     format!("{mass}, {does}")
 }
 
-/// Returns the best that is possible and what this kit reaches. If that is far away, it says why.
+/// Returns the best that is possible and what this kit reaches.
 fn bound_words(checklist: &Checklist) -> String {
     let proof = &checklist.certificate;
     let unit = proof.figure.unit();
@@ -101,17 +101,27 @@ fn bound_words(checklist: &Checklist) -> String {
     let Some(written) = proof.written_value else {
         return format!("{} {best} is possible{of_what}", proof.figure.name());
     };
-    let away = ((written - proof.bound) / proof.bound).abs();
-    let why = if away > FAR_RATIO {
-        "; pins, cuts and rounding take the rest: a larger size or a thinner wall would help"
-    } else {
-        ""
-    };
     format!(
-        "best possible{of_what}: {} {best}; this kit: {}{why}",
+        "best possible{of_what}: {} {best}; this kit: {}",
         proof.figure.name(),
         measured(written, unit)
     )
+}
+
+/// Returns what took a tenth or more of the best figure, and what to try; `None` if the kit is
+/// nearer to it.
+fn shortfall_words(checklist: &Checklist) -> Option<String> {
+    let words = shortfall(checklist)?;
+    let has = |taker: Taker| {
+        let taken = checklist
+            .shortfall()
+            .map_or(Vec::new(), |short| short.taken);
+        taken.iter().any(|taken| taken.by == taker)
+    };
+    let plans =
+        has(Taker::Cleaning).then(|| format!(" Other plans with their figures: {OTHER_PLANS}."));
+    let jigs = has(Taker::Bosses).then(|| format!(" Jigs in place of bosses: {NO_BOSSES}."));
+    Some(words + &plans.unwrap_or_default() + &jigs.unwrap_or_default())
 }
 
 fn balance(checklist: &Checklist) -> Option<String> {

@@ -39,6 +39,7 @@ pub(super) fn cover(inputs: &PageInputs, job: &JobId) -> Markup {
                 (facts(sheet))
             }
             (overview(sheet))
+            (shortfall(sheet))
             (offers(sheet))
         }
     }
@@ -59,6 +60,14 @@ fn verdict(sheet: &Checklist) -> Markup {
 fn warnings(sheet: &Checklist) -> Markup {
     html! {
         @for warning in &sheet.warnings { p class="warn" { strong { "Warning: " } (sentence(warning)) } }
+    }
+}
+
+fn shortfall(sheet: &Checklist) -> Markup {
+    html! {
+        @if let Some(words) = words::shortfall(sheet) {
+            p class="small" { strong { "Short of the best: " } (words) }
+        }
     }
 }
 

@@ -51,4 +51,4 @@ pub use plans::{PlanCard, draw_sides, plans};
 pub use printing::cup_warning;
 pub use subject::Subject;
 pub use view::View;
-pub use words::{promise, spins_on};
+pub use words::{promise, shortfall, spins_on};

@@ -2,7 +2,7 @@
 
 use crate::base::numbers::{coordinates, measured, number, quantity, quantity_or_dash};
 use crate::goal::GoalKind;
-use crate::sheet::{Certificate, Checklist, GoalRow, ObjectiveName, WallRow};
+use crate::sheet::{Certificate, Checklist, GoalRow, ObjectiveName, Taken, Taker, WallRow};
 use crate::verify::{CONTACT_LIMIT_MM, Figures, SpinFacts};
 
 /// Relative difference up to which the ordered and the printed wall count as equal.
@@ -198,6 +198,29 @@ pub fn certificate(sheet: &Checklist) -> Vec<String> {
         )
     }));
     words
+}
+
+/// Words what took a tenth or more of the best figure; `None` if the kit is nearer to it.
+pub fn shortfall(sheet: &Checklist) -> Option<String> {
+    let shortfall = sheet.shortfall()?;
+    let (figure, unit) = (sheet.certificate.figure, sheet.certificate.figure.unit());
+    let words = |taken: &Taken| {
+        let what = match taken.by {
+            Taker::Cleaning => "voids that stay solid because they could not be cleaned",
+            Taker::Plan => "what the plan keeps solid",
+            Taker::Bosses => "bosses around pins",
+            Taker::Making => "cuts, pins and rounding",
+        };
+        format!("{what} ({:.0}\u{a0}%)", 100.0 * taken.ratio)
+    };
+    let taken: Vec<String> = shortfall.taken.iter().map(words).collect();
+    Some(format!(
+        "With this wall {} {} is possible, and this kit reaches {}. The rest is lost to {}.",
+        figure.name(),
+        measured(shortfall.best, unit),
+        measured(shortfall.reached, unit),
+        taken.join(", ")
+    ))
 }
 
 /// Words the wall as it was ordered, as the printer makes it, and as measured.

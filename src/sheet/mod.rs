@@ -7,6 +7,7 @@ mod goal;
 mod joints;
 mod parts;
 mod printer;
+mod shortfall;
 #[cfg(test)]
 mod tests;
 mod timing;
@@ -20,6 +21,7 @@ pub use parts::{Half, PartRow, SupportRow, finished_size_mm, part_picture_file};
 pub use printer::{
     Direction, GlueRow, GridRow, MaterialRow, PrinterRow, Process, SupportMethod, WallRow,
 };
+pub use shortfall::{Shortfall, Taken, Taker};
 pub use timing::Timing;
 pub(crate) use voids::checks_of_void;
 pub use voids::{CutRow, SideRow, VoidRow, is_clean};
