@@ -54,7 +54,7 @@ impl Names {
     fn around(&self, [x, y]: Spot, away_px: f64, [right, down]: Spot) -> Vec<Spot> {
         let turn = |number: usize| {
             let steps = number.div_ceil(2) as f64;
-            let sign = if number % 2 == 0 { 1.0 } else { -1.0 };
+            let sign = if number.is_multiple_of(2) { 1.0 } else { -1.0 };
             sign * steps * std::f64::consts::TAU / WAYS as f64
         };
         let ways = |times: f64| (0..WAYS).map(move |number| (times * away_px, number));
