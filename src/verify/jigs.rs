@@ -1,5 +1,7 @@
 //! Facts about jigs: they come off, keep their gap, leave the seam free, and hold the parts.
 
+use rayon::prelude::*;
+
 use super::rim::rim_of;
 use super::{Evidence, PartEvidence, PartFacts, PromisedJig, PromisedJoint};
 use crate::base::watch::{Cancelled, Watch};
@@ -45,15 +47,16 @@ pub(super) fn measure_jigs(
         let part = PartFacts::of_part(read, watch)?;
         let joint = promise.joints.iter().find(|joint| joint.id == jig.joint);
         let bench = Bench::new(jig, read, outer);
+        watch.check()?;
         let rim = joint.map_or(Vec::new(), |joint| bench.rim(joint, &evidence.parts));
         Ok(JigFacts {
             joint: jig.joint.clone(),
             part,
-            gap_mm: bench.gap_mm(),
+            gap_mm: bench.gap_mm(watch)?,
             ordered_gap_mm: jig.gap_mm,
-            caught: bench.count_caught(),
+            caught: bench.count_caught(watch)?,
             seam_mm: bench.distance_mm(&rim),
-            play: bench.play(&rim),
+            play: bench.play(&rim, watch)?,
         })
     });
     facts.collect()
@@ -110,16 +113,18 @@ impl<'a> Bench<'a> {
         rim_of(joint, &self.plane(), parts).unwrap_or_default()
     }
 
-    fn gap_mm(&self) -> f64 {
-        let far_mm = 2.0 * self.jig.gap_mm + 1.0;
-        let gaps = self.mesh.iter_corners();
-        let gaps = gaps.map(|corners| self.outside.triangle_distance(&corners, far_mm));
-        gaps.fold(far_mm, f64::min)
+    fn gap_mm(&self, watch: &Watch) -> Result<f64, Cancelled> {
+        let mut least_mm = 2.0 * self.jig.gap_mm + 1.0;
+        for corners in self.mesh.iter_corners() {
+            watch.check()?;
+            least_mm = least_mm.min(self.outside.triangle_distance(&corners, least_mm));
+        }
+        Ok(least_mm)
     }
 
     /// Counts the points of the jig that meet the outside on its way off, and those of the outside
     /// that meet the jig.
-    fn count_caught(&self) -> usize {
+    fn count_caught(&self, watch: &Watch) -> Result<usize, Cancelled> {
         let [box_a, box_b] = [self.outer.aabb(), self.mesh.aabb()];
         let way = self.out() * (box_a.size().norm() + box_b.size().norm());
         let middle = |corners: [Point; 3]| {
@@ -134,13 +139,17 @@ impl<'a> Bench<'a> {
                 .chain(middles)
                 .collect::<Vec<Point>>()
         };
-        let meets =
-            |surface: &Bvh, from: &Point, way: Vector| surface.crosses_segment(from, &(from + way));
-        let of_jig = points(&self.mesh);
-        let of_jig = of_jig.iter().filter(|p| meets(&self.outside, p, -way));
-        let of_outer = points(self.outer);
-        let of_outer = of_outer.iter().filter(|p| meets(&self.surface, p, way));
-        of_jig.count() + of_outer.count()
+        let count = |of: &TriMesh, surface: &Bvh, way: Vector| {
+            let meets = |from: Point| {
+                watch.check()?;
+                Ok(usize::from(surface.crosses_segment(&from, &(from + way))))
+            };
+            points(of)
+                .into_par_iter()
+                .map(meets)
+                .sum::<Result<usize, Cancelled>>()
+        };
+        Ok(count(&self.mesh, &self.outside, -way)? + count(self.outer, &self.surface, way)?)
     }
 
     /// Returns the least distance of the jig from some points, mm; infinite without any.
@@ -155,9 +164,11 @@ impl<'a> Bench<'a> {
     }
 
     /// Returns the play of the parts that are pressed into the jig at the height of the rim.
-    fn play(&self, rim: &[Point]) -> Option<Play> {
+    fn play(&self, rim: &[Point], watch: &Watch) -> Result<Option<Play>, Cancelled> {
         let rim: Vec<Spot> = rim.iter().map(|p| self.flat(p)).collect();
-        let first = rim.first()?;
+        let Some(first) = rim.first() else {
+            return Ok(None);
+        };
         let ends = |[low, high]: [Spot; 2], spot: &Spot| [low.inf(spot), high.sup(spot)];
         let [low, high] = rim.iter().fold([*first; 2], ends);
         let middle = nalgebra::center(&low, &high);
@@ -166,12 +177,19 @@ impl<'a> Bench<'a> {
             normal: Way::new(0.0, -1.0),
             room_mm: self.jig.pressed_mm,
         };
-        let seat = |side: f64| Seat::pressed(&self.stops(side), &press, middle);
-        Some(seat(-1.0)?.play_between(&seat(1.0)?, middle, &rim))
+        let mut seats = Vec::new();
+        for side in [-1.0, 1.0] {
+            seats.push(Seat::pressed(&self.stops(side, watch)?, &press, middle));
+        }
+        let [Some(low), Some(high)] = &seats[..] else {
+            return Ok(None);
+        };
+        watch.check()?;
+        Ok(Some(low.play_between(high, middle, &rim)))
     }
 
     /// Returns the stops of the part on one side of the joint, -1 or 1.
-    fn stops(&self, side: f64) -> Vec<Stop> {
+    fn stops(&self, side: f64, watch: &Watch) -> Result<Vec<Stop>, Cancelled> {
         let plane = self.plane();
         let [near, far] = self.jig.ribs_mm;
         let slab = self.outer.iter_corners().filter_map(|corners| {
@@ -179,8 +197,12 @@ impl<'a> Bench<'a> {
             let within = clip(&beyond, |p| side * plane.distance(p) - far);
             (!within.is_empty()).then_some(within)
         });
-        let points = slab.flat_map(|piece| along(&piece));
-        points.filter_map(|p| self.stop(&p)).collect()
+        let mut stops = Vec::new();
+        for piece in slab {
+            watch.check()?;
+            stops.extend(along(&piece).into_iter().filter_map(|p| self.stop(&p)));
+        }
+        Ok(stops)
     }
 
     /// Returns the stop of a point of the outside; `None` if the jig is far from it.

@@ -33,6 +33,7 @@ use crate::thin::find_thin;
 pub fn judge(evidence: &Evidence, watch: &Watch) -> Result<Judgement, Cancelled> {
     let promise = &evidence.promise;
     let welded = weld(&evidence.hollowed);
+    watch.check()?;
     let shells = Shells::of_mesh(&welded);
     let outer = shells.outer_mesh();
     let setting = Setting::new(promise, &outer);
@@ -40,8 +41,10 @@ pub fn judge(evidence: &Evidence, watch: &Watch) -> Result<Judgement, Cancelled>
     let load = ballast_moments(&promise.ballast, density_g_mm3)
         + fill_moments(promise.fill, &shells.inner_mesh(), setting.density_g_cm3);
     let joined = (film_moments(promise) + mass_moments(&promise.dowels)) * density_g_mm3.recip();
+    watch.check()?;
     let assembled = assembly_moments(&evidence.parts);
     let probes: Vec<PartProbe> = evidence.parts.par_iter().map(PartProbe::new).collect();
+    watch.check()?;
     let part_facts = |part: &PartEvidence| PartFacts::of_part(part, watch);
     let jigs = measure_jigs(evidence, &outer, watch)?;
     let shape = measure_shapes(evidence, &shells, watch)?;
