@@ -12,9 +12,11 @@ use crate::mesh::TriMesh;
 /// Distance within which a jig stops a point of the outside, mm.
 const REACH_MM: f64 = 1.0;
 /// Distance of the points on the outside that a jig may stop, mm.
-const STEP_MM: f64 = 0.5;
+const STEP_MM: f64 = 0.15;
 /// Least part of a stop's direction in the plane of the joint: others hold nothing there.
 const IN_PLANE_RATIO: f64 = 0.9;
+/// Least part of the way to the jig that is normal to its face, if it is to stop a point.
+const FACING_RATIO: f64 = 0.99;
 
 /// A jig as found in its file.
 #[derive(Debug, Clone, PartialEq)]
@@ -205,13 +207,17 @@ impl<'a> Bench<'a> {
         Ok(stops)
     }
 
-    /// Returns the stop of a point of the outside; `None` if the jig is far from it.
+    /// Returns the stop of a point of the outside; `None` if the jig is far from it, or beside it.
     fn stop(&self, at: &Point) -> Option<Stop> {
         let nearest = self.surface.closest(at, REACH_MM, &[])?;
         let way = nearest.point - at;
+        let [a, b, c] = self.mesh.corners(nearest.triangle as usize);
+        let normal = (b - a).cross(&(c - a));
+        // Beside a corner of the jig there is room to pass it.
+        let is_ahead = way.dot(&normal).abs() >= FACING_RATIO * way.norm() * normal.norm();
         let flat = self.flat(&nearest.point) - self.flat(at);
         let in_plane = flat.norm();
-        (in_plane > IN_PLANE_RATIO * way.norm()).then(|| Stop {
+        (is_ahead && in_plane > IN_PLANE_RATIO * way.norm()).then(|| Stop {
             at: self.flat(at),
             normal: flat / in_plane,
             room_mm: in_plane,

@@ -656,15 +656,17 @@ def stops_in(jig, surface, outer, side):
     normal, out = np.array(jig["normal"], float), np.array(jig["out"], float)
     axes, near, far = np.stack([np.cross(normal, out), out]), *jig["ribs_mm"]
     stops = []
-    for height in np.linspace(near, far, 5):
+    for height in np.linspace(near, far, 9):
         section = outer.section(plane_origin=np.array(jig["point_mm"]) + side * height * normal, plane_normal=normal)
         for line in [] if section is None else section.discrete:
-            pieces = np.maximum(np.ceil(np.linalg.norm(np.diff(line, axis=0), axis=1) / 0.4), 1).astype(int)
+            pieces = np.maximum(np.ceil(np.linalg.norm(np.diff(line, axis=0), axis=1) / 0.15), 1).astype(int)
             points = np.concatenate([a + (b - a) * np.arange(n)[:, None] / n for a, b, n in zip(line, line[1:], pieces)])
-            nearest, distance, _ = trimesh.proximity.closest_point(surface, points)
+            nearest, distance, face = trimesh.proximity.closest_point(surface, points)
             flat = (nearest - points) @ axes.T
             room = np.linalg.norm(flat, axis=1)
-            held = (distance < 1) & (room > 0.9 * distance) & (room > 0)
+            # Beside a corner of the jig there is room to pass it.
+            ahead = np.abs(((nearest - points) * surface.face_normals[face]).sum(axis=1))
+            held = (distance < 1) & (room > 0.9 * distance) & (room > 0) & (ahead >= 0.99 * distance)
             stops += list(np.column_stack([points @ axes.T, flat / np.where(room > 0, room, 1)[:, None], room])[held])
     return np.array(stops)
 
@@ -834,13 +836,18 @@ def sight(cavity, cuts, parts, printer, rotations):
     surfaces = [(c, c.min(axis=1), c.max(axis=1), []) for c in near]
     owner_of = owners[trimesh.proximity.closest_point(welded_soup(all_near), points)[2]]
     heights = np.array([[(p - o) @ n for o, n in planes] for p in points]).reshape(len(points), len(planes))
+    index_of = {c["id"]: k for k, c in enumerate(cuts)}
+    # The sides of earlier cuts to which each cut is limited.
+    limits = [[(index_of[w["cut"]], 1 if w["side"] == "above" else -1) for w in c.get("within", [])] for c in cuts]
+    made_at = lambda place, k: all(((place - planes[j][0]) @ planes[j][1]) * sign >= -1e-6 for j, sign in limits[k])
+    mouths = [[(width, np.array([e for e in at if made_at(e, k)]).reshape(-1, 3)) for width, at in of] for k, of in enumerate(mouths)]
     seen = narrowly = needless = 0
     for index, point in enumerate(points):
         eyes = []
         for k, cut_mouths in enumerate(mouths):
             for width, at in cut_mouths:
                 # On the point's side of every other cut: else it would look through a piece that is not its own.
-                other = [j for j in range(len(planes)) if j != k]
+                other = [j for j in range(len(planes)) if j != k and made_at(point, j)]
                 beside = np.array([[(e - planes[j][0]) @ planes[j][1] for j in other] for e in at]).reshape(len(at), len(other))
                 own = (beside * heights[index, other] >= -1e-6).all(axis=1) if other else np.ones(len(at), bool)
                 eyes += [(width < tool, np.linalg.norm(e - point), e) for e in at[own]]

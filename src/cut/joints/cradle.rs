@@ -16,7 +16,19 @@ const STEP_MM: f64 = 0.02;
 const SPARE_MM: f64 = 0.01;
 
 /// Distance of the points of a body that a cradle may stop, mm.
-const SPACING_MM: f64 = 0.5;
+const SPACING_MM: f64 = 0.15;
+
+/// Depth by which a relieved floor is lowered, mm: nothing on it counts as a stop.
+const RELIEF_MM: f64 = 1.5;
+
+/// Half the width over which the slope of an outline is measured, mm.
+const SLOPE_MM: f64 = 0.25;
+
+/// Least width of a groove, and of a strip between two, mm: any printer prints it.
+const STRIP_MM: f64 = 1.0;
+
+/// Least part of the way to the outline that is normal to it, if it is to stop a point.
+const FACING_RATIO: f64 = 0.99;
 
 /// Sectors of direction and of place in each of which only the nearest stop counts.
 const SECTORS: f64 = 36.0;
@@ -99,10 +111,10 @@ impl Slab {
         floor.into_iter().fold(f64::INFINITY, f64::min)
     }
 
-    /// Returns the outline of a cradle across a window, no higher than `top_mm`: everywhere the gap
-    /// from the slab, however far the slab is lifted.
-    pub(crate) fn cradle(&self, window: [f64; 2], [gap_mm, top_mm]: [f64; 2]) -> Vec<Spot> {
-        let reach_mm = gap_mm + STEP_MM;
+    /// Returns the cradle across a window: everywhere the gap from the slab, however far the slab
+    /// is lifted.
+    pub(crate) fn cradle(&self, window: [f64; 2], gap_mm: f64) -> Cradle {
+        let reach_mm = gap_mm + 2.0 * STEP_MM;
         let wide = Row::over([window[0] - 2.0 * reach_mm, window[1] + 2.0 * reach_mm]);
         let (floor, row) = (self.floor(&wide), Row::over(window));
         let steps = (reach_mm / wide.step_mm).ceil() as usize + 1;
@@ -110,19 +122,21 @@ impl Slab {
             let here = ((x - wide.low) / wide.step_mm).max(0.0) as usize;
             let near = here.saturating_sub(steps)..(here + steps + 1).min(wide.count);
             let under = near.map(|step| {
-                let aside = (wide.at(step) - x).max(x - wide.at(step + 1)).max(0.0);
-                let rest = reach_mm * reach_mm - aside * aside;
+                // One step nearer, so that the sides between two corners keep the gap, too.
+                let aside = (wide.at(step) - x).max(x - wide.at(step + 1)) - row.step_mm;
+                let rest = gap_mm * gap_mm - aside.max(0.0).powi(2);
                 if rest > 0.0 {
                     floor[step] - rest.sqrt()
                 } else {
                     f64::INFINITY
                 }
             });
-            under.fold(top_mm, f64::min)
+            under.fold(f64::INFINITY, f64::min)
         };
-        let outline = (0..=row.count).map(|step| row.at(step));
-        let outline: Vec<Spot> = outline.map(|x| Spot::new(x, height(x))).collect();
-        thin(&outline)
+        Cradle {
+            heights: (0..=row.count).map(|step| height(row.at(step))).collect(),
+            row,
+        }
     }
 
     /// Returns points along the sides of its pieces, [`SPACING_MM`] apart at most.
@@ -159,6 +173,52 @@ impl Slab {
     }
 }
 
+/// The heights of a cradle in each step across, mm; infinite where no body lies over it.
+pub(crate) struct Cradle {
+    row: Row,
+    heights: Vec<f64>,
+}
+
+impl Cradle {
+    /// Returns its outline, no higher than `top_mm`. Floors less steep than `max_slope` are
+    /// lowered: a body that stands on two cheeks has no play, one that lies on a floor rolls.
+    pub(crate) fn outline(&self, top_mm: f64, max_slope: f64) -> Vec<Spot> {
+        let relieved = self.relieved(top_mm, max_slope);
+        let corner = |(step, &height): (usize, &f64)| {
+            let depth_mm = if relieved[step] { RELIEF_MM } else { 0.0 };
+            Spot::new(self.row.at(step), height.min(top_mm) - depth_mm)
+        };
+        let outline: Vec<Spot> = self.heights.iter().enumerate().map(corner).collect();
+        thin(&outline)
+    }
+
+    /// Returns for each corner whether the outline is lowered there. Strips and grooves too narrow
+    /// to print count as what surrounds them.
+    fn relieved(&self, top_mm: f64, max_slope: f64) -> Vec<bool> {
+        let (last, half) = (self.row.count, self.row.steps_in(SLOPE_MM));
+        let is_flat = |step: usize| {
+            let ends = [step.saturating_sub(half), (step + half).min(last)];
+            let [from, to] = ends.map(|end| self.heights[end].min(top_mm));
+            let width = self.row.at(ends[1]) - self.row.at(ends[0]);
+            self.heights[step] < top_mm && (to - from).abs() < max_slope * width
+        };
+        let mut relieved: Vec<bool> = (0..=last).map(is_flat).collect();
+        for kind in [true, false] {
+            drop_short_runs(&mut relieved, kind, self.row.steps_in(STRIP_MM));
+        }
+        relieved
+    }
+}
+
+/// Turns runs of one kind that are shorter than `least` into the other kind.
+fn drop_short_runs(flags: &mut [bool], kind: bool, least: usize) {
+    for run in flags.chunk_by_mut(|a, b| a == b) {
+        if run[0] == kind && run.len() < least {
+            run.fill(!kind);
+        }
+    }
+}
+
 /// Returns the stops of one point of a body: at the nearest floor and walls of an outline.
 fn touches(at: &Spot, outline: &[Spot], reach_mm: f64) -> Vec<Stop> {
     let from = outline
@@ -177,7 +237,10 @@ fn touches(at: &Spot, outline: &[Spot], reach_mm: f64) -> Vec<Stop> {
         let share = (at - side[0]).dot(&along) / along.norm_squared();
         let way = side[0] + along * share.clamp(0.0, 1.0) - at;
         let room_mm = way.norm();
-        if room_mm > 0.0 && room_mm <= found[kind].map_or(reach_mm, |stop| stop.room_mm) {
+        // Beside a corner there is room to pass it.
+        let is_ahead = way.perp(&along).abs() >= FACING_RATIO * room_mm * along.norm();
+        if is_ahead && room_mm > 0.0 && room_mm <= found[kind].map_or(reach_mm, |stop| stop.room_mm)
+        {
             found[kind] = Some(Stop {
                 at: *at,
                 normal: Way::from(way / room_mm),
@@ -203,6 +266,11 @@ impl Row {
             step_mm: (high - low) / count,
             count: count as usize,
         }
+    }
+
+    /// Returns the number of steps in a width.
+    fn steps_in(&self, width_mm: f64) -> usize {
+        (width_mm / self.step_mm).round() as usize
     }
 
     /// Returns the place at which a step begins.
@@ -309,7 +377,7 @@ mod tests {
         let surface = ball([0.0; 3], 10.0);
         let corners: Vec<[Point; 3]> = surface.mesh().iter_corners().collect();
         let slab = Slab::of(&corners, [1.0, 3.0]);
-        let outline = slab.cradle([-12.0, 12.0], [0.2, -2.0]);
+        let outline = slab.cradle([-12.0, 12.0], 0.2).outline(-2.0, 0.0);
         assert!(outline.windows(2).all(|side| side[0].x < side[1].x));
         let body = body_under(&outline, -14.0, [1.2, 2.8]).unwrap();
         assert!(body.signed_volume_mm3() > 0.0);
@@ -338,5 +406,32 @@ mod tests {
             let height = a.y + (b.y - a.y) * (corner.x - a.x) / (b.x - a.x);
             assert!((-1e-8..SPARE_MM + 1e-8).contains(&(corner.y - height)));
         }
+    }
+
+    #[test]
+    fn a_relieved_cradle_of_a_ball_touches_it_with_its_cheeks_only() {
+        let surface = ball([0.0; 3], 10.0);
+        let corners: Vec<[Point; 3]> = surface.mesh().iter_corners().collect();
+        let slab = Slab::of(&corners, [-1.0, 1.0]);
+        let cradle = slab.cradle([-12.0, 12.0], 0.2);
+        let [whole, relieved] = [0.0, 0.7].map(|slope| cradle.outline(-2.0, slope));
+        let lowest = |outline: &[Spot]| outline.iter().map(|c| c.y).fold(f64::INFINITY, f64::min);
+        let deeper_mm = lowest(&whole) - lowest(&relieved);
+        assert!((deeper_mm - RELIEF_MM).abs() < SPARE_MM, "{deeper_mm}");
+        // A slope of 0.7 is that of a circle of 10.2 mm at 5.8 mm beside its middle.
+        let stops = slab.stops(&relieved, 1.0);
+        let inmost = stops.iter().map(|stop| stop.at.x.abs());
+        let inmost_mm = inmost.fold(f64::INFINITY, f64::min);
+        assert!((5.5..6.2).contains(&inmost_mm), "{inmost_mm}");
+    }
+
+    #[test]
+    fn a_point_beside_a_corner_is_not_stopped_by_it() {
+        let outline = [(-4.0, 0.0), (-1.0, 0.0), (-1.0 + 1e-6, -2.0), (4.0, -2.0)];
+        let outline = outline.map(|(x, y)| Spot::new(x, y));
+        let above = touches(&Spot::new(-2.0, 0.1), &outline, 1.0);
+        assert!(matches!(above[..], [stop] if (stop.room_mm - 0.1).abs() < 1e-9));
+        // It lies 0.1 mm higher than the corner, and 0.3 mm beside it.
+        assert_eq!(touches(&Spot::new(-0.7, 0.1), &outline, 1.0), vec![]);
     }
 }

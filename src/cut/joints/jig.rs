@@ -5,11 +5,10 @@
 //! out. So the jig pulls off in one movement, whatever the body, and prints without support. Both
 //! parts are pressed down into it, and the same gap on both sides lets them meet.
 
-use std::cmp::Ordering;
-
 use rayon::prelude::*;
 
 use super::cradle::{Slab, View, body_under};
+use super::sketch::Sketch;
 use crate::{
     base::watch::Watch,
     cut::{
@@ -34,8 +33,15 @@ use crate::{
 /// Room on either side of a seam, for a finger with a cloth to wipe off glue, mm.
 pub const WIPING_ROOM_MM: f64 = 4.0;
 
-/// Thickness of a rib along the joint's normal, mm: it does not bend.
-const RIB_MM: f64 = 4.0;
+/// Distances of the ribs' faces from the joint, mm: the ribs do not bend.
+const RIBS_MM: [f64; 2] = [WIPING_ROOM_MM, WIPING_ROOM_MM + 4.0];
+
+/// Further ribs, for joints that the usual ones do not hold: thicker ones, and ones farther away.
+const FURTHER_RIBS_MM: [[f64; 2]; 3] = [
+    RIBS_MM,
+    [WIPING_ROOM_MM, WIPING_ROOM_MM + 6.0],
+    [2.0 * WIPING_ROOM_MM, 2.0 * WIPING_ROOM_MM + 6.0],
+];
 
 /// Width of a rib beside the body, mm.
 const CHEEK_MM: f64 = 4.0;
@@ -50,7 +56,22 @@ pub const PRESSED_MM: f64 = 0.03;
 const WAYS_OUT: usize = 36;
 
 /// Heights of the cradle's cheeks, as shares of the joint's height along the way out.
-const CHEEKS: [f64; 2] = [0.5, 0.75];
+const CHEEKS: &[f64] = &[0.5, 0.75];
+
+/// Further heights, for joints that the usual ones do not hold.
+const FURTHER_CHEEKS: &[f64] = &[0.3, 0.45, 0.6, 0.75, 0.9];
+
+/// Number of the best ways out about which jigs for such joints are sought.
+const BEST_WAYS: usize = 4;
+
+/// Ways out between two others, about the best ones.
+const WAYS_BETWEEN: [f64; 3] = [-0.5, 0.0, 0.5];
+
+/// Step of the best usual jig, as a ratio to the accepted one, beyond which there is no hope.
+const HOPE_RATIO: f64 = 2.5;
+
+/// Slopes of a cradle below which its floor is lowered, so that the body stands on its cheeks.
+const RELIEFS: [f64; 4] = [0.0, 0.35, 0.7, 1.2];
 
 /// Distance within which a corner of the body counts as stopped by the cradle, mm.
 const REACH_MM: f64 = 1.0;
@@ -129,44 +150,13 @@ struct Bench<'a> {
     request: &'a PlanRequest,
 }
 
-/// The outlines of a jig in the view along its joint.
-struct Sketch {
-    view: View,
-    /// The outlines of the ribs below and above the joint.
-    ribs: [Vec<Spot>; 2],
-    /// The heights of the plate's two faces, mm.
-    plate: [f64; 2],
-    play: Play,
-}
-
-impl Sketch {
-    /// Returns true if it is smaller than another, or tighter if either is not tight.
-    fn is_better(&self, other: &Self, tight_mm: f64) -> bool {
-        let [step_mm, other_mm] = [self, other].map(|sketch| sketch.play.step_mm.max(tight_mm));
-        match step_mm.total_cmp(&other_mm) {
-            Ordering::Equal => self.volume_mm3() < other.volume_mm3(),
-            order => order == Ordering::Less,
-        }
-    }
-
-    /// Returns an upper bound of its volume, mm³.
-    fn volume_mm3(&self) -> f64 {
-        let [low, _] = self.plate;
-        let area = |rib: &Vec<Spot>| {
-            let sides = rib.windows(2);
-            let areas = sides.map(|s| (s[1].x - s[0].x) * (0.5 * (s[0].y + s[1].y) - low));
-            areas.sum::<f64>()
-        };
-        self.ribs.iter().map(area).sum::<f64>() * RIB_MM
-    }
-}
-
 impl<'a> Bench<'a> {
     fn new(outside: &TriMesh, plane: &'a Plane, joint: &Joint, request: &'a PlanRequest) -> Self {
         let chart = Chart::of_plane(plane);
         let rim: Vec<Point2> =
             corners_of(joint.faces.iter().flat_map(|face| face.outline.corners()));
-        let reach_mm = WIPING_ROOM_MM + RIB_MM + request.pins.snug_gap_mm;
+        let [.., [_, farthest_mm]] = FURTHER_RIBS_MM;
+        let reach_mm = farthest_mm + request.pins.snug_gap_mm;
         let is_near = |corners: &[Point; 3]| {
             let heights = corners.each_ref().map(|p| plane.distance(p));
             let [low, high] = range(heights.into_iter());
@@ -183,33 +173,70 @@ impl<'a> Bench<'a> {
     /// Returns the smallest jig that holds the parts tightly, else the tightest that holds them as
     /// well as is asked for; `None` if none does.
     fn best(&self, watch: &Watch) -> Result<Option<Sketch>, CutError> {
-        let max_step_mm = self.request.pins.max_step_mm.unwrap_or(f64::INFINITY);
-        let max_step_mm = max_step_mm * (1.0 - RESERVE_RATIO);
+        let ways: Vec<f64> = (0..WAYS_OUT).map(|way| way as f64).collect();
+        let usual = self.sketches_along(&ways, &[RIBS_MM], CHEEKS, watch)?;
+        let mut tightest: Vec<(f64, f64)> = (ways.iter().zip(&usual))
+            .filter_map(|(way, found)| Some((least_step_mm(found)?, *way)))
+            .filter(|(step_mm, _)| *step_mm <= HOPE_RATIO * self.max_step_mm())
+            .collect();
+        let usual = self.choose(usual);
+        if usual.is_some() {
+            return Ok(usual);
+        }
+        tightest.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let best = tightest.iter().take(BEST_WAYS);
+        let ways: Vec<f64> = best
+            .flat_map(|(_, way)| WAYS_BETWEEN.map(|between| way + between))
+            .collect();
+        let further = self.sketches_along(&ways, &FURTHER_RIBS_MM, FURTHER_CHEEKS, watch)?;
+        Ok(self.choose(further))
+    }
+
+    /// Returns the step that a jig may leave, mm.
+    fn max_step_mm(&self) -> f64 {
+        self.request.pins.max_step_mm.unwrap_or(f64::INFINITY) * (1.0 - RESERVE_RATIO)
+    }
+
+    /// Returns jigs with each of some ways out, in their order: the choice is then the same on any
+    /// number of threads.
+    fn sketches_along(
+        &self,
+        ways: &[f64],
+        ribs: &[[f64; 2]],
+        cheeks: &[f64],
+        watch: &Watch,
+    ) -> Result<Vec<Vec<Sketch>>, CutError> {
         let (u, v) = self.plane.basis();
-        let along = |way: usize| {
-            watch.check()?;
-            let (sin, cos) = (std::f64::consts::TAU * way as f64 / WAYS_OUT as f64).sin_cos();
-            Ok(self.sketches(View::new(self.plane, u * cos + v * sin)))
+        let along = |way: &f64| {
+            let (sin, cos) = (std::f64::consts::TAU * way / WAYS_OUT as f64).sin_cos();
+            let view = View::new(self.plane, u * cos + v * sin);
+            let mut found = Vec::new();
+            for faces_mm in ribs {
+                watch.check()?;
+                found.extend(self.sketches(view, *faces_mm, cheeks));
+            }
+            Ok(found)
         };
-        let ways = (0..WAYS_OUT).into_par_iter().map(along);
+        ways.par_iter().map(along).collect()
+    }
+
+    /// Returns the best of some jigs that hold the parts.
+    fn choose(&self, sketches: Vec<Vec<Sketch>>) -> Option<Sketch> {
+        let max_step_mm = self.max_step_mm();
         let mut best: Option<Sketch> = None;
-        // In the order of the ways, so that the choice is the same on any number of threads.
-        for sketch in ways
-            .collect::<Result<Vec<_>, CutError>>()?
-            .into_iter()
-            .flatten()
-        {
+        for sketch in sketches.into_iter().flatten() {
             let is_held = sketch.play.step_mm <= max_step_mm;
             let is_better = |best: &Sketch| sketch.is_better(best, TIGHT_RATIO * max_step_mm);
             if is_held && best.as_ref().is_none_or(is_better) {
                 best = Some(sketch);
             }
         }
-        Ok(best)
+        best
     }
 
-    /// Returns jigs with one way out that hold both parts and fit the printer.
-    fn sketches(&self, view: View) -> Vec<Sketch> {
+    /// Returns jigs with one way out, and ribs between two distances from the joint, that hold both
+    /// parts and fit the printer.
+    fn sketches(&self, view: View, [near, far]: [f64; 2], cheeks: &[f64]) -> Vec<Sketch> {
         let gap_mm = self.request.pins.snug_gap_mm;
         let rim: Vec<Spot> = self.rim.iter().map(|p| flat(&view.local(p))).collect();
         let across = range(rim.iter().map(|spot| spot.x));
@@ -218,7 +245,6 @@ impl<'a> Bench<'a> {
         let window = [across[0] - beside_mm, across[1] + beside_mm];
         let local = |corners: &[Point; 3]| corners.each_ref().map(|p| view.local(p));
         let surface: Vec<[Point; 3]> = self.outside.iter().map(local).collect();
-        let [near, far] = [WIPING_ROOM_MM, WIPING_ROOM_MM + RIB_MM];
         // What is beyond a rib's face is no nearer to it than the gap.
         let slabs = [
             [-far - gap_mm, gap_mm - near],
@@ -227,11 +253,12 @@ impl<'a> Bench<'a> {
         .map(|heights| Slab::of(&surface, heights));
         let held = [[-far, -near], [near, far]].map(|heights| Slab::of(&surface, heights));
         let under_seam_mm = Slab::of(&surface, [-near, near]).lowest_mm(window);
-        let sketch = |share: &f64| {
+        let cradles = slabs.each_ref().map(|slab| slab.cradle(window, gap_mm));
+        let sketch = |(share, slope): (f64, f64)| {
             let top_mm = low + share * (high - low);
-            let ribs = slabs
+            let ribs = cradles
                 .each_ref()
-                .map(|slab| slab.cradle(window, [gap_mm, top_mm]));
+                .map(|cradle| cradle.outline(top_mm, slope));
             let press = Stop {
                 at: Spot::new(0.5 * (across[0] + across[1]), high),
                 normal: Way::new(0.0, -1.0),
@@ -247,13 +274,17 @@ impl<'a> Bench<'a> {
             let top = deepest.fold(under_seam_mm - WIPING_ROOM_MM, f64::min);
             let sketch = Sketch {
                 view,
+                ribs_mm: [near, far],
                 plate: [top - PLATE_MM, top],
                 ribs,
                 play,
             };
             self.fits(&sketch).then_some(sketch)
         };
-        CHEEKS.iter().filter_map(sketch).collect()
+        let kinds = cheeks
+            .iter()
+            .flat_map(|share| RELIEFS.map(|slope| (*share, slope)));
+        kinds.filter_map(sketch).collect()
     }
 
     /// Returns true if a jig fits the printer, lying or turned by a right angle.
@@ -261,11 +292,7 @@ impl<'a> Bench<'a> {
         let corners = || sketch.ribs.iter().flatten();
         let [low, high] = range(corners().map(|corner| corner.x));
         let [_, top] = range(corners().map(|corner| corner.y));
-        let size = [
-            high - low,
-            2.0 * (WIPING_ROOM_MM + RIB_MM),
-            top - sketch.plate[0],
-        ];
+        let size = [high - low, 2.0 * sketch.ribs_mm[1], top - sketch.plate[0]];
         let Some(room) = self.request.build_volume_mm else {
             return true;
         };
@@ -275,7 +302,7 @@ impl<'a> Bench<'a> {
 
     /// Builds a jig.
     fn build(&self, sketch: &Sketch, joint: usize, parts: [PartId; 2]) -> Result<Jig, CutError> {
-        let [near, far] = [WIPING_ROOM_MM, WIPING_ROOM_MM + RIB_MM];
+        let [near, far] = sketch.ribs_mm;
         let [low, top] = sketch.plate;
         let body = |outline: &[Spot], heights: [f64; 2]| {
             let mesh = body_under(outline, low, heights).map_err(ClipError::from)?;
@@ -283,7 +310,7 @@ impl<'a> Bench<'a> {
         };
         let [below, above] = &sketch.ribs;
         let ends = [below[0], below[below.len() - 1]].map(|corner| Spot::new(corner.x, top));
-        let inside = near + 0.5 * RIB_MM;
+        let inside = 0.5 * (near + far);
         let plate = body(&ends, [-inside, inside])?;
         let whole = plate
             .union(&body(below, [-far, -near])?)?
@@ -322,6 +349,12 @@ impl<'a> Bench<'a> {
         let [x, y, z] = axes.each_ref().map(row);
         [x, y, z, [0.0, 0.0, 0.0, 1.0]]
     }
+}
+
+/// Returns the least step of some jigs, mm.
+fn least_step_mm(sketches: &[Sketch]) -> Option<f64> {
+    let steps = sketches.iter().map(|sketch| sketch.play.step_mm);
+    steps.min_by(f64::total_cmp)
 }
 
 fn flat(p: &Point) -> Spot {

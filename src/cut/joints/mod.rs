@@ -17,6 +17,7 @@ pub(crate) mod pin_size;
 pub(crate) mod pins;
 pub(crate) mod placement;
 pub(crate) mod rod;
+pub(crate) mod sketch;
 
 #[cfg(test)]
 mod tests;

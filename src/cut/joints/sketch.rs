@@ -1,0 +1,40 @@
+//! Sketches of jigs: their outlines and the play of what lies in them, before any surface is made.
+
+use std::cmp::Ordering;
+
+use super::cradle::View;
+use crate::geom::play::{Play, Spot};
+
+/// The outlines of a jig in the view along its joint.
+pub(super) struct Sketch {
+    pub(super) view: View,
+    /// The outlines of the ribs below and above the joint.
+    pub(super) ribs: [Vec<Spot>; 2],
+    /// The distances of the ribs' faces from the joint, mm.
+    pub(super) ribs_mm: [f64; 2],
+    /// The heights of the plate's two faces, mm.
+    pub(super) plate: [f64; 2],
+    pub(super) play: Play,
+}
+
+impl Sketch {
+    /// Returns true if it is smaller than another, or tighter if either is not tight.
+    pub(super) fn is_better(&self, other: &Self, tight_mm: f64) -> bool {
+        let [step_mm, other_mm] = [self, other].map(|sketch| sketch.play.step_mm.max(tight_mm));
+        match step_mm.total_cmp(&other_mm) {
+            Ordering::Equal => self.volume_mm3() < other.volume_mm3(),
+            order => order == Ordering::Less,
+        }
+    }
+
+    /// Returns an upper bound of its volume, mm³.
+    pub(super) fn volume_mm3(&self) -> f64 {
+        let [low, _] = self.plate;
+        let area = |rib: &Vec<Spot>| {
+            let sides = rib.windows(2);
+            let areas = sides.map(|s| (s[1].x - s[0].x) * (0.5 * (s[0].y + s[1].y) - low));
+            areas.sum::<f64>()
+        };
+        self.ribs.iter().map(area).sum::<f64>() * (self.ribs_mm[1] - self.ribs_mm[0])
+    }
+}
