@@ -31,9 +31,7 @@ macro_rules! rows {
 }
 
 rows! {
-    humpty_floats_on_polyjet
     homer_stands_on_filament
-    fertility_spins_on_filament
     fertility_spins_on_form3
     elephant_spins_on_filament
     homer_spins_on_filament
