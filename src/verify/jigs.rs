@@ -15,6 +15,8 @@ const REACH_MM: f64 = 1.0;
 const STEP_MM: f64 = 0.15;
 /// Least part of a stop's direction in the plane of the joint: others hold nothing there.
 const IN_PLANE_RATIO: f64 = 0.9;
+/// Distance of the points on the outside from the ends of the ribs that they touch, mm.
+const WITHIN_MM: f64 = 1e-3;
 /// Least part of the way to the jig that is normal to its face, if it is to stop a point.
 const FACING_RATIO: f64 = 0.99;
 
@@ -193,7 +195,9 @@ impl<'a> Bench<'a> {
     /// Returns the stops of the part on one side of the joint, -1 or 1.
     fn stops(&self, side: f64, watch: &Watch) -> Result<Vec<Stop>, Cancelled> {
         let plane = self.plane();
+        // Just within the ribs: an edge of a rib would count with the face of its end.
         let [near, far] = self.jig.ribs_mm;
+        let [near, far] = [near + WITHIN_MM, far - WITHIN_MM];
         let slab = self.outer.iter_corners().filter_map(|corners| {
             let beyond = clip(&corners, |p| near - side * plane.distance(p));
             let within = clip(&beyond, |p| side * plane.distance(p) - far);

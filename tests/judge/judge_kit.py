@@ -656,7 +656,8 @@ def stops_in(jig, surface, outer, side):
     normal, out = np.array(jig["normal"], float), np.array(jig["out"], float)
     axes, near, far = np.stack([np.cross(normal, out), out]), *jig["ribs_mm"]
     stops = []
-    for height in np.linspace(near, far, 9):
+    # Just within the ribs: an edge of a rib would count with the face of its end.
+    for height in np.linspace(near + 1e-3, far - 1e-3, 9):
         section = outer.section(plane_origin=np.array(jig["point_mm"]) + side * height * normal, plane_normal=normal)
         for line in [] if section is None else section.discrete:
             pieces = np.maximum(np.ceil(np.linalg.norm(np.diff(line, axis=0), axis=1) / 0.15), 1).astype(int)
