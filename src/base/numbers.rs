@@ -6,7 +6,7 @@ const SIGNIFICANT_DIGITS: i32 = 4;
 /// Magnitude below which a number is written with a power of ten.
 const SMALL: f64 = 1e-3;
 
-/// Grams or cubic centimetres below which a hundredth is told.
+/// Grams or cubic centimetres below which a hundredth is reported.
 const LIGHT: f64 = 10.0;
 
 /// Most decimals of a small quantity that is measured.

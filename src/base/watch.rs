@@ -58,7 +58,7 @@ impl Phase {
         Self::Report,
     ];
 
-    /// Returns the key under which the time of the phase is told.
+    /// Returns the key under which the time of the phase is reported.
     pub fn key(self) -> &'static str {
         match self {
             Self::Load => "load",

@@ -136,7 +136,7 @@ fn find_uncleanable(round: &Round, plan: &Verdict<CutPlan, Obstacle>) -> Result<
         kept: unclean.iter().map(kept).collect(),
         bodies: unclean
             .into_iter()
-            .flat_map(|unclean| unclean.lumps)
+            .flat_map(|unclean| unclean.bodies)
             .collect(),
         margin_openings,
     })

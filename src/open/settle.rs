@@ -82,7 +82,7 @@ pub fn settle(
             Verdict::Found(Step::Keep(unclean)) => unclean,
             Verdict::No(refusal) => return Ok(Verdict::No(refusal)),
         };
-        let bodies = unclean.into_iter().flat_map(|unclean| unclean.lumps);
+        let bodies = unclean.into_iter().flat_map(|unclean| unclean.bodies);
         let bodies: Vec<TriMesh> = bodies.collect();
         voids = resolver.without(&voids, &bodies, policy.settle_margin_openings)?;
     }

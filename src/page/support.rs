@@ -4,7 +4,7 @@ use crate::base::numbers::measured;
 use crate::base::units::{MM2_PER_CM2, MM3_PER_CM3};
 use crate::sheet::{Checklist, PartRow, Process, SupportMethod, SupportRow};
 
-/// Area up to which support is not told, mm²: a point or two.
+/// Area up to which support is not reported, mm²: a point or two.
 const LEAST_AREA_MM2: f64 = 0.5;
 
 /// Words the support setting of the slicer for a part, and where support touches it.
@@ -32,7 +32,7 @@ fn support_words(support: &SupportRow) -> String {
     format!("on: {areas}")
 }
 
-/// Least mass of support that is told, g.
+/// Least mass of support that is reported, g.
 const LEAST_G: f64 = 0.05;
 
 /// Words the support of a part; `None` if the printer does not say which surfaces need it.

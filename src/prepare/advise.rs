@@ -1,4 +1,4 @@
-//! Advice: remedies for an impossible goal, each carried out before it is told.
+//! Advice: remedies for an impossible goal, each carried out before it is reported.
 
 use super::outcome::Impossible;
 use super::solve::workshop;

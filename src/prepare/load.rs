@@ -21,7 +21,7 @@ pub fn printer(job: &Job, watch: &Watch) -> Result<Printer, Error> {
 
 /// Reads the job's model, repairs it and proves that it bounds one solid body.
 ///
-/// Defects are told at their places in the file, not in mm.
+/// Defects are reported at their places in the file, not in mm.
 pub fn model(job: &Job, printer: &Printer, watch: &Watch) -> Result<Model, Error> {
     let path = || job.model.path.clone();
     let bytes = io::read_bytes(&job.model.path)?;

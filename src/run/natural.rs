@@ -7,7 +7,7 @@ use crate::goal::{Up, UprightPose, UprightReason};
 
 /// A lead below which the next pose is about as likely. Sampling moves a lead by some hundredths.
 const CLEAR_LEAD: f64 = 0.1;
-/// The number of reasons that are told.
+/// The number of reasons that are reported.
 const MOST_REASONS: usize = 3;
 
 /// The pose in which the model stands by nature.
@@ -99,17 +99,17 @@ mod tests {
     #[test]
     fn the_natural_up_says_why_and_what_to_type_for_the_next_best() {
         let name = |pose: &UprightPose| Up::Along(pose.up.into());
-        let told = |lead| {
+        let words = |lead| {
             let poses = [pose(Vector::y(), lead), pose(Vector::x(), -lead)];
             NaturalUp::of(&poses, name).to_string()
         };
-        let clear = told(0.5);
+        let clear = words(0.5);
         assert!(clear.starts_with("`up = \"0,1,0\"` was taken"), "{clear}");
         assert!(clear.contains("4 separate feet"), "{clear}");
         assert!(
             clear.ends_with("the next best is `up = \"1,0,0\"`"),
             "{clear}"
         );
-        assert!(told(0.05).ends_with("`up = \"1,0,0\"` is about as likely"));
+        assert!(words(0.05).ends_with("`up = \"1,0,0\"` is about as likely"));
     }
 }

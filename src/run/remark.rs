@@ -1,4 +1,4 @@
-//! Facts of a run that a person is told, worded only when they are shown.
+//! Facts of a run that are reported to a person, worded only when they are shown.
 
 use std::fmt;
 

@@ -5,7 +5,7 @@ use super::Checklist;
 /// Share of the best figure from which a sheet says what took it.
 const FAR_RATIO: f64 = 0.1;
 
-/// Least share of the best figure that is told on its own.
+/// Least share of the best figure that is reported on its own.
 const LEAST_TOLD_RATIO: f64 = 0.01;
 
 /// Something for which a part of the goal's figure was given up.

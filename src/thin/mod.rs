@@ -25,7 +25,7 @@ pub use places::ThinPlace;
 
 /// A feature that sticks out by more than this many walls is lost when it does not print.
 pub const LEAST_LENGTH_WALLS: f64 = 3.0;
-/// A thin end that is longer than this many walls is told.
+/// A thin end that is longer than this many walls is reported.
 const LEAST_TOLD_WALLS: f64 = 1.0;
 
 /// The thin features of a model.

@@ -11,7 +11,7 @@ const NEIGHBOUR_SPACINGS: f64 = 2.2;
 const SAME_SIDE_COSINE: f64 = 0.0;
 /// A width counts as thin below this share of the wall: facets and rounding.
 const THIN_RATIO: f64 = 0.98;
-/// A piece behind a neck is told if it is wider than this many walls.
+/// A piece behind a neck is reported if it is wider than this many walls.
 const LEAST_PIECE_WALLS: f64 = 3.0;
 
 /// A thin feature.

@@ -10,7 +10,7 @@ use crate::run::reasons;
 
 /// The most characters of a choice: it stands behind a mark.
 const LINE_CHARS: usize = 76;
-/// The least lean of a direction that is told, degrees.
+/// The least lean of a direction that is reported, degrees.
 const LEAST_LEAN_DEG: f64 = 0.5;
 
 /// A goal, in the words of a person who does not know ours.

@@ -162,12 +162,12 @@ mod tests {
         ];
         for planes in &sets {
             let tree = CutTree::everywhere(planes);
-            let told = accesses(&chambers, &tree, &request).unwrap();
-            for (chamber, told) in chambers.iter().zip(told) {
+            let found = accesses(&chambers, &tree, &request).unwrap();
+            for (chamber, found) in chambers.iter().zip(found) {
                 let glance = chamber.estimate_sight_ratio(&tree, &request).unwrap();
                 assert!(
-                    (glance - told.sight_ratio).abs() < 0.02,
-                    "{planes:?}: {glance} against {told:?}"
+                    (glance - found.sight_ratio).abs() < 0.02,
+                    "{planes:?}: {glance} against {found:?}"
                 );
             }
         }

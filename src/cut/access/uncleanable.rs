@@ -51,7 +51,7 @@ pub struct Unclean {
     /// The reason.
     pub cause: UncleanCause,
     /// The bodies inside it that should be kept solid.
-    pub lumps: Vec<TriMesh>,
+    pub bodies: Vec<TriMesh>,
 }
 
 /// Returns the voids that cannot be cleaned with this plan, with the bodies to keep solid in each.
@@ -97,7 +97,7 @@ pub fn find_unclean(
         Ok(Unclean {
             void,
             cause,
-            lumps: solid,
+            bodies: solid,
         })
     };
     unclean.par_iter().map(of).collect()
@@ -123,7 +123,7 @@ pub fn find_closed(hollowed: &Hollowed, cuts: &[Cut]) -> Result<Vec<Unclean>, Cu
     let all = |(id, void): (VoidId, &Void)| Unclean {
         void: id,
         cause: UncleanCause::Closed,
-        lumps: vec![void.mesh().clone()],
+        bodies: vec![void.mesh().clone()],
     };
     Ok(unmet.map(all).collect())
 }
@@ -398,16 +398,16 @@ mod tests {
         let plan = plan_by(&hollowed, &request, &order).unwrap();
         let found = find_unclean(&hollowed, &plan, &request, false).unwrap();
         assert_eq!(
-            (found.len(), found[0].lumps.len()),
+            (found.len(), found[0].bodies.len()),
             (1, 1),
             "{:?}",
             plan.voids
         );
-        let lump = found[0].lumps[0].aabb();
-        assert!(lump.min.x > 6.0 && lump.max.x > 39.0, "{lump:?}");
+        let body = found[0].bodies[0].aabb();
+        assert!(body.min.x > 6.0 && body.max.x > 39.0, "{body:?}");
         assert!(matches!(found[0].cause, UncleanCause::Hidden { .. }));
         let all = find_unclean(&hollowed, &plan, &request, true).unwrap();
-        assert_eq!(all[0].lumps, vec![hollowed.voids[0].mesh().clone()]);
+        assert_eq!(all[0].bodies, vec![hollowed.voids[0].mesh().clone()]);
     }
 
     /// Returns a block with a post, hollow up to a thin wall below the post's top, and cuts across

@@ -36,8 +36,8 @@ pub const WIPING_ROOM_MM: f64 = 4.0;
 /// Distances of the ribs' faces from the joint, mm: the ribs do not bend.
 const RIBS_MM: [f64; 2] = [WIPING_ROOM_MM, WIPING_ROOM_MM + 4.0];
 
-/// Further ribs, for joints that the usual ones do not hold: thicker ones, and ones farther away.
-const FURTHER_RIBS_MM: [[f64; 2]; 3] = [
+/// More ribs, for joints that the usual ones do not hold: thicker ones, and ones farther away.
+const EXTRA_RIBS_MM: [[f64; 2]; 3] = [
     RIBS_MM,
     [WIPING_ROOM_MM, WIPING_ROOM_MM + 6.0],
     [2.0 * WIPING_ROOM_MM, 2.0 * WIPING_ROOM_MM + 6.0],
@@ -58,8 +58,8 @@ const WAYS_OUT: usize = 36;
 /// Heights of the cradle's cheeks, as shares of the joint's height along the way out.
 const CHEEKS: &[f64] = &[0.5, 0.75];
 
-/// Further heights, for joints that the usual ones do not hold.
-const FURTHER_CHEEKS: &[f64] = &[0.3, 0.45, 0.6, 0.75, 0.9];
+/// More heights, for joints that the usual ones do not hold.
+const EXTRA_CHEEKS: &[f64] = &[0.3, 0.45, 0.6, 0.75, 0.9];
 
 /// Number of the best ways out about which jigs for such joints are sought.
 const BEST_WAYS: usize = 4;
@@ -155,7 +155,7 @@ impl<'a> Bench<'a> {
         let chart = Chart::of_plane(plane);
         let rim: Vec<Point2> =
             corners_of(joint.faces.iter().flat_map(|face| face.outline.corners()));
-        let [.., [_, farthest_mm]] = FURTHER_RIBS_MM;
+        let [.., [_, farthest_mm]] = EXTRA_RIBS_MM;
         let reach_mm = farthest_mm + request.pins.snug_gap_mm;
         let is_near = |corners: &[Point; 3]| {
             let heights = corners.each_ref().map(|p| plane.distance(p));
@@ -188,8 +188,8 @@ impl<'a> Bench<'a> {
         let ways: Vec<f64> = best
             .flat_map(|(_, way)| WAYS_BETWEEN.map(|between| way + between))
             .collect();
-        let further = self.sketches_along(&ways, &FURTHER_RIBS_MM, FURTHER_CHEEKS, watch)?;
-        Ok(self.choose(further))
+        let extra = self.sketches_along(&ways, &EXTRA_RIBS_MM, EXTRA_CHEEKS, watch)?;
+        Ok(self.choose(extra))
     }
 
     /// Returns the step that a jig may leave, mm.

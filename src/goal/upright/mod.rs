@@ -42,7 +42,7 @@ use symmetry::{Looking, Mirror};
 const SAME_COSINE: f64 = 0.966;
 /// The number of poses that are filled with liquid: the best by everything else.
 const MOST_FILLED: usize = 16;
-/// The number of poses that are told.
+/// The number of poses that are listed.
 const MOST_TOLD: usize = 6;
 /// Scores that differ by less are a tie: rounding and sampling move them by as much.
 const TIE: f64 = 0.01;
@@ -103,7 +103,7 @@ fn tell(shape: &Shape, mirrors: &[Mirror], ranked: Vec<Judged>) -> Vec<UprightPo
         pose.moved_to(up)
     };
     let steady = ranked.into_iter().take(2 * MOST_TOLD).map(steady);
-    let mut told: Vec<UprightPose> = distinct(steady.collect())
+    let mut listed: Vec<UprightPose> = distinct(steady.collect())
         .iter()
         .take(MOST_TOLD)
         .map(|pose| UprightPose {
@@ -113,26 +113,26 @@ fn tell(shape: &Shape, mirrors: &[Mirror], ranked: Vec<Judged>) -> Vec<UprightPo
             reasons: pose.reasons(),
         })
         .collect();
-    break_tie(&mut told);
-    let best = told.first().map_or(0.0, |pose| pose.score);
-    let others = told.iter().skip(1).map(|pose| pose.score);
+    break_tie(&mut listed);
+    let best = listed.first().map_or(0.0, |pose| pose.score);
+    let others = listed.iter().skip(1).map(|pose| pose.score);
     let second = others.fold(f64::NEG_INFINITY, f64::max);
-    for (rank, pose) in told.iter_mut().enumerate() {
+    for (rank, pose) in listed.iter_mut().enumerate() {
         pose.lead = pose.score - if rank == 0 { second } else { best };
     }
-    told
+    listed
 }
 
 /// Puts the one nearest to the file's z before the others that are as good as the best.
-fn break_tie(told: &mut [UprightPose]) {
-    let best = told.first().map_or(0.0, |pose| pose.score);
-    let tied = told
+fn break_tie(listed: &mut [UprightPose]) {
+    let best = listed.first().map_or(0.0, |pose| pose.score);
+    let tied = listed
         .iter()
         .take_while(|pose| pose.score > best - TIE)
         .count();
-    let higher = |a: &usize, b: &usize| told[*a].up.z.total_cmp(&told[*b].up.z).then(b.cmp(a));
+    let higher = |a: &usize, b: &usize| listed[*a].up.z.total_cmp(&listed[*b].up.z).then(b.cmp(a));
     if let Some(nearest) = (0..tied).max_by(higher).filter(|_| tied > 1) {
-        told[..=nearest].rotate_right(1);
-        told[0].reasons.push(UprightReason::FileUp);
+        listed[..=nearest].rotate_right(1);
+        listed[0].reasons.push(UprightReason::FileUp);
     }
 }

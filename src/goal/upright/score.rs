@@ -54,7 +54,7 @@ const SKEWNESS: f64 = 0.5;
 const SLACK_RATIO: f64 = 0.005;
 /// The tilt of a model that hardly anything topples, degrees.
 const WIDE_DEG: f64 = 90.0;
-/// Reasons that weigh less are not told.
+/// Reasons that weigh less are not reported.
 const LEAST_TOLD: f64 = 0.08;
 
 /// A reason with its weight in the score.
@@ -133,10 +133,10 @@ impl Judged {
 
     /// Returns the reasons worth telling, the weightiest first.
     pub fn reasons(&self) -> Vec<UprightReason> {
-        let mut told = self.weighed.clone();
-        told.retain(|(_, weight)| *weight >= LEAST_TOLD);
-        told.sort_by(|a, b| b.1.total_cmp(&a.1));
-        told.into_iter().map(|(reason, _)| reason).collect()
+        let mut reported = self.weighed.clone();
+        reported.retain(|(_, weight)| *weight >= LEAST_TOLD);
+        reported.sort_by(|a, b| b.1.total_cmp(&a.1));
+        reported.into_iter().map(|(reason, _)| reason).collect()
     }
 }
 

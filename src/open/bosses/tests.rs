@@ -1,4 +1,4 @@
-//! Bosses on towers and chimneys: who gets them, at which price, and what is told of the rest.
+//! Bosses on towers and chimneys: who gets them, at which price, and what is said of the rest.
 
 use super::*;
 use crate::cut::{Obstacle, PartId};

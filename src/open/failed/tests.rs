@@ -33,7 +33,7 @@ fn cost(loss_ratio: f64) -> Refusal {
     Refusal::CostTooMuch { loss_ratio }
 }
 
-/// Returns the reasons that are told, in their order.
+/// Returns the reasons that are reported, in their order.
 fn reasons(failed: &Failed) -> Vec<Refusal> {
     let remarks = failed.remarks().into_iter();
     let reason = |remark| match remark {

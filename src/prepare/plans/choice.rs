@@ -1,4 +1,4 @@
-//! A plan as it is told: what it reaches, where its seams run, what it is made of.
+//! A plan as it is reported: what it reaches, where its seams run, what it is made of.
 
 use crate::advice::Reached;
 use crate::base::units::format_count;
@@ -32,7 +32,7 @@ pub struct PlanChoice {
     pub offers: Vec<String>,
 }
 
-/// The seam of a cut, as it is told.
+/// The seam of a cut, as it is reported.
 #[derive(Debug, Clone, serde::Serialize)]
 pub struct SeamRow {
     /// The cut's id.
