@@ -14,10 +14,11 @@
 //! | What is tried if the goal cannot be met? | `remedies` in `prepare/advise.rs`; the trials are in `advice/remedy.rs` |
 //! | Which cut is better than another, and by how much? | `penalty` and `Term` in `cut/planner/score.rs` |
 //! | What of a seam is seen, and what does it cost? | `look` in `cut/seam/look.rs` weighs the outside, `Skin` in `cut/seam/skin.rs` prices a seam |
-//! | When does a plan give way to one with hidden seams? | `hide_seams` in `open/ladder.rs`, within `seam_loss_ratio` of `run/policy.rs` |
+//! | When does a plan give way to one with hidden seams? | `hide_seams` in `open/ladder/preferences.rs`, within `seam_loss_ratio` of `run/policy.rs` |
 //! | Where is the pin's diameter decided? | `size_pairs` in `cut/joints/pin_size.rs`, from the profile by `cut/for_printer.rs` |
 //! | What happens if no cut opens a void? | `Obstacle::Unopenable` of `cut/planner/search.rs` makes `open/clean.rs` keep the void solid and solve again |
 //! | What happens if a joint has no room for pins? | `climb` in `open/ladder.rs` tries each `Rung` of `run/policy.rs` |
+//! | Who holds the parts while glue sets if pins do not? | `jigs` in `cut/joints/jig.rs`, judged by `measure_jigs` in `verify/jigs.rs` |
 //! | Where do the files of the parts come from? | `make` in `make/parts.rs` writes, reads back and corrects them |
 //! | Who says that a promise is kept, and within which limit? | `checks` in `verify/checks.rs`; each limit has its reason in `verify/limits.rs` |
 //! | Where does a number on the job sheet come from? | `sheet/from_run/checklist.rs` fills the `Checklist` that `page/job_sheet.rs` prints |
