@@ -418,8 +418,8 @@ mod tests {
         let lowest = |outline: &[Spot]| outline.iter().map(|c| c.y).fold(f64::INFINITY, f64::min);
         let deeper_mm = lowest(&whole) - lowest(&relieved);
         assert!((deeper_mm - RELIEF_MM).abs() < SPARE_MM, "{deeper_mm}");
-        // A slope of 0.7 is that of a circle of 10.2 mm at 5.8 mm beside its middle, give or take
-        // a facet of the ball and the room of a point before the groove's wall.
+        // A slope of 0.7 is that of a circle of 10.2 mm at 5.8 mm beside its middle. The ball has
+        // facets, and points just before the wall of the groove count as near.
         let stops = slab.stops(&relieved, 1.0);
         // The walls of the groove stop it too, but only after a long way.
         let near = stops.iter().filter(|stop| stop.room_mm < 0.25);
