@@ -16,6 +16,11 @@ use crate::interior::Columns;
 use crate::mesh::Solid;
 use crate::shell::Shell;
 
+/// The share of the effect of ballast that is kept in reserve where a part allows it.
+///
+/// What is kept solid for cleaning and joints takes from what hollowing adds. A rocker arm with
+/// just enough steel ended at its grade, and with a larger ball in full balance.
+const RESERVE_RATIO: f64 = 0.5;
 /// The columns a side during the search: each place takes a solve.
 const SEARCHING_COLUMNS: usize = 60;
 /// The columns a side on which the places are confirmed: as many as at a run's first level.
@@ -129,7 +134,7 @@ impl<'a> Search<'a> {
                 .iter()
                 .filter(heavy_enough)
                 .filter_map(|ball| self.place_if_possible(ball, count));
-            first_full(found, |found| self.rank(&found.solution))
+            first_of_most_merit(found, |found| self.merit(found))
         })
     }
 
@@ -217,18 +222,36 @@ impl<'a> Search<'a> {
         })
     }
 
+    /// Returns what speaks for a load that makes the goal possible.
+    fn merit(&self, found: &Found) -> Merit {
+        if !self.rank(&found.solution).is_full() {
+            return Merit::Partial;
+        }
+        let left = self.solve_with(&found.load, 1.0 - RESERVE_RATIO, &self.fine);
+        if self.rank(&left).is_full() {
+            Merit::InReserve
+        } else {
+            Merit::Full
+        }
+    }
+
     /// Solves for the interior around a load.
     fn solve_around(&self, load: Load, columns: &Columns) -> Found {
+        let solution = self.solve_with(&load, 1.0, columns);
+        Found { load, solution }
+    }
+
+    /// Solves for the interior around a load of which only a share acts.
+    fn solve_with(&self, load: &Load, share: f64, columns: &Columns) -> Solution {
         let goal = &self.shop.placement.goal;
         let columns = load.carve(columns.clone(), &goal.frame);
-        let fixed = goal.solid + load.excess().in_frame(&goal.frame);
+        let fixed = goal.solid + load.excess().in_frame(&goal.frame) * share;
         let problem = Problem {
             goal,
             fixed,
             columns: &columns,
         };
-        let solution = solve(&problem, &Settings::default(), &self.watch);
-        Found { load, solution }
+        solve(&problem, &Settings::default(), &self.watch)
     }
 
     fn empty_load(&self) -> Load {
@@ -245,16 +268,33 @@ impl<'a> Search<'a> {
     }
 }
 
-/// Returns the first that meets the goal as asked; if there is none, the first.
-fn first_full(
-    mut found: impl Iterator<Item = Found>,
-    rank: impl Fn(&Found) -> Rank,
-) -> Option<Found> {
-    let first = found.next()?;
-    if rank(&first).is_full() {
-        return Some(first);
+/// What speaks for a load that makes the goal possible; more is better.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Merit {
+    /// It meets the goal by another objective only.
+    Partial,
+    /// It meets the goal as asked.
+    Full,
+    /// It meets the goal as asked, and would with less of its effect, too.
+    InReserve,
+}
+
+/// Returns the first of those with the most merit. None is looked at after one with a reserve.
+fn first_of_most_merit<T>(
+    found: impl Iterator<Item = T>,
+    merit: impl Fn(&T) -> Merit,
+) -> Option<T> {
+    let mut best: Option<(Merit, T)> = None;
+    for other in found {
+        let merit = merit(&other);
+        if best.as_ref().is_none_or(|(most, _)| merit > *most) {
+            best = Some((merit, other));
+        }
+        if merit == Merit::InReserve {
+            break;
+        }
     }
-    Some(found.find(|other| rank(other).is_full()).unwrap_or(first))
+    best.map(|(_, found)| found)
 }
 
 #[cfg(test)]
@@ -427,6 +467,35 @@ mod tests {
         let (solid, request) = leaning();
         let found = search(&solid, FIGURE_WALL_MM, request, "nut-m3").unwrap();
         assert!(!found.load.parts.is_empty() && found.solution.is_usable());
+    }
+
+    #[test]
+    fn of_as_many_balls_the_lightest_with_a_reserve_is_taken_else_the_lightest_that_does() {
+        use Merit::{Full, InReserve, Partial};
+        let taken = |merits: &[Merit]| {
+            let balls = merits.iter().copied().enumerate();
+            first_of_most_merit(balls, |ball| ball.1).map(|ball| ball.0)
+        };
+        assert_eq!(taken(&[Partial, Full, InReserve, InReserve]), Some(2));
+        assert_eq!(taken(&[Partial, Full, Full]), Some(1));
+        assert_eq!(taken(&[Partial, Partial]), Some(0));
+        assert_eq!(taken(&[]), None);
+    }
+
+    #[test]
+    fn automatic_ballast_still_stands_with_half_of_its_effect() {
+        let (solid, request) = leaning();
+        let found = search(&solid, FIGURE_WALL_MM, request, "auto").unwrap();
+        let placement = place(&solid, FIGURE_WALL_MM, request);
+        let shop = Workshop {
+            solid: &solid,
+            placement: &placement,
+            wall_mm: FIGURE_WALL_MM,
+            fit: found.load.fit,
+            density_g_cm3: DENSITY_G_CM3,
+        };
+        let search = Search::new(shop, &Watch::silent()).unwrap();
+        assert_eq!(search.merit(&found), Merit::InReserve);
     }
 
     #[test]

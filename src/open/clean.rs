@@ -79,8 +79,8 @@ pub fn clean(
                 voids = less;
                 rounds.push(round);
             }
-            // Rather any further cut than a goal that cannot be met.
-            (None, Verdict::Found(_)) if request.worth_ratio > 0.0 => request.worth_ratio = 0.0,
+            // Rather any further cut, however seen, than a goal that cannot be met.
+            (None, Verdict::Found(_)) if allow_more_cuts(&mut request) => {}
             (None, plan) => {
                 rounds.push(round);
                 let plan = plan.or_error::<CutError>()?;
@@ -92,6 +92,19 @@ pub fn clean(
             }
         }
     }
+}
+
+/// Allows cuts that were too dear until now: first any number, then seams wherever they are seen.
+/// Returns false if nothing was forbidden any more.
+fn allow_more_cuts(request: &mut PlanRequest) -> bool {
+    if request.worth_ratio > 0.0 {
+        request.worth_ratio = 0.0;
+    } else if request.seams.are_seen() {
+        request.seams = request.seams.unseen();
+    } else {
+        return false;
+    }
+    true
 }
 
 /// A round of cleaning before it is done.

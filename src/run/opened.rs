@@ -2,7 +2,7 @@
 
 use super::{KeptCause, Remark, Rung};
 use crate::cut::{CutPlan, Hollowed, PartId, PinSite, PlanRequest, VoidId};
-use crate::hollow::{Certificate, Solution};
+use crate::hollow::{Certificate, Figure, Solution};
 use crate::mass::Moments;
 
 /// The voids of a solution.
@@ -40,8 +40,15 @@ impl Achieved {
     }
 
     /// Returns the share of itself by which the goal's figure is worse in `after`; negative if it
-    /// is better.
+    /// is better. A rotor that falls from full balance to its grade loses all of it: 1. The other
+    /// way round it gains all of it: −1.
     pub fn loss_ratio(&self, after: &Self) -> f64 {
+        let is_graded = |of: &Self| of.certificate.figure == Figure::BalanceGradeMmS;
+        match (is_graded(self), is_graded(after)) {
+            (false, true) => return 1.0,
+            (true, false) => return -1.0,
+            _ => {}
+        }
         let cost = |of: &Self| of.certificate.figure.cost(of.certificate.value);
         (cost(after) - cost(self)) / cost(self).abs().max(f64::MIN_POSITIVE)
     }
@@ -122,7 +129,6 @@ pub struct KeptBoss {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::hollow::Figure;
 
     fn reached(figure: Figure, value: f64) -> Achieved {
         let certificate = Certificate {
@@ -146,6 +152,14 @@ mod tests {
         let angle = |value| reached(Figure::TopplingAngleRad, value);
         assert!((angle(0.5).loss_ratio(&angle(0.4)) - 0.2).abs() < 1e-12);
         assert!(angle(0.4).loss_ratio(&angle(0.5)) < 0.0);
+    }
+
+    #[test]
+    fn a_rotor_that_falls_from_full_balance_to_its_grade_loses_all() {
+        let full = reached(Figure::VolumeMm3, 9000.0);
+        let graded = reached(Figure::BalanceGradeMmS, 0.4);
+        assert_eq!(full.loss_ratio(&graded), 1.0);
+        assert_eq!(graded.loss_ratio(&full), -1.0);
     }
 
     #[test]

@@ -69,6 +69,12 @@ impl Seams {
         })
     }
 
+    /// Returns true if seams are priced by how much of them is seen.
+    #[must_use]
+    pub fn are_seen(&self) -> bool {
+        self.skin.is_some()
+    }
+
     /// Returns the same rules with nobody to look: only the length of a seam counts.
     #[must_use]
     pub fn unseen(&self) -> Self {

@@ -1,7 +1,9 @@
 //! Cleaning on towers and a box: what no cut lets be cleaned stays solid, and rounds end.
 
 use super::*;
-use crate::cut::UncleanCause;
+use crate::base::watch::Watch;
+use crate::cut::{SeamStyle, Seams, UncleanCause};
+use crate::geom::Vector;
 use crate::open::plan::are_clean;
 use crate::open::scenes::{
     LEAN, cuboid, draw, lopsided, need_jet, standing, towers, unwatched, volume_mm3,
@@ -216,4 +218,24 @@ fn a_region_that_the_goal_needs_is_not_kept_solid() {
     let kept = without_ends(&mut resolver, &voids, &[tower], &KeptCause::BeyondJoint).unwrap();
     assert!(kept.is_none());
     assert_eq!(resolver.solved().columns.moments().volume(), columns);
+}
+
+#[test]
+fn rather_than_a_goal_that_is_missed_cuts_are_allowed_first_in_number_then_where_they_are_seen() {
+    let placed = towers(LEAN);
+    let mut request = PlanRequest {
+        worth_ratio: 0.1,
+        ..unwatched(&placed)
+    };
+    let solid = placed.solid();
+    let outer = solid.mesh();
+    request.seams = Seams::look(SeamStyle::Hidden, outer, &Vector::z(), &Watch::silent()).unwrap();
+    assert!(allow_more_cuts(&mut request));
+    assert!(request.worth_ratio == 0.0 && request.seams.are_seen());
+    assert!(allow_more_cuts(&mut request));
+    assert!(!request.seams.are_seen());
+    assert!(
+        !allow_more_cuts(&mut request),
+        "nothing is forbidden any more"
+    );
 }
