@@ -77,7 +77,7 @@ fn cuboid(low: [f32; 3], high: [f32; 3]) -> Vec<[[f32; 3]; 3]> {
     halves.map(|triangle| triangle.map(corner)).collect()
 }
 
-/// The faces of the tetrahedron at the origin; the first three leave it open.
+/// The faces of the tetrahedron at the origin; the first two are a sheet.
 const FACES: [[[f32; 3]; 3]; 4] = [
     [[0.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0]],
     [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]],
@@ -87,7 +87,7 @@ const FACES: [[[f32; 3]; 3]; 4] = [
 
 #[test]
 fn an_open_mesh_is_refused_with_its_holes() {
-    let said = refuse("open.stl", &stl(&FACES[..3]));
+    let said = refuse("open.stl", &stl(&FACES[..2]));
     assert!(
         said.contains("does not bound a solid") && said.contains("hole"),
         "{said}"
@@ -99,13 +99,13 @@ fn an_open_mesh_is_refused_with_its_holes() {
 fn a_quiet_inspect_refuses_an_open_mesh_and_places_its_holes_in_the_file() {
     let folder = tempfile::tempdir().unwrap();
     let model = folder.path().join("open.stl");
-    fs::write(&model, stl(&FACES[..3])).unwrap();
+    fs::write(&model, stl(&FACES[..2])).unwrap();
     let output = equipoise(&["-q", "inspect", path(&model), "--size", "80mm"]);
     assert_exit(&output, 2);
     assert!(output.stdout.is_empty());
-    // The middle of the rim's first edge, which is (40, 40, 0) mm in the print.
+    // The middle of the rim's first edge, which is (0, 40, 0) mm in the print.
     let said = text(&output.stderr);
-    let place = "(0.500000, 0.500000, 0.00) in the file's own coordinates";
+    let place = "(0.00, 0.500000, 0.00) in the file's own coordinates";
     assert!(said.contains(place), "{said}");
 }
 
@@ -145,7 +145,7 @@ fn a_cavity_in_the_model_is_refused_with_its_place_and_volume() {
 }
 
 #[test]
-fn bodies_side_by_side_nested_or_crossing_are_refused() {
+fn bodies_side_by_side_are_refused_and_those_that_overlap_are_united() {
     let body = cuboid([0.0; 3], [40.0; 3]);
     let with = |low: f32, high: f32| stl(&[&body[..], &cuboid([low; 3], [high; 3])].concat());
     let beside = refuse("beside.stl", &with(50.0, 60.0));
@@ -153,16 +153,28 @@ fn bodies_side_by_side_nested_or_crossing_are_refused() {
         beside.contains("it has 2 surfaces") && beside.contains("join the separate bodies"),
         "{beside}"
     );
-    let within = refuse("within.stl", &with(10.0, 20.0));
-    assert!(
-        within.contains("a body (inside the material of another)"),
-        "{within}"
-    );
-    let through = refuse("through.stl", &with(30.0, 60.0));
-    assert!(
-        through.contains("crosses or overlaps itself") && through.contains("boolean union"),
-        "{through}"
-    );
+    let within = inspect_bytes(&with(10.0, 20.0));
+    assert!(within.contains("overlap united: 2"), "{within}");
+    assert!(within.contains("a solid of 64000 mm³"), "{within}");
+    let through = inspect_bytes(&with(30.0, 60.0));
+    assert!(through.contains("a solid of 90000 mm³"), "{through}");
+}
+
+#[test]
+fn a_box_without_its_lid_is_closed_and_told() {
+    let said = inspect_bytes(&stl(&cuboid([0.0; 3], [40.0; 3])[..10]));
+    assert!(said.contains("1 hole filled, 20.00 %"), "{said}");
+    assert!(said.contains("a solid of 64000 mm³"), "{said}");
+}
+
+/// Inspects a model of these bytes, which must be sound once repaired; returns what is said.
+fn inspect_bytes(bytes: &[u8]) -> String {
+    let folder = tempfile::tempdir().unwrap();
+    let model = folder.path().join("model.stl");
+    fs::write(&model, bytes).unwrap();
+    let output = equipoise(&["inspect", path(&model)]);
+    assert_exit(&output, 0);
+    text(&output.stdout).replace('\u{202f}', "")
 }
 
 #[test]

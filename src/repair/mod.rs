@@ -2,8 +2,8 @@
 //!
 //! # The ladder
 //!
-//! [`repair`] climbs these rungs in order. None keeps a result that lacks its proof. Only rung 2
-//! moves vertices, on rims that nearly meet. An edge is *bad* unless exactly two triangles share it
+//! [`repair`] climbs these rungs in order. None keeps a result that lacks its proof. Rungs 2 and 6
+//! move vertices, on rims that nearly meet. An edge is *bad* unless exactly two triangles share it
 //! in opposite directions.
 //!
 //! 1. **Merge equal vertices** (`weld`). Also drops the triangles that lose a corner. *Cost:* one
@@ -17,15 +17,27 @@
 //! 5. **Orient neighbours** (`orient`), if two disagree. Flips triangles, the smaller part of each
 //!    shell. *Cost:* linear. *Proof:* only orientations change. A one-sided surface cannot agree
 //!    and stays misoriented.
-//! 6. **Separate touching surfaces** (`unstitch`), if an edge is bad or a vertex is pinched.
+//! 6. **Stitch cracks** (`sew`), if an edge is open and at most 4000 are. Joins rims within 3e-5 of
+//!    the diagonal, which is 0.01 mm on a model of 300 mm. *Cost:* quadratic in the open edges.
+//!    *Proof:* kept only if fewer edges are open afterwards, no other edge is bad, and no vertex is
+//!    farther from the new surface than that.
+//! 7. **Fill holes** (`holes`), if all bad edges are open. Fills flat rims flat, others with
+//!    the least folds. *Cost:* cubic in the corners of a rim, with a limit. *Proof:* no vertex
+//!    moves, and no edge is bad afterwards. No shell grows by more than a quarter of its area, or
+//!    nine tenths if all its rims are flat.
+//! 8. **Separate touching surfaces** (`unstitch`), if an edge is bad or a vertex is pinched.
 //!    Doubles their vertices. *Cost:* linear, plus a sort of the triangles at each crowded edge.
 //!    *Proof:* no vertex moves, and the result is kept only if no edge is bad afterwards.
-//! 7. **Face outward** (`orient`), if the mesh is closed. Flips whole shells. *Cost:* linear, plus
+//! 9. **Face outward** (`orient`), if the mesh is closed. Flips whole shells. *Cost:* linear, plus
 //!    a pass over the triangles for each pair of shells. *Proof:* exact predicates decide which
 //!    shell encloses which.
+//! 10. **Unite overlapping shells** (`unite`), if closed shells cross or lie in each other's
+//!     material. *Cost:* a boolean for each of at most 200 shells. *Proof:* kept only if the result
+//!     is a solid that does not cross itself.
 //!
 //! At the top stands [`Solid::new`](crate::mesh::Solid::new), which proves the result or lists all
-//! remaining [`Defects`](crate::mesh::Defects). No rung fills a hole.
+//! remaining [`Defects`](crate::mesh::Defects). A shell that crosses itself stays as it is, and
+//! [`one_body`] refuses it.
 //!
 //! # Beside the ladder
 //!
@@ -33,11 +45,13 @@
 //! * `sew` joins parts along their rims, within a tolerance that its caller judges.
 //! * [`unfold()`] mends the slivers that the rounding of a written file would fold.
 
+mod holes;
 mod ladder;
 mod one_body;
 mod orient;
 mod sew;
 mod unfold;
+mod unite;
 mod unstitch;
 mod weld;
 
