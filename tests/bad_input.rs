@@ -145,7 +145,7 @@ fn a_cavity_in_the_model_is_refused_with_its_place_and_volume() {
 }
 
 #[test]
-fn bodies_side_by_side_are_refused_and_those_that_overlap_are_united() {
+fn bodies_side_by_side_or_nested_are_refused_and_those_that_cross_are_united() {
     let body = cuboid([0.0; 3], [40.0; 3]);
     let with = |low: f32, high: f32| stl(&[&body[..], &cuboid([low; 3], [high; 3])].concat());
     let beside = refuse("beside.stl", &with(50.0, 60.0));
@@ -153,10 +153,13 @@ fn bodies_side_by_side_are_refused_and_those_that_overlap_are_united() {
         beside.contains("it has 2 surfaces") && beside.contains("join the separate bodies"),
         "{beside}"
     );
-    let within = inspect_bytes(&with(10.0, 20.0));
-    assert!(within.contains("overlap united: 2"), "{within}");
-    assert!(within.contains("a solid of 64000 mm³"), "{within}");
+    let within = refuse("within.stl", &with(10.0, 20.0));
+    assert!(
+        within.contains("a body (inside the material of another)"),
+        "{within}"
+    );
     let through = inspect_bytes(&with(30.0, 60.0));
+    assert!(through.contains("overlap united: 2"), "{through}");
     assert!(through.contains("a solid of 90000 mm³"), "{through}");
 }
 

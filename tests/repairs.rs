@@ -72,7 +72,7 @@ fn doubled(mesh: &TriMesh) -> TriMesh {
 /// Gives the triangles of one half corners of their own, a hundred-thousandth of the size away.
 fn cracked(mesh: &TriMesh) -> TriMesh {
     let middle = mesh.aabb().center();
-    let gap = Vector::new(1.0, -0.5, 0.7) * (1e-5 * mesh.longest_side_mm());
+    let gap = Vector::new(1.0, -0.5, 0.7) * (5e-6 * mesh.longest_side_mm());
     let count = mesh.vertices().len() as u32;
     let vertices = mesh.vertices().iter().copied();
     let vertices = vertices.chain(mesh.vertices().iter().map(|p| p + gap));

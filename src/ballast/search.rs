@@ -18,8 +18,8 @@ use crate::shell::Shell;
 
 /// The share of the effect of ballast that is kept in reserve where a part allows it.
 ///
-/// What is kept solid for cleaning and joints takes from what hollowing adds. A rocker arm with
-/// just enough steel ended at its grade, and with a larger ball in full balance.
+/// Cleaning and joints keep parts of the interior solid, and so take from what hollowing adds. A
+/// half is a choice: the row `ballast-rocker-arm` ends in full balance with it.
 const RESERVE_RATIO: f64 = 0.5;
 /// The columns a side during the search: each place takes a solve.
 const SEARCHING_COLUMNS: usize = 60;
@@ -268,7 +268,7 @@ impl<'a> Search<'a> {
     }
 }
 
-/// What speaks for a load that makes the goal possible; more is better.
+/// Ranks a load that makes the goal possible; more is better.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Merit {
     /// It meets the goal by another objective only.

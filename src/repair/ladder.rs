@@ -21,8 +21,8 @@ use crate::mesh::{TriMesh, shells, smallest_first};
 const WELD_TOLERANCE_RATIO: f64 = 1e-6;
 
 /// Largest distance between rims that are stitched, as a share of the diagonal of the bounding box.
-/// It is 0.01 mm on a model of 300 mm. Below 1e-5 cracks of files with few digits stay open.
-const STITCH_TOLERANCE_RATIO: f64 = 3e-5;
+/// It is 0.01 mm on a model of a metre, which is larger than any printer's room that we know.
+const STITCH_TOLERANCE_RATIO: f64 = 1e-5;
 
 /// Largest number of open edges that are stitched: each is compared with all corners on rims.
 const MAX_STITCHED_EDGES: usize = 4000;
@@ -135,7 +135,7 @@ impl fmt::Display for Repairs {
 /// Climbs the ladder of repairs that keep the shape; returns the mesh and the count of each repair.
 ///
 /// See the [room](super) for the rungs and their proofs. A mesh that is already sound comes back
-/// unchanged. Only the welding and stitching of rims moves vertices, by at most 3e-5 of the
+/// unchanged. Only the welding and stitching of rims moves vertices, by at most 1e-5 of the
 /// diagonal. Linear in the triangles except for sorts, rims and overlaps, which have limits.
 #[must_use]
 pub fn repair(mesh: TriMesh) -> (TriMesh, Repairs) {

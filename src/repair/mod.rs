@@ -17,8 +17,8 @@
 //! 5. **Orient neighbours** (`orient`), if two disagree. Flips triangles, the smaller part of each
 //!    shell. *Cost:* linear. *Proof:* only orientations change. A one-sided surface cannot agree
 //!    and stays misoriented.
-//! 6. **Stitch cracks** (`sew`), if an edge is open and at most 4000 are. Joins rims within 3e-5 of
-//!    the diagonal, which is 0.01 mm on a model of 300 mm. *Cost:* quadratic in the open edges.
+//! 6. **Stitch cracks** (`sew`), if an edge is open and at most 4000 are. Joins rims within 1e-5 of
+//!    the diagonal, which is 0.01 mm on a model of a metre. *Cost:* quadratic in the open edges.
 //!    *Proof:* kept only if fewer edges are open afterwards, no other edge is bad, and no vertex is
 //!    farther from the new surface than that.
 //! 7. **Fill holes** (`holes`), if all bad edges are open. Fills flat rims flat, others with
@@ -31,8 +31,8 @@
 //! 9. **Face outward** (`orient`), if the mesh is closed. Flips whole shells. *Cost:* linear, plus
 //!    a pass over the triangles for each pair of shells. *Proof:* exact predicates decide which
 //!    shell encloses which.
-//! 10. **Unite overlapping shells** (`unite`), if closed shells cross or lie in each other's
-//!     material. *Cost:* a boolean for each of at most 200 shells. *Proof:* kept only if the result
+//! 10. **Unite overlapping shells** (`unite`), if closed shells cross and none lies inside
+//!     another. *Cost:* a boolean for each of at most 200 shells. *Proof:* kept only if the result
 //!     is a solid that does not cross itself.
 //!
 //! At the top stands [`Solid::new`](crate::mesh::Solid::new), which proves the result or lists all

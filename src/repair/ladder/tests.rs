@@ -52,15 +52,15 @@ fn seams_a_millionth_apart_are_closed_and_those_within_the_limit_are_stitched() 
     let jitter = |size: f64| move |t: usize| Vector::repeat(size * (t % 3) as f64);
     let (repaired, repairs) = repair(soup(&unit_cube(), jitter(1e-7)));
     assert!(Solid::new(repaired).is_ok() && repairs.merged_near_vertices > 0);
-    let (repaired, repairs) = repair(soup(&unit_cube(), jitter(1e-5)));
+    let (repaired, repairs) = repair(soup(&unit_cube(), jitter(4e-6)));
     let volume = Solid::new(repaired).unwrap().mesh().signed_volume_mm3();
     assert!(
         (volume - 1.0).abs() < 1e-4 && repairs.stitched_edges > 0,
         "{repairs}"
     );
-    // No place moved by more than the jitter of 2e-5·√3.
+    // No place moved by more than the jitter of 8e-6·√3, over the diagonal of √3.
     assert!(
-        repairs.stitched_ratio > 0.0 && repairs.stitched_ratio <= 2e-5,
+        repairs.stitched_ratio > 0.0 && repairs.stitched_ratio <= 8e-6 * (1.0 + 1e-3),
         "{repairs}"
     );
     let (repaired, repairs) = repair(soup(&unit_cube(), jitter(1e-3)));
