@@ -483,19 +483,20 @@ mod tests {
     }
 
     #[test]
-    fn automatic_ballast_still_stands_with_half_of_its_effect() {
-        let (solid, request) = leaning();
-        let found = search(&solid, FIGURE_WALL_MM, request, "auto").unwrap();
-        let placement = place(&solid, FIGURE_WALL_MM, request);
-        let shop = Workshop {
-            solid: &solid,
-            placement: &placement,
-            wall_mm: FIGURE_WALL_MM,
-            fit: found.load.fit,
-            density_g_cm3: DENSITY_G_CM3,
-        };
-        let search = Search::new(shop, &Watch::silent()).unwrap();
-        assert_eq!(search.merit(&found), Merit::InReserve);
+    fn a_ball_with_a_reserve_is_taken_rather_than_a_lighter_one_without() {
+        // The axis is 2 mm above the block's middle: a ball of 7 or 8 mm balances it just so.
+        let (solid, mut request) = rotor();
+        request.spin_point = Some(SpinPoint::At([20.0, 8.0, 17.0]));
+        let single = search(&solid, WALL_MM, request, "ball-7x1").unwrap();
+        assert!(single.solution.is_usable());
+        let found = search(&solid, WALL_MM, request, "auto").unwrap();
+        let ids: Vec<&str> = found
+            .load
+            .parts
+            .iter()
+            .map(|placed| &*placed.part.id)
+            .collect();
+        assert_eq!(ids, ["ball-9"]);
     }
 
     #[test]

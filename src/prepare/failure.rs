@@ -101,7 +101,10 @@ fn reason(prepared: &Prepared, broken: &[&Check]) -> String {
             quantity(check.limit, unit)
         );
     }
-    match proof.written_value {
+    let is_far = broken
+        .iter()
+        .any(|check| follows_from_hollowing(&check.kind));
+    match proof.written_value.filter(|_| is_far) {
         Some(written) => format!(
             "the kit breaks {}: the best void there is reaches a {} of {}, and of that the parts that can be made keep {}; what \
              pins, cuts and cleaning take is more than there is to spare",
@@ -112,6 +115,23 @@ fn reason(prepared: &Prepared, broken: &[&Check]) -> String {
         ),
         None => format!("the kit breaks {}", names.join(", ")),
     }
+}
+
+/// Returns true if what pins, cuts and cleaning take can break this promise.
+fn follows_from_hollowing(kind: &CheckKind) -> bool {
+    matches!(
+        kind,
+        CheckKind::AxisOffset
+            | CheckKind::AxisTilt
+            | CheckKind::Dominance
+            | CheckKind::Standing
+            | CheckKind::Waterline
+            | CheckKind::Upright
+            | CheckKind::Stability
+            | CheckKind::Righting
+            | CheckKind::BalanceQuality
+            | CheckKind::PromisedFigure { .. }
+    )
 }
 
 /// Returns the request that a hint for a broken check calls for; `None` if the hint changes none.
@@ -171,4 +191,18 @@ fn firmer(placed: &Placed, watch: &Watch) -> Result<Vec<Remedy>, Cancelled> {
     // Ballast is laid in only where nothing stands at all.
     let is_firmer = |remedy: &Remedy| remedy.kind != Kind::LeastBallast && remedy.helps();
     Ok(found.filter(is_firmer).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_thin_neck_is_not_laid_to_what_pins_and_cuts_take() {
+        assert!(!follows_from_hollowing(&CheckKind::ThinNecks));
+        assert!(!follows_from_hollowing(&CheckKind::VoidClean {
+            void: "V1".into()
+        }));
+        assert!(follows_from_hollowing(&CheckKind::Standing));
+    }
 }
