@@ -23,8 +23,8 @@
 //! [`coupon`] lets a shop measure what its printer does. [`guide::map`] answers where things are.
 //!
 //! # The modules
-//! This page lists twelve modules. Four of them, [`model`], [`solve`], [`stages`] and [`report`],
-//! gather rooms: `equipoise::model::mesh` is also `equipoise::mesh`, and its files lie in
+//! This page lists thirteen modules. Five of them, [`model`], [`solve`], [`stages`], [`report`] and
+//! [`extend`], gather rooms: `equipoise::model::mesh` is also `equipoise::mesh`, and its files lie in
 //! `src/mesh`.
 //!
 //! # Example
@@ -78,13 +78,19 @@ pub mod stages {
     pub use crate::{advice, error, make, open, poses, run};
 }
 
+/// Telescopes: the curves that they are to follow.
+pub mod extend {
+    #[doc(inline)]
+    pub use crate::curve;
+}
+
 /// Checklists, job sheets, drawings and coupons.
 pub mod report {
     #[doc(inline)]
     pub use crate::{coupon, draw, page, sheet};
 }
 
-// The rooms of the four groups, and the command line, which is no library.
+// The rooms of the five groups, and the command line, which is no library.
 #[doc(hidden)]
 pub mod advice;
 #[doc(hidden)]
@@ -94,6 +100,8 @@ pub mod ballast;
 pub mod cli;
 #[doc(hidden)]
 pub mod coupon;
+#[doc(hidden)]
+pub mod curve;
 #[doc(hidden)]
 pub mod draw;
 #[doc(hidden)]

@@ -57,4 +57,36 @@ impl Frame {
     pub fn direction_to_model(&self, local: &Vector) -> Vector {
         self.axes * local
     }
+
+    /// Returns a frame given in the coordinates of this one, in model coordinates. Seen as a rigid
+    /// motion, that is `local` first and this one after it.
+    #[must_use]
+    pub fn frame_to_model(&self, local: &Self) -> Self {
+        Self {
+            origin: self.to_model(&local.origin),
+            axes: self.axes * local.axes,
+        }
+    }
+
+    /// Returns the model frame in the coordinates of this one: the motion back.
+    #[must_use]
+    pub fn inverse(&self) -> Self {
+        Self {
+            origin: self.to_local(&Point::origin()),
+            axes: self.axes.transpose(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_frame_and_its_inverse_leave_the_model_frame() {
+        let frame = Frame::with_axis(Point::new(1.0, -2.0, 3.0), &Vector::new(2.0, 1.0, -1.0));
+        let back = frame.frame_to_model(&frame.inverse());
+        assert!(back.origin.coords.norm() < 1e-14);
+        assert!((back.axes - Matrix::identity()).norm() < 1e-14);
+    }
 }

@@ -31,6 +31,8 @@ use scanner::first_word;
 const ARROWS: &[(&str, &[&str])] = &[
     ("base", &[]),
     ("geom", &["base"]),
+    // Curves are points and motions: no mesh, so that what is asked is fitted before it is built.
+    ("curve", &["base", "geom"]),
     ("mesh", &["base", "geom"]),
     ("repair", &["base", "geom", "mesh"]),
     ("io", &["repair", "geom", "mesh", "base"]),
@@ -141,9 +143,9 @@ const ARROWS: &[(&str, &[&str])] = &[
     (
         "lib",
         &[
-            "advice", "ballast", "coupon", "draw", "error", "geom", "goal", "hardware", "hollow",
-            "interior", "io", "make", "mass", "mesh", "open", "page", "poses", "repair", "run",
-            "sheet", "shell", "voids",
+            "advice", "ballast", "coupon", "curve", "draw", "error", "geom", "goal", "hardware",
+            "hollow", "interior", "io", "make", "mass", "mesh", "open", "page", "poses", "repair",
+            "run", "sheet", "shell", "voids",
         ],
     ),
     ("main", &["cli"]),
