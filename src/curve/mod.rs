@@ -8,14 +8,17 @@
 //! * **What is asked:** [`Curve`], a checked polyline, or a spline through points; [`NamedCurve`],
 //!   arcs and helices by their measures.
 //! * **Differential quantities:** [`DiscreteFrames`] (bends and twists), [`flow_heat`].
-//! * **What can be built:** pieces of a [`Helix`] with turns between them.
-//! * **From one to the other:** [`StepFit`] fits turns to the torsion.
+//! * **What can be built:** [`Helix`], and a [`Chain`] of helices with turns between them.
+//! * **From one to the other:** [`StepFit`] fits turns to the torsion, which is where [`fit`]
+//!   begins; it fits positions. [`trade`] does it over the number of pieces.
 //! * **How near it is:** [`Deviation`] at equal shares of the length, [`frechet_mm`] and
 //!   [`hausdorff_mm`]; [`least_gap_mm`] between strands of the tube.
 
+mod chain;
 mod deviation;
 mod embedding;
 mod error;
+mod fit;
 mod frames;
 mod heat;
 mod helix;
@@ -24,9 +27,14 @@ mod points;
 mod spline;
 mod steps;
 
+#[cfg(test)]
+mod samples;
+
+pub use chain::Chain;
 pub use deviation::{Deviation, frechet_mm, hausdorff_mm};
 pub use embedding::least_gap_mm;
 pub use error::{CurveError, NameError};
+pub use fit::{Ends, Fit, FitError, FitRequest, Freedom, TradeRow, first_guess, fit, trade};
 pub use frames::DiscreteFrames;
 pub use heat::flow_heat;
 pub use helix::{Helix, Twist, roll};

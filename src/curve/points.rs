@@ -14,12 +14,24 @@ const LEAST_POINTS: usize = 3;
 /// The greatest turn within one spacing of samples that is no corner, rad: 60°.
 const CORNER_RAD: f64 = std::f64::consts::FRAC_PI_3;
 
-/// Edges of the samples on which corners are looked for.
-const CORNER_EDGES: usize = 200;
+/// Edges over which a corner is spread by the smoothing: nine tenths of its turn lie within.
+const CORNER_EDGES: usize = 6;
+
+/// Least number of edges on which corners are looked for.
+const LEAST_CORNER_EDGES: usize = 100;
 
 /// Steps of heat flow over the samples before corners are looked for: noise of single points goes,
 /// corners stay.
 const CORNER_FLOW: f64 = 1.0;
+
+/// Edges beyond which heat flow does not reach, for a step of one edge²: e⁻⁸ is left.
+const FLOW_REACH: f64 = 8.0;
+
+/// Step of heat flow that takes the noise of points away, edges²: some eight edges are averaged.
+const NOISE_FLOW: f64 = 30.0;
+
+/// Share of the length that smoothing takes of a curve without noise.
+const CLEAN_RATIO: f64 = 1e-3;
 
 /// A polyline of three points or more, all finite, none the same as the one before it.
 #[derive(Debug, Clone, PartialEq)]
@@ -88,6 +100,18 @@ impl Curve {
             .collect()
     }
 
+    /// Returns the curve without the noise of its points, which makes it longer than it is.
+    ///
+    /// Noise over less than some of `edges` equal edges goes, bends over more of them stay. A curve
+    /// that becomes shorter by less than 1e-3 has none, and comes back as it is.
+    #[must_use]
+    pub fn without_noise(&self, edges: usize) -> Self {
+        let smoothed = smooth_twice(&self.samples(edges.max(1)), NOISE_FLOW);
+        let smoothed = Self::of_polyline(smoothed).ok();
+        let is_noisy = |s: &Self| s.length_mm() < (1.0 - CLEAN_RATIO) * self.length_mm();
+        smoothed.filter(is_noisy).unwrap_or_else(|| self.clone())
+    }
+
     /// Returns the curve with its length scaled to `length_mm`, about the model's origin.
     #[must_use]
     pub fn scaled_to(&self, length_mm: f64) -> Self {
@@ -98,13 +122,13 @@ impl Curve {
         }
     }
 
-    /// Refuses a curve with a corner, and says where it is.
-    pub fn refuse_corners(&self) -> Result<(), CurveError> {
+    /// Refuses a curve with a corner on this many samples, and says where it is.
+    pub fn refuse_corners(&self, edges: usize) -> Result<(), CurveError> {
         let Some(Corner {
             at_mm,
             turn_rad,
             point,
-        }) = self.corner()
+        }) = self.corner(edges)
         else {
             return Ok(());
         };
@@ -117,39 +141,67 @@ impl Curve {
         })
     }
 
-    /// Returns the sharpest corner: a turn of more than 60° within 1/200 of the length, after the
-    /// noise of single samples is smoothed. `None` if there is none.
-    pub fn corner(&self) -> Option<Corner> {
-        let samples = smooth(&self.samples(CORNER_EDGES), CORNER_FLOW);
-        let step = self.length_mm() / CORNER_EDGES as f64;
-        // A sharp turn is spread over the edges next to it by the smoothing.
-        let turns = samples.windows(4).enumerate().map(|(i, p)| Corner {
-            at_mm: step * (i as f64 + 1.5),
-            turn_rad: turn(&(p[1] - p[0]), &(p[3] - p[2])),
-            point: nalgebra::center(&p[1], &p[2]),
-        });
+    /// Returns the sharpest corner, or `None` if there is none.
+    ///
+    /// A corner turns by more than 60° within six of `edges` equal edges, after the noise of single
+    /// samples is smoothed.
+    pub fn corner(&self, edges: usize) -> Option<Corner> {
+        let edges = edges.max(LEAST_CORNER_EDGES);
+        let samples = smooth(&self.samples(edges), CORNER_FLOW);
+        let step = self.length_mm() / edges as f64;
+        let turns = samples
+            .windows(CORNER_EDGES + 1)
+            .enumerate()
+            .map(|(i, p)| Corner {
+                at_mm: step * (i + CORNER_EDGES / 2) as f64,
+                turn_rad: turn(&(p[1] - p[0]), &(p[CORNER_EDGES] - p[CORNER_EDGES - 1])),
+                point: p[CORNER_EDGES / 2],
+            });
         let sharp = turns.filter(|corner| corner.turn_rad > CORNER_RAD);
         sharp.max_by(|a, b| a.turn_rad.total_cmp(&b.turn_rad))
     }
 }
 
-/// Returns points smoothed by heat flow: a step of `step` edges², with the two ends where they
-/// were.
+/// Returns points smoothed by heat flow: a step of `step` edges², with both ends where they were.
+///
+/// The curve goes on as its own image through each end, so a line stays a line.
 pub(super) fn smooth(points: &[Point], step: f64) -> Vec<Point> {
+    let reach = (FLOW_REACH * step.sqrt()).ceil() as usize;
+    let margin = reach.min(points.len() - 1);
+    let image = |end: &Point, p: &Point| end + (end - p);
+    let (first, last) = (&points[0], &points[points.len() - 1]);
+    let before = points[1..=margin].iter().rev().map(|p| image(first, p));
+    let after = points
+        .iter()
+        .rev()
+        .skip(1)
+        .take(margin)
+        .map(|p| image(last, p));
+    let whole: Vec<Point> = before.chain(points.iter().copied()).chain(after).collect();
     let axis = |axis: usize| {
-        let values: Vec<f64> = points.iter().map(|p| p[axis]).collect();
+        let values: Vec<f64> = whole.iter().map(|p| p[axis]).collect();
         flow_heat(&values, step)
     };
     let [xs, ys, zs] = [axis(0), axis(1), axis(2)];
     let coordinates = xs.iter().zip(&ys).zip(&zs);
-    let mut smoothed: Vec<Point> = coordinates
-        .map(|((x, y), z)| Point::new(*x, *y, *z))
+    let smoothed = coordinates.map(|((x, y), z)| Point::new(*x, *y, *z));
+    smoothed.skip(margin).take(points.len()).collect()
+}
+
+/// Returns points smoothed without the shrinking of bends: what one step takes away is smoothed and
+/// put back (Tukey's twicing).
+fn smooth_twice(points: &[Point], step: f64) -> Vec<Point> {
+    let once = smooth(points, step);
+    let taken: Vec<Point> = points
+        .iter()
+        .zip(&once)
+        .map(|(p, q)| Point::from(p - q))
         .collect();
-    if let [.., last] = points {
-        smoothed[0] = points[0];
-        smoothed[points.len() - 1] = *last;
-    }
-    smoothed
+    let back = smooth(&taken, step);
+    once.iter()
+        .zip(&back)
+        .map(|(p, back)| p + back.coords)
+        .collect()
 }
 
 /// Returns the angle between two directions, rad.
@@ -224,7 +276,7 @@ mod tests {
 
     #[test]
     fn a_corner_is_found_where_it_is_and_an_arc_has_none() {
-        let corner = Curve::of_polyline(zigzag()).unwrap().corner().unwrap();
+        let corner = Curve::of_polyline(zigzag()).unwrap().corner(240).unwrap();
         assert!((corner.at_mm - 5.0).abs() < 0.1, "{corner:?}");
         assert!((corner.point - Point::new(3.0, 4.0, 0.0)).norm() < 0.2);
         let arc = (0..=90).map(|i| {
@@ -232,8 +284,8 @@ mod tests {
             Point::new(angle.cos(), angle.sin(), 0.0)
         });
         let arc = Curve::of_polyline(arc.collect()).unwrap();
-        assert!(arc.refuse_corners().is_ok());
-        let error = Curve::of_polyline(zigzag()).unwrap().refuse_corners();
+        assert!(arc.refuse_corners(100).is_ok());
+        let error = Curve::of_polyline(zigzag()).unwrap().refuse_corners(240);
         assert!(error.unwrap_err().to_string().contains("5.0 mm"));
     }
 }
