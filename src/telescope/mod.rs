@@ -1,0 +1,36 @@
+//! Telescopes: nested shells that slide out of one another along helices. Lengths are in mm, angles
+//! in radians.
+//!
+//! Every shell is a tube about a helix. The cavity of its parent is a tube about the same helix, so
+//! the shell slides in it with one gap. For frames along a helix compose ([`crate::curve::Helix`]).
+//! (Yu, Crane and Coros, "Computational Design of Telescoping Structures", ACM TOG 36(4), 2017.)
+//!
+//! # The line
+//! [`Telescope::nest`] finds the radii of a chain of helices, [`Telescope::shell_solid`] and
+//! [`Telescope::cap_solid`] make its parts.
+//!
+//! * **Measures:** [`JointSizes`], walls, clearances and lengths of a joint; [`Radii`], what
+//!   follows from them for a body.
+//! * **Fits:** [`axis_excess_mm`], the wall that unlike shapes cost; [`turning_offset_mm`], how far
+//!   a turn parts two tubes; [`lock_slack_mm`], how far it holds them.
+//! * **Mass:** [`TubeMass`], volume and centre of a tube in closed form.
+
+mod error;
+mod fits;
+mod nest;
+mod parts;
+mod profile;
+mod sizes;
+mod sweep;
+mod tube;
+
+#[cfg(test)]
+mod tests;
+
+pub use error::TelescopeError;
+pub use fits::{axis_excess_mm, lock_slack_mm, turning_offset_mm};
+pub use nest::{Joint, Shell, Telescope};
+pub use profile::Profile;
+pub use sizes::{JointSizes, Radii};
+pub use sweep::{Sector, sweep_profile, sweep_sector};
+pub use tube::TubeMass;

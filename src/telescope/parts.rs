@@ -1,0 +1,293 @@
+//! The parts of a telescope: shells and their caps.
+
+use super::error::TelescopeError;
+use super::nest::{Joint, Telescope};
+use super::profile::Profile;
+use super::sweep::{Sector, sweep_profile, sweep_sector};
+use crate::curve::Helix;
+use crate::geom::{Frame, Plane};
+use crate::mesh::{ClipError, Csg, MeshError, Solid, TriMesh};
+
+/// By how much tools reach beyond what they cut, mm.
+const BEYOND_MM: f64 = 1.0;
+
+/// By how much a spigot begins within its disc, as a share of the disc.
+const ROOT_SHARE: f64 = 0.5;
+
+/// Share of the clearance that is left on a body where its flange is cut away, so that faces do
+/// not coincide.
+const SKIN_SHARE: f64 = 0.01;
+
+/// What lies in a shell: the helix and the frame of its cavity, and the radii of its bore and lip.
+struct Inside {
+    /// The helix of the shell itself.
+    outer: Helix,
+    helix: Helix,
+    pivot: Frame,
+    /// The joint of the shell that slides in it; `None` in the innermost.
+    joint: Option<Joint>,
+    bore_mm: f64,
+    lip_mm: f64,
+    rib_rad: f64,
+}
+
+impl Telescope {
+    /// Returns the solid of a shell without its cap, in the shell's frame. Shells are counted
+    /// from 0.
+    ///
+    /// It is a tube about its helix with flange and press ring outside. Inside is the cavity of the
+    /// next shell, with lip and twist rib. The flange has a gap for the rib of the shell before.
+    pub fn shell_solid(&self, shell: usize) -> Result<Solid, TelescopeError> {
+        let make = || -> Result<Solid, ClipError> {
+            let helix = &self.shells[shell].helix;
+            let outside = sweep_profile(&Frame::identity(), helix, &self.outer_profile(shell));
+            let hollow = body(outside)?.subtract(&self.cavity(shell)?)?;
+            let shaped = match self.outer_joint(shell) {
+                Some(joint) => hollow.subtract(&self.flange_gap(helix, joint)?)?,
+                None => hollow,
+            };
+            shaped.to_solid()
+        };
+        make().map_err(|error| self.fault(shell, error))
+    }
+
+    /// Returns the solid of a shell's tail cap, in the shell's frame. Shells are counted from 0.
+    ///
+    /// It is a disc that carries the flange, a spigot with a slot that fits one way, and a vent.
+    pub fn cap_solid(&self, shell: usize) -> Result<Solid, TelescopeError> {
+        let make = || -> Result<Solid, ClipError> {
+            let helix = &self.shells[shell].helix;
+            let disc = sweep_profile(&Frame::identity(), helix, &self.disc_profile(shell));
+            let disc = match self.outer_joint(shell) {
+                Some(joint) => body(disc)?.subtract(&self.flange_gap(helix, joint)?)?,
+                None => body(disc)?,
+            };
+            let inside = self.inside(shell);
+            let whole = disc.union(&self.spigot(&inside)?)?;
+            whole.subtract(&self.vent(&inside)?)?.to_solid()
+        };
+        make().map_err(|error| self.fault(shell, error))
+    }
+
+    /// Returns the profile of a shell outside, from its cap to its mouth.
+    pub fn outer_profile(&self, shell: usize) -> Profile {
+        let (sizes, body) = (&self.sizes, self.shells[shell].body_mm);
+        let (face, mouth) = (self.face_mm(), self.ends_mm()[1]);
+        let half = 0.5 * sizes.overlap_mm();
+        let rim = [
+            [mouth - sizes.chamfer_mm, body],
+            [mouth, body - sizes.chamfer_mm],
+        ];
+        let Some(joint) = self.outer_joint(shell) else {
+            return Profile::new([[face, body]].into_iter().chain(rim));
+        };
+        let ring = sizes.slide_mm - joint.seat_mm;
+        let flange = [
+            [face, joint.radii.flange_mm],
+            [face + sizes.rise_mm() - ring, body + ring],
+            [half, body + ring],
+            [half + ring, body],
+        ];
+        Profile::new(flange.into_iter().chain(rim))
+    }
+
+    /// Returns the profile of a shell's cavity about the helix of the next shell.
+    ///
+    /// Arcs are from the pivot. It reaches from beyond the tail to beyond the mouth.
+    pub fn cavity_profile(&self, shell: usize) -> Profile {
+        let inside = self.inside(shell);
+        let sizes = &self.sizes;
+        let half = 0.5 * sizes.overlap_mm();
+        let back = inside.back_mm(self.face_mm() - self.visible_mm);
+        let Some(joint) = inside.joint else {
+            return Profile::new([[back, inside.bore_mm], [half + BEYOND_MM, inside.bore_mm]]);
+        };
+        let ring = sizes.slide_mm - joint.seat_mm;
+        let seat = inside.bore_mm - ring;
+        let lip_start = half - sizes.lip_mm;
+        let rim = inside.lip_mm + sizes.chamfer_mm;
+        Profile::new([
+            [back, inside.bore_mm],
+            [-half - ring, inside.bore_mm],
+            [-half, seat],
+            [lip_start - (seat - inside.lip_mm), seat],
+            [lip_start, inside.lip_mm],
+            [half - sizes.chamfer_mm, inside.lip_mm],
+            [half, rim],
+            [half + BEYOND_MM, rim],
+        ])
+    }
+
+    /// Returns the arc at which a shell ends and its cap begins, mm.
+    pub fn face_mm(&self) -> f64 {
+        self.ends_mm()[0] + self.sizes.flange_mm
+    }
+
+    fn disc_profile(&self, shell: usize) -> Profile {
+        let (tail, face, chamfer) = (self.ends_mm()[0], self.face_mm(), self.sizes.chamfer_mm);
+        let body = self.shells[shell].body_mm;
+        let joint = self.outer_joint(shell);
+        let radius = joint.map_or(body, |joint| joint.radii.flange_mm);
+        Profile::new([
+            [tail, radius - chamfer],
+            [tail + chamfer, radius],
+            [face, radius],
+        ])
+    }
+
+    /// Returns the joint in which a shell slides; `None` for the root.
+    fn outer_joint(&self, shell: usize) -> Option<&Joint> {
+        self.joints.get(shell.checked_sub(1)?)
+    }
+
+    fn inside(&self, shell: usize) -> Inside {
+        let own = &self.shells[shell];
+        let pivot = own.helix.frame_at(self.visible_mm);
+        match self.joints.get(shell) {
+            Some(joint) => Inside {
+                outer: own.helix,
+                helix: self.shells[shell + 1].helix,
+                pivot,
+                joint: Some(*joint),
+                bore_mm: joint.radii.bore_mm,
+                lip_mm: joint.radii.lip_mm,
+                rib_rad: joint.rib_rad,
+            },
+            None => {
+                let bore_mm = own.body_mm - self.sizes.wall_mm;
+                let lip_mm = (bore_mm - self.sizes.rise_mm()).max(0.5 * bore_mm);
+                Inside {
+                    outer: own.helix,
+                    helix: own.helix,
+                    pivot,
+                    joint: None,
+                    bore_mm,
+                    lip_mm,
+                    rib_rad: self.sizes.feature_mm / lip_mm,
+                }
+            }
+        }
+    }
+
+    /// Returns the cavity: the bore without the twist rib and the key of the cap, which stay.
+    fn cavity(&self, shell: usize) -> Result<Csg, ClipError> {
+        let inside = self.inside(shell);
+        let (sizes, half) = (&self.sizes, 0.5 * self.sizes.overlap_mm());
+        let bore = sweep_profile(&inside.pivot, &inside.helix, &self.cavity_profile(shell));
+        let tail = self.face_mm() - self.visible_mm;
+        let key = inside.rib([inside.back_mm(tail) - BEYOND_MM, tail + sizes.spigot_mm]);
+        let cavity = body(bore)?.subtract(&body(key)?)?;
+        if inside.joint.is_none() {
+            return Ok(cavity);
+        }
+        // From the lip's cone back over the length of the flange.
+        let cone = half - sizes.lip_mm - sizes.rise_mm();
+        let stop = inside.rib([cone - sizes.flange_mm, half - sizes.lip_mm]);
+        cavity.subtract(&body(stop)?)
+    }
+
+    /// Returns the gap in a flange, through which the twist rib passes and in which it turns.
+    fn flange_gap(&self, helix: &Helix, joint: &Joint) -> Result<Csg, ClipError> {
+        let [tail, _] = self.ends_mm();
+        let skin = SKIN_SHARE * self.sizes.slide_mm;
+        let sector = Sector {
+            radii_mm: [
+                joint.radii.body_mm + skin,
+                joint.radii.flange_mm + BEYOND_MM,
+            ],
+            angles_rad: gap_rad(joint),
+            arcs_mm: [
+                tail - BEYOND_MM,
+                self.face_mm() + self.sizes.rise_mm() + skin,
+            ],
+        };
+        body(sweep_sector(&Frame::identity(), helix, &sector))
+    }
+
+    /// Returns the spigot of a cap, with the slot for its key.
+    fn spigot(&self, inside: &Inside) -> Result<Csg, ClipError> {
+        let (sizes, tail) = (&self.sizes, self.face_mm() - self.visible_mm);
+        let from = inside.back_mm(tail);
+        let radius = inside.bore_mm - sizes.glue_mm;
+        let to = tail + sizes.spigot_mm;
+        let round = Profile::new([[from, radius], [to, radius]]);
+        let round = sweep_profile(&inside.pivot, &inside.helix, &round);
+        let play = sizes.glue_mm / inside.lip_mm;
+        let [low, high] = inside.rib_angles();
+        let slot = Sector {
+            radii_mm: [inside.lip_mm - sizes.glue_mm, inside.bore_mm + BEYOND_MM],
+            angles_rad: [low - play, high + play],
+            arcs_mm: [from - BEYOND_MM, to + BEYOND_MM],
+        };
+        let slot = sweep_sector(&inside.pivot, &inside.helix, &slot);
+        let slotted = body(round)?.subtract(&body(slot)?)?;
+        // It begins within the disc, whose faces lean against its own.
+        let root_mm = self.face_mm() - ROOT_SHARE * sizes.flange_mm;
+        let root = inside.outer.frame_at(root_mm);
+        let plane = Plane::through(&root.origin, &root.axes.column(0).into());
+        Ok(slotted.split_by_plane(&plane)?.0)
+    }
+
+    fn vent(&self, inside: &Inside) -> Result<Csg, ClipError> {
+        let tail = self.face_mm() - self.visible_mm;
+        let radius = (0.5 * self.sizes.vent_mm).min(0.5 * inside.lip_mm);
+        let [from, to] = [
+            inside.back_mm(tail) - self.sizes.flange_mm,
+            tail + self.sizes.spigot_mm + BEYOND_MM,
+        ];
+        let hole = Profile::new([[from, radius], [to, radius]]);
+        body(sweep_profile(&inside.pivot, &inside.helix, &hole))
+    }
+
+    fn fault(&self, shell: usize, error: ClipError) -> TelescopeError {
+        TelescopeError::Solid {
+            shell: shell + 1,
+            error,
+        }
+    }
+}
+
+impl Inside {
+    /// Returns an arc so far behind the tail that a section there is all behind it, however it
+    /// leans: up to 45°.
+    fn back_mm(&self, tail_mm: f64) -> f64 {
+        tail_mm - self.bore_mm - BEYOND_MM
+    }
+
+    /// Returns the angles of the rib: beside zero, on the side to which the shell turns.
+    fn rib_angles(&self) -> [f64; 2] {
+        let is_left = self.joint.is_some_and(|joint| joint.turn_rad < 0.0);
+        if is_left {
+            [-self.rib_rad, 0.0]
+        } else {
+            [0.0, self.rib_rad]
+        }
+    }
+
+    fn rib(&self, arcs_mm: [f64; 2]) -> Result<TriMesh, MeshError> {
+        let sector = Sector {
+            radii_mm: [self.lip_mm, self.bore_mm + BEYOND_MM],
+            angles_rad: self.rib_angles(),
+            arcs_mm,
+        };
+        sweep_sector(&self.pivot, &self.helix, &sector)
+    }
+}
+
+/// Returns the angles of the gap in a flange: [−θ − c, β + c], mirrored for a negative turn.
+fn gap_rad(joint: &Joint) -> [f64; 2] {
+    let (back, ahead) = (
+        joint.turn_rad.abs() + joint.play_rad,
+        joint.rib_rad + joint.play_rad,
+    );
+    if joint.turn_rad < 0.0 {
+        [-ahead, back]
+    } else {
+        [-back, ahead]
+    }
+}
+
+/// Returns a swept mesh as a body for booleans.
+fn body(mesh: Result<TriMesh, MeshError>) -> Result<Csg, ClipError> {
+    Csg::of_mesh(&mesh?)
+}

@@ -1,0 +1,130 @@
+//! The measures of a joint, and the radii that follow from them.
+
+use super::error::TelescopeError;
+
+/// Clearances, walls and lengths of every joint, mm. Clearances are radial, on each side.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct JointSizes {
+    /// Wall w of a shell outside its bore.
+    pub wall_mm: f64,
+    /// Clearance g with which a shell slides.
+    pub slide_mm: f64,
+    /// Engagement h of flange and lip: what holds a shell in its parent.
+    pub engagement_mm: f64,
+    /// Length f of the flange, and thickness of the cap that carries it.
+    pub flange_mm: f64,
+    /// Length t of the lip.
+    pub lip_mm: f64,
+    /// Clearance of the press ring; at the sliding clearance there is no ring.
+    pub seat_mm: f64,
+    /// Length of the spigot of a cap.
+    pub spigot_mm: f64,
+    /// Clearance of the spigot, which is glued.
+    pub glue_mm: f64,
+    /// Diameter of the vent in a cap: a closed tube would be a piston.
+    pub vent_mm: f64,
+    /// Chamfer of the edges that slide, at least the first layer's squeeze.
+    pub chamfer_mm: f64,
+    /// Least width of a feature: the twist rib has this width or more.
+    pub feature_mm: f64,
+}
+
+/// The radii of a shell in its parent, mm, all about the shell's own helix.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Radii {
+    /// The body b.
+    pub body_mm: f64,
+    /// The flange, F = b + g + h.
+    pub flange_mm: f64,
+    /// The lip in the parent's mouth, λ = b + g.
+    pub lip_mm: f64,
+    /// The parent's bore, B = b + 2g + h.
+    pub bore_mm: f64,
+}
+
+impl JointSizes {
+    /// Returns what stays inside of a shell that is all out, mm: o = f + t + h.
+    ///
+    /// Flange and lip end in cones of 45°. They meet when the shell has slid by its visible length.
+    pub fn overlap_mm(&self) -> f64 {
+        self.flange_mm + self.lip_mm + self.engagement_mm
+    }
+
+    /// Returns the rise of flange and lip over the tube they stand on, mm: g + h.
+    pub fn rise_mm(&self) -> f64 {
+        self.slide_mm + self.engagement_mm
+    }
+
+    /// Returns the step of the body radius between shells of one shape, mm: p = w + h + 2g.
+    pub fn pitch_mm(&self) -> f64 {
+        self.wall_mm + self.engagement_mm + 2.0 * self.slide_mm
+    }
+
+    /// Returns by how much a shell still stands out when it is all in, mm.
+    ///
+    /// It is the cap of its parent with its spigot, and a gap on the inside of a bend too.
+    pub fn closed_mm(&self) -> f64 {
+        self.flange_mm + self.spigot_mm + 2.0 * self.slide_mm
+    }
+
+    /// Returns the radii of a body in its parent.
+    pub fn radii(&self, body_mm: f64) -> Radii {
+        Radii {
+            body_mm,
+            flange_mm: body_mm + self.rise_mm(),
+            lip_mm: body_mm + self.slide_mm,
+            bore_mm: body_mm + self.slide_mm + self.rise_mm(),
+        }
+    }
+
+    /// Refuses measures with which no joint can be made.
+    pub fn check(&self) -> Result<(), TelescopeError> {
+        let above_zero = "a number above zero";
+        let positive = [
+            ("wall", self.wall_mm),
+            ("sliding clearance", self.slide_mm),
+            ("engagement", self.engagement_mm),
+            ("flange", self.flange_mm),
+            ("lip", self.lip_mm),
+            ("seat clearance", self.seat_mm),
+            ("spigot", self.spigot_mm),
+            ("glue clearance", self.glue_mm),
+            ("vent", self.vent_mm),
+            ("chamfer", self.chamfer_mm),
+            ("least feature", self.feature_mm),
+        ];
+        let is_bad = |value: f64| !(value.is_finite() && value > 0.0);
+        let bad = positive.into_iter().find(|(_, value)| is_bad(*value));
+        let bad = bad.map(|(measure, value)| (measure, value, above_zero));
+        let bounded = [
+            (
+                "seat clearance",
+                self.seat_mm,
+                self.slide_mm,
+                "at most the sliding clearance",
+            ),
+            (
+                "sliding clearance",
+                self.slide_mm,
+                self.wall_mm,
+                "at most the wall",
+            ),
+            (
+                "chamfer",
+                self.chamfer_mm,
+                0.5 * self.wall_mm,
+                "at most half of the wall",
+            ),
+        ];
+        let above = bounded.into_iter().find(|(_, value, most, _)| value > most);
+        let above = above.map(|(measure, value, _, range)| (measure, value, range));
+        match bad.or(above) {
+            Some((measure, value_mm, range)) => Err(TelescopeError::Size {
+                measure,
+                value_mm,
+                range,
+            }),
+            None => Ok(()),
+        }
+    }
+}
