@@ -27,4 +27,5 @@
 //! | What does a printer's number rest on? | `Sourced` in `printer/sourced.rs`; the profiles lie in `profiles`, read by `printer/library.rs` |
 //! | Where is a curve met by a chain of tubes? | `fit` in `curve/fit/mod.rs`, from the starts of `curve/fit/starts.rs` down by `descend` in `curve/fit/descent.rs` |
 //! | How thick is a shell of a telescope, and why? | `Telescope::nest` in `telescope/nest.rs` adds clearances and walls from `telescope/sizes.rs` |
+//! | Who says that a telescope opens without a collision? | `Telescope::open_in` in `telescope/motion.rs`, over the gaps of `telescope/clearance.rs` |
 //! | How does a tube slide along its own axis? | `Helix` in `curve/helix.rs`: frames along a helix compose, so it slides in itself |

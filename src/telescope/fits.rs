@@ -1,7 +1,7 @@
 //! Offsets between tubes about unlike helices, and between turned ones.
 
 use crate::curve::{Helix, roll};
-use crate::geom::{Frame, Point};
+use crate::geom::Point;
 
 /// Stations along a cavity, and angles around it, at which its distance is taken first.
 const STATIONS: usize = 64;
@@ -84,11 +84,6 @@ pub fn turning_offset_mm(helix: &Helix, overlap_mm: f64, turn_rad: f64) -> f64 {
 pub fn lock_slack_mm(helix: &Helix, clearance_mm: f64, turn_rad: f64) -> f64 {
     let parting = helix.curvature * (0.5 * turn_rad.abs()).sin();
     (clearance_mm / parting).sqrt()
-}
-
-/// Returns the frame at an arc of a helix that begins in a frame.
-pub(super) fn frame_along(start: &Frame, helix: &Helix, arc_mm: f64) -> Frame {
-    start.frame_to_model(&helix.frame_at(arc_mm))
 }
 
 #[cfg(test)]

@@ -7,7 +7,7 @@
 //!
 //! # The line
 //! [`Telescope::nest`] finds the radii of a chain of helices, [`Telescope::shell_solid`] and
-//! [`Telescope::cap_solid`] make its parts.
+//! [`Telescope::cap_solid`] make its parts. [`Telescope::find_opening`] opens it without a collision.
 //!
 //! * **Measures:** [`JointSizes`], walls, clearances and lengths of a joint; [`Radii`], what
 //!   follows from them for a body.
@@ -15,8 +15,10 @@
 //!   a turn parts two tubes; [`lock_slack_mm`], how far it holds them.
 //! * **Mass:** [`TubeMass`], volume and centre of a tube in closed form.
 
+mod clearance;
 mod error;
 mod fits;
+mod motion;
 mod nest;
 mod parts;
 mod profile;
@@ -27,9 +29,11 @@ mod tube;
 #[cfg(test)]
 mod tests;
 
+pub use clearance::Gap;
 pub use error::TelescopeError;
 pub use fits::{axis_excess_mm, lock_slack_mm, turning_offset_mm};
-pub use nest::{Joint, Shell, Telescope};
+pub use motion::{Collision, Key, Opening, Order};
+pub use nest::{Joint, JointState, Shell, Telescope};
 pub use profile::Profile;
 pub use sizes::{JointSizes, Radii};
 pub use sweep::{Sector, sweep_profile, sweep_sector};
