@@ -2,11 +2,13 @@
 //!
 //! * `read` reads a file in any of the formats; `sniff` recognises the format from the content.
 //! * [`stl`], `obj`, `ply` and [`threemf`] hold one format each.
+//! * `points` reads curves, a point a line.
 //! * `ear_clip` cuts the polygons of OBJ and PLY into triangles.
 
 mod ear_clip;
 mod obj;
 mod ply;
+mod points;
 mod read;
 mod sniff;
 pub mod stl;
@@ -16,5 +18,6 @@ pub mod threemf;
 
 pub use obj::ObjError;
 pub use ply::PlyError;
+pub use points::{PointsError, decode_points};
 pub use read::{ContentError, ReadError, decode_model, read_bytes, read_model};
 pub use stl::{StlError, WriteError};
