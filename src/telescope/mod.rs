@@ -13,11 +13,15 @@
 //!   follows from them for a body.
 //! * **Fits:** [`axis_excess_mm`], the wall that unlike shapes cost; [`turning_offset_mm`], how far
 //!   a turn parts two tubes; [`lock_slack_mm`], how far it holds them.
-//! * **Mass:** [`TubeMass`], volume and centre of a tube in closed form.
+//! * **Limits:** [`Limit`], proofs that no telescope of a size follows a curve.
+//! * **Mass:** [`TubeMass`], volume and centre of a tube in closed form; [`Balance`], on a foot
+//!   along the motion.
 
+mod balance;
 mod clearance;
 mod error;
 mod fits;
+mod limits;
 mod motion;
 mod nest;
 mod parts;
@@ -29,9 +33,11 @@ mod tube;
 #[cfg(test)]
 mod tests;
 
+pub use balance::{Balance, DiscFoot};
 pub use clearance::Gap;
 pub use error::TelescopeError;
 pub use fits::{axis_excess_mm, lock_slack_mm, turning_offset_mm};
+pub use limits::{Limit, ball_limit, budget_limit, strands_limit};
 pub use motion::{Collision, Key, Opening, Order};
 pub use nest::{Joint, JointState, Shell, Telescope};
 pub use profile::Profile;

@@ -226,12 +226,7 @@ impl Move<'_> {
     }
 
     fn at(&self, share: f64) -> Key {
-        let ends = self.from.iter().zip(self.to);
-        let between = |(from, to): (&JointState, &JointState)| JointState {
-            slide_mm: from.slide_mm + (to.slide_mm - from.slide_mm) * share,
-            turn_rad: from.turn_rad + (to.turn_rad - from.turn_rad) * share,
-        };
-        ends.map(between).collect()
+        between(self.from, self.to, share)
     }
 
     /// Returns the deepest overlap of the move.
@@ -250,4 +245,14 @@ impl Move<'_> {
             depth_mm: -gap.gap_mm,
         }
     }
+}
+
+/// Returns the state at a share of the straight way between two.
+pub(super) fn between(from: &[JointState], to: &[JointState], share: f64) -> Key {
+    let ends = from.iter().zip(to);
+    let between = |(from, to): (&JointState, &JointState)| JointState {
+        slide_mm: from.slide_mm + (to.slide_mm - from.slide_mm) * share,
+        turn_rad: from.turn_rad + (to.turn_rad - from.turn_rad) * share,
+    };
+    ends.map(between).collect()
 }

@@ -7,7 +7,7 @@ use crate::mass::moments_of_mesh;
 use crate::mesh::{Csg, MeshDistance, Solid, TriMesh};
 
 /// The measures of the reference; without a press ring.
-fn sizes() -> JointSizes {
+pub(super) fn sizes() -> JointSizes {
     JointSizes {
         wall_mm: 0.8,
         slide_mm: 0.3,
@@ -441,5 +441,65 @@ fn the_trefoil_opens_root_first_and_not_all_at_once() {
             Err(collision) => println!("{:?}: {collision} in {seconds:.1} s", order.groups()),
         }
         assert_eq!(found.is_err(), order == Order::together(joints));
+    }
+}
+
+/// The crook of the reference: six tubes of 40 mm on a foot, in a plane.
+fn crook() -> Telescope {
+    let chain = Chain {
+        start: Frame::identity(),
+        piece_mm: 40.0,
+        pieces: vec![
+            Helix {
+                curvature: 1.0 / 120.0,
+                torsion: 0.0,
+            };
+            6
+        ],
+        turns_rad: vec![0.0; 5],
+    };
+    bare(&chain, &[14.0, 12.0, 10.0, 8.0, 6.0, 4.0])
+}
+
+const FOOT: DiscFoot = DiscFoot {
+    radius_mm: 30.0,
+    height_mm: 6.0,
+};
+
+#[test]
+fn the_crook_weighs_and_topples_as_the_reference_says() {
+    let crook = crook();
+    let tube = |shell: &Shell| {
+        TubeMass::of(
+            &shell.helix,
+            [shell.body_mm - 0.8, shell.body_mm],
+            [0.0, 40.0],
+        )
+    };
+    let tubes: Vec<TubeMass> = crook.shells.iter().map(tube).collect();
+    for (slide_mm, degrees) in [(0.0, 68.28), (20.0, 44.65), (40.0, 22.71)] {
+        let state = JointState {
+            slide_mm,
+            turn_rad: 0.0,
+        };
+        let balance = crook.balance(&tubes, &FOOT, &[state; 5]);
+        let mass_g = balance.volume_mm3 * 1.24e-3;
+        let found = balance.toppling_rad.to_degrees();
+        assert!((mass_g - 33.901).abs() < 0.01, "{mass_g}");
+        assert!((found - degrees).abs() < 0.01, "{found} {degrees}");
+    }
+}
+
+#[test]
+fn the_worst_balance_is_no_better_than_that_of_any_key() {
+    let telescope = Telescope::nest(&chain(vec![0.5, -0.5]), 6.0, &sizes()).unwrap();
+    let masses = telescope.weigh().unwrap();
+    let opening = telescope.find_opening().unwrap();
+    let (state, worst) = telescope.worst_balance(&masses, &FOOT, &opening);
+    assert_eq!(telescope.balance(&masses, &FOOT, &state), worst);
+    for key in &opening.keys {
+        let balance = telescope.balance(&masses, &FOOT, key);
+        assert!(balance.toppling_rad >= worst.toppling_rad);
+        assert!((balance.volume_mm3 - worst.volume_mm3).abs() < 1e-6);
     }
 }
