@@ -6,7 +6,7 @@
 //! (Yu, Crane and Coros, "Computational Design of Telescoping Structures", ACM TOG 36(4), 2017.)
 //!
 //! # The line
-//! [`Telescope::nest`] finds the radii of a chain of helices, [`Telescope::shell_solid`] and
+//! [`design()`] goes it from a curve. [`Telescope::nest`] finds the radii of a chain of helices, [`Telescope::shell_solid`] and
 //! [`Telescope::cap_solid`] make its parts. [`Telescope::find_opening`] opens it without a collision.
 //!
 //! * **Measures:** [`JointSizes`], walls, clearances and lengths of a joint; [`Radii`], what
@@ -19,6 +19,7 @@
 
 mod balance;
 mod clearance;
+mod design;
 mod error;
 mod fits;
 mod limits;
@@ -35,6 +36,7 @@ mod tests;
 
 pub use balance::{Balance, DiscFoot};
 pub use clearance::Gap;
+pub use design::{Design, DesignError, DesignRow, Wish, choose_design, design, design_table};
 pub use error::TelescopeError;
 pub use fits::{axis_excess_mm, lock_slack_mm, turning_offset_mm};
 pub use limits::{Limit, ball_limit, budget_limit, strands_limit};
