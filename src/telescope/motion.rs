@@ -1,4 +1,7 @@
 //! Opening a telescope: joint after joint, with a proof that nothing is hit on the way.
+//!
+//! The proof leaves out neighbours, and pairs within π/2·(r + s) of each other along the curve.
+//! Where two bounds are not finite, 50 states of a move are tried in its place.
 
 use super::clearance::{Gap, Shown};
 use super::nest::{JointState, Telescope};
