@@ -71,18 +71,27 @@ fn card(sheet: &Checklist, part: &PartRow, pictures: &[Picture]) -> Markup {
     let is_below = |picture: &&Picture| picture.file == below;
     html! {
         div class="part" {
-            @if let Some(picture) = pictures.iter().find(is_part) { (picture.image()) }
-            @if let Some(picture) = pictures.iter().find(is_below) { (picture.image()) }
-            p class="tick" {
-                strong class="part-id" { (part.id) }
-                @if let Some(half) = part.half { ", half " (half_name(half)) }
-                ": " (part.lies) ". Part OK ☐"
+            div class="shots" {
+                @if let Some(picture) = pictures.iter().find(is_part) { (picture.image()) }
+                @if let Some(picture) = pictures.iter().find(is_below) { (picture.image()) }
             }
-            p { (file_name(&part.file)) }
-            @if let Some(words) = support::of_part(sheet, part) { p { (words) } }
-            @if !part.drains_over.is_empty() {
-                p { "Drain: hold cut face " (part.drains_over.join(" or ")) " down over the vat until no resin drips, then wash." }
-            }
+            div { (orders(sheet, part)) }
+        }
+    }
+}
+
+/// Returns the name of a part, how it lies, its file, its support, and how it drains.
+fn orders(sheet: &Checklist, part: &PartRow) -> Markup {
+    html! {
+        p class="tick" {
+            strong class="part-id" { (part.id) }
+            @if let Some(half) = part.half { ", half " (half_name(half)) }
+            ": " (part.lies) ". Part OK ☐"
+        }
+        p { (file_name(&part.file)) }
+        @if let Some(words) = support::of_part(sheet, part) { p { (words) } }
+        @if !part.drains_over.is_empty() {
+            p { "Drain: hold cut face " (part.drains_over.join(" or ")) " down over the vat until no resin drips, then wash." }
         }
     }
 }

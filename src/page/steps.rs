@@ -4,7 +4,7 @@ use maud::{Markup, html};
 
 use super::cleaning::clean_one;
 use super::fields::{blank, mass_window};
-use super::figure::{Picture, Role, figures};
+use super::figure::{Picture, Role, figures, figures_of};
 use super::gluing::{dry_fit, glue};
 use super::hardware::fit_hardware;
 use super::printing::print_step;
@@ -47,8 +47,7 @@ fn all_steps(sheet: &Checklist, pictures: &[Picture]) -> Vec<Step> {
     let fit = html! { (dry_fit(sheet)) (figures(pictures, Role::Joint)) };
     let glued = html! {
         (glue(sheet))
-        (figures(pictures, Role::Jig))
-        (figures(pictures, Role::Exploded))
+        (put_together(pictures))
     };
     // What goes into the voids goes in between the dry fit and the glue.
     let between = [
@@ -79,6 +78,15 @@ fn all_steps(sheet: &Checklist, pictures: &[Picture]) -> Vec<Step> {
             step("Test", last),
         ]);
     steps.flatten().collect()
+}
+
+/// Returns the pictures of how parts come together: side by side if jigs hold them.
+fn put_together(pictures: &[Picture]) -> Markup {
+    if pictures.iter().any(|picture| picture.role == Role::Jig) {
+        figures_of(pictures, &[Role::Jig, Role::Exploded])
+    } else {
+        figures(pictures, Role::Exploded)
+    }
 }
 
 fn filling(sheet: &Checklist, fill: FillOrder) -> Markup {

@@ -12,7 +12,7 @@ use crate::goal::GoalKind;
 use crate::run::Remark;
 use crate::sheet::FootRow;
 
-/// Least volume left solid that gets a warning, mm³: less would be shown as zero.
+/// Least volume left solid that gets a note, mm³: less would be shown as zero.
 const LEAST_REPORTED_MM3: f64 = 0.05;
 
 /// Warning for all that floats.
@@ -34,28 +34,31 @@ pub fn warnings(facts: &Facts, foot: Option<&FootRow>) -> Vec<String> {
         .map(ToString::to_string);
     let repairs = placed.model.repairs.notable();
     let repairs = (!repairs.is_empty()).then(|| format!("the model was repaired: {repairs}"));
+    let floats = placed.placement.goal.kind == GoalKind::Float;
+    let seal = floats.then(|| SEAL.to_owned());
+    let unweighed = (floats && !placed.shop.material.is_measured()).then(|| UNWEIGHED.to_owned());
+    let warnings = placement
+        .chain(repairs)
+        .chain(seal)
+        .chain(unweighed)
+        .chain(shallow_axle(placed));
+    warnings.chain(warn_of_joints(facts.made)).collect()
+}
+
+/// Words the volume that stays solid for cleaning; `None` if there is next to none.
+fn left_solid(facts: &Facts) -> Option<String> {
     let refused = facts.made.refused_mm3;
     let why = if facts.made.cleaning.iter().any(|round| round.by_plan) {
         "because it could not be cleaned or because the plan says so"
     } else {
         "because it could not be cleaned"
     };
-    let small = (refused >= LEAST_REPORTED_MM3).then(|| {
+    (refused >= LEAST_REPORTED_MM3).then(|| {
         format!(
             "{} is left solid, {why}; it is counted already, and nothing needs to be done",
             measured(refused / MM3_PER_CM3, "cm³")
         )
-    });
-    let floats = placed.placement.goal.kind == GoalKind::Float;
-    let seal = floats.then(|| SEAL.to_owned());
-    let unweighed = (floats && !placed.shop.material.is_measured()).then(|| UNWEIGHED.to_owned());
-    let warnings = placement
-        .chain(repairs)
-        .chain(small)
-        .chain(seal)
-        .chain(unweighed)
-        .chain(shallow_axle(placed));
-    warnings.chain(warn_of_joints(facts.made)).collect()
+    })
 }
 
 /// Returns the offers of other plans.
@@ -78,6 +81,9 @@ pub fn notes(facts: &Facts) -> Vec<String> {
     let is_told = |remark: &&Remark| matches!(remark, Remark::NoBosses { .. }) || remark.is_offer();
     let remarks = made.remarks.iter().filter(|remark| !is_told(remark));
     let remarks = remarks.map(ToString::to_string);
-    let all = std::iter::once(wall).chain(scale).chain(planned);
+    let all = std::iter::once(wall)
+        .chain(scale)
+        .chain(left_solid(facts))
+        .chain(planned);
     all.chain(remarks).collect()
 }
