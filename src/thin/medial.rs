@@ -13,6 +13,10 @@ const MOST_POINTS: f64 = 60_000.0;
 const MOST_RADIUS_WALLS: f64 = 2.0;
 /// The number of times that a ball is shrunk at most. It takes 3 to 8.
 const MOST_SHRINKS: usize = 24;
+/// The first step of a ball that moves inward, in walls, and the number of steps: together as far
+/// as the middle of a bar that is four walls thick.
+const STEP_WALLS: f64 = 0.25;
+const MOST_STEPS: usize = 12;
 /// A ball whose nearest surface is within this share of its radius touches it.
 const TOUCHES_RATIO: f64 = 1e-3;
 
@@ -26,14 +30,22 @@ pub(super) struct Touch {
     /// The point at which the ball touches the surface on the other side; this point if it is too
     /// far.
     pub other_side: Point,
+    /// The index of the triangle that the point lies on.
+    pub triangle: usize,
+    /// The distance from a ball as wide as the wall that lies inside nearby, mm; infinite if none
+    /// was found. Zero if the point's own ball is as wide.
+    pub bare_mm: f64,
 }
 
 impl Touch {
+    /// Returns the middle of the ball.
+    pub fn center(&self) -> Point {
+        self.at - self.normal * (0.5 * self.width_mm)
+    }
+
     /// Returns the distance of a place from the ball, mm; zero inside.
     pub fn distance_mm(&self, at: &Point) -> f64 {
-        let radius_mm = 0.5 * self.width_mm;
-        let center = self.at - self.normal * radius_mm;
-        ((at - center).norm() - radius_mm).max(0.0)
+        ((at - self.center()).norm() - 0.5 * self.width_mm).max(0.0)
     }
 }
 
@@ -47,20 +59,31 @@ pub(super) struct Touched {
 impl Touched {
     pub fn of(mesh: &TriMesh, wall_mm: f64, watch: &Watch) -> Result<Self, Cancelled> {
         let corners: Vec<[Point; 3]> = mesh.iter_corners().collect();
-        let area: f64 = corners.iter().map(area_mm2).sum();
-        let spacing_mm = (SPACING_WALLS * wall_mm).max((area / MOST_POINTS).sqrt());
-        let count = (area / spacing_mm.powi(2)).ceil() as usize;
-        let spread = spread_points(&corners, count);
         let bvh = Bvh::new(corners.iter().copied());
+        Self::of_triangles(&corners, &bvh, [SPACING_WALLS * wall_mm, wall_mm], watch)
+    }
+
+    /// Spreads points over some triangles of a surface, this spacing apart for this wall, mm.
+    pub fn of_triangles(
+        corners: &[[Point; 3]],
+        surface: &Bvh,
+        [spacing_mm, wall_mm]: [f64; 2],
+        watch: &Watch,
+    ) -> Result<Self, Cancelled> {
+        let area: f64 = corners.iter().map(area_mm2).sum();
+        let spacing_mm = spacing_mm.max((area / MOST_POINTS).sqrt());
+        let count = (area / spacing_mm.powi(2)).ceil() as usize;
         let most_mm = MOST_RADIUS_WALLS * wall_mm;
-        let points = spread.into_par_iter().filter_map(|point| {
+        let points = spread_points(corners, count);
+        let points = points.into_par_iter().filter_map(|point| {
             let [a, b, c] = corners[point.triangle];
             let normal = (b - a).cross(&(c - a)).try_normalize(0.0)?;
-            Some(
-                watch
-                    .check()
-                    .map(|()| touch(&bvh, &point.at, &normal, most_mm)),
-            )
+            let touch = || Touch {
+                triangle: point.triangle,
+                ..touch(surface, &point.at, &normal, most_mm)
+            };
+            let touch = || cover(surface, touch(), wall_mm);
+            Some(watch.check().map(|()| touch()))
         });
         Ok(Self {
             points: points.collect::<Result<_, _>>()?,
@@ -92,5 +115,39 @@ fn touch(bvh: &Bvh, at: &Point, normal: &Vector, most_mm: f64) -> Touch {
         normal: *normal,
         width_mm: 2.0 * radius_mm,
         other_side,
+        triangle: 0,
+        bare_mm: 0.0,
     }
+}
+
+/// Finds a ball as wide as the wall near a narrow one, by moving its middle away from the surface.
+///
+/// Balls that touch a facet are narrow near its edges, though the body is not.
+fn cover(bvh: &Bvh, touch: Touch, wall_mm: f64) -> Touch {
+    if touch.width_mm >= wall_mm {
+        return touch;
+    }
+    let mut center = touch.center();
+    let mut step_mm = STEP_WALLS * wall_mm;
+    let nearest = |center: &Point| bvh.closest(center, wall_mm, &[NO_HINT]);
+    let mut near = nearest(&center);
+    for _ in 0..MOST_STEPS {
+        let Some(known) = near else { break };
+        let away = center - known.point;
+        let radius_mm = away.norm();
+        let next = center + away * (step_mm / radius_mm.max(f64::MIN_POSITIVE));
+        let found = nearest(&next);
+        if found.is_none_or(|found| (found.point - next).norm() > radius_mm) {
+            (center, near) = (next, found);
+        } else {
+            step_mm *= 0.5;
+        }
+    }
+    let radius_mm = near.map_or(wall_mm, |near| (near.point - center).norm());
+    let bare_mm = if 2.0 * radius_mm < wall_mm {
+        f64::INFINITY
+    } else {
+        ((touch.at - center).norm() - radius_mm).max(0.0)
+    };
+    Touch { bare_mm, ..touch }
 }

@@ -10,18 +10,22 @@
 //! * `medial`: the points, and their balls
 //!
 //! * `places`: the features and necks that the thin points form
+//!
+//! * `thicken`: the model with its thin features as thick as the wall
 
 mod medial;
 mod places;
 #[cfg(test)]
 mod tests;
+mod thicken;
 
 use crate::base::watch::{Cancelled, Watch};
 use crate::mesh::{TriMesh, bodies};
 use medial::Touched;
-use places::{features, necks, sort};
+use places::{Widths, sort};
 
 pub use places::ThinPlace;
+pub use thicken::{ThickenError, Thickened, thicken};
 
 /// A feature that sticks out by more than this many walls is lost when it does not print.
 pub const LEAST_LENGTH_WALLS: f64 = 3.0;
@@ -58,14 +62,15 @@ pub fn find_thin(mesh: &TriMesh, wall_mm: f64, watch: &Watch) -> Result<ThinFeat
     for body in bodies(mesh) {
         let touched = Touched::of(&body, wall_mm, watch)?;
         watch.check()?;
-        for place in features(&touched, wall_mm) {
+        let widths = Widths::of(&touched, wall_mm);
+        for place in widths.features() {
             if place.length_mm > LEAST_LENGTH_WALLS * wall_mm {
                 found.lost.push(place);
             } else if place.length_mm > LEAST_TOLD_WALLS * wall_mm {
                 found.ends.push(place);
             }
         }
-        found.necks.extend(necks(&touched, wall_mm));
+        found.necks.extend(widths.necks());
     }
     for places in [&mut found.lost, &mut found.ends, &mut found.necks] {
         sort(places);
