@@ -19,6 +19,7 @@ use crate::printer::{MaterialError, ProfileError, SizeError, WallError};
 use crate::repair::NotOneBody;
 use crate::sheet::ChecklistError;
 use crate::shell::ShellError;
+use crate::thin::ThickenError;
 use crate::verify::VerifyError;
 use crate::voids::VoidError;
 
@@ -60,6 +61,9 @@ pub enum Error {
     /// The model is too small or too long.
     #[error(transparent)]
     Size(#[from] SizeError),
+    /// The model cannot be thickened.
+    #[error(transparent)]
+    Thicken(ThickenError),
     /// The goal cannot be placed on the model.
     #[error(transparent)]
     Goal(#[from] GoalError),
@@ -182,6 +186,7 @@ from_stoppable! {
     CutError => Cut,
     KitError => Kit,
     PictureError => Picture,
+    ThickenError => Thicken,
     VerifyError => Verify,
     VoidError => Voids
 }

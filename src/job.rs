@@ -61,6 +61,10 @@ pub struct Job {
     /// The greatest share of the goal's figure that joints may cost; the policy's own if `None`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub joint_price_ratio: Option<f64>,
+    /// True if thin features of the model are thickened to the printer's least wall; left as they
+    /// are if the key is missing.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub thicken: bool,
     /// The file format of the parts.
     pub format: PartFormat,
     /// The ballast asked for; none if the key is missing.
@@ -208,6 +212,7 @@ impl Job {
             pins: PinStyle::Printed,
             ids: IdStyle::Engraved,
             joint_price_ratio: None,
+            thicken: false,
             format: PartFormat::Both,
             ballast: Order::None,
             fill: None,

@@ -6,15 +6,70 @@
 )]
 #![allow(clippy::print_stdout, reason = "the table is shown with --nocapture")]
 
+mod common;
+
+use std::fs;
 use std::path::{Path, PathBuf};
+use std::process::Output;
 use std::time::Instant;
 
+use common::{assert_exit, checklist, equipoise, number, path, printed, words};
 use equipoise::base::watch::Watch;
-use equipoise::io::read_model;
+use equipoise::geom::Point;
+use equipoise::io::{read_model, stl};
+use equipoise::mesh::{Csg, primitives};
 use equipoise::repair::repair;
 use equipoise::thin::find_thin;
 
 const SHARED: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/models");
+
+/// Writes a block with an antenna of 0.5 × 0.5 mm that is 8 mm long.
+fn write_block_with_antenna(folder: &Path) -> PathBuf {
+    let cuboid = |min: [f64; 3], max: [f64; 3]| {
+        Csg::of_mesh(&primitives::cuboid(&Point::from(min), &Point::from(max))).unwrap()
+    };
+    let block = cuboid([-12.0, -12.0, 0.0], [12.0, 12.0, 30.0]);
+    let antenna = cuboid([5.0, -0.25, 25.0], [5.5, 0.25, 38.0]);
+    let mesh = block.union(&antenna).unwrap().to_mesh().unwrap();
+    let model = folder.join("block.stl");
+    fs::write(&model, stl::encode(&mesh, "block")).unwrap();
+    model
+}
+
+fn stand(model: &Path, out: &Path, options: &str) -> Output {
+    let usual = "--goal stand --up z --printer objet-connex350 --wall 1.5mm --pitch 0.5mm --force";
+    let line = ["prepare", path(model), "--out", path(out)];
+    equipoise(&[&line[..], &words(usual), &words(options)].concat())
+}
+
+#[test]
+fn a_thin_antenna_breaks_a_promise_until_it_is_thickened() {
+    let folder = tempfile::tempdir().unwrap();
+    let model = write_block_with_antenna(folder.path());
+    let kit = folder.path().join("kit");
+    let thin = stand(&model, &kit, "");
+    assert_exit(&thin, 1);
+    assert!(printed(&thin).contains("--thicken"), "{}", printed(&thin));
+
+    let thick = stand(&model, &kit, "--thicken");
+    assert_exit(&thick, 0);
+    let sheet = checklist(&kit);
+    // From half of 0.5 mm to half of a wall of 1 mm, and the bumps of the balls.
+    let moved_mm = number(&sheet, "/model/thickened/moved_mm");
+    assert!((0.25..0.6).contains(&moved_mm), "{moved_mm}");
+    let verified = equipoise(&["verify", path(&kit), "--model", path(&model)]);
+    assert_exit(&verified, 0);
+
+    let again = folder.path().join("again");
+    let job = kit.join("job.toml");
+    let replayed = equipoise(&["prepare", "--job", path(&job), "--out", path(&again)]);
+    assert_exit(&replayed, 0);
+    let parts = |kit: &Path| fs::read(kit.join("SHA256SUMS")).unwrap();
+    assert!(
+        parts(&kit) == parts(&again),
+        "the job replays to other bytes"
+    );
+}
 
 #[test]
 #[ignore = "prints a table of models that are not part of the project"]

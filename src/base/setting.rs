@@ -35,6 +35,8 @@ choice! {
         Ids = "ids",
         /// The greatest share of the goal's figure that joints may cost.
         JointPrice = "joint_price_ratio",
+        /// The order to thicken thin features of the model.
+        Thicken = "thicken",
         /// The file format of the parts.
         Format = "format",
         /// The ballast.

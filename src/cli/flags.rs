@@ -10,6 +10,8 @@ pub fn flag(setting: &Setting) -> String {
     match &setting.value {
         // Only one command has it, and others ask for it.
         None if setting.key == Key::List => "equipoise printers import FILES --list".to_owned(),
+        // A switch takes no value.
+        Some(_) if setting.key == Key::Thicken => format!("--{name}"),
         Some(value) => format!("--{name}={value}"),
         None => format!("--{name}"),
     }

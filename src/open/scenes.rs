@@ -121,6 +121,7 @@ pub(super) fn standing(bodies: &[TriMesh], wall_mm: f64, objective: Objective) -
         model: Model {
             solid,
             repairs: Repairs::default(),
+            thickened: None,
             sha256: String::new(),
             scale_ratio: 1.0,
         },

@@ -1,7 +1,7 @@
 //! A kit that breaks a promise: the reason, and what surely helps.
 
 use super::advise::case;
-use super::hints::hint;
+use super::hints::{can_thicken, hint};
 use super::outcome::{Failure, Prepared};
 use crate::advice::{self, Kind, Remedy};
 use crate::base::numbers::quantity;
@@ -170,6 +170,7 @@ fn is_new(placed: &Placed, kind: &CheckKind) -> bool {
     match kind {
         CheckKind::Contact | CheckKind::Lean => !is_tipped,
         CheckKind::SocketWall => placed.job.pins.is_printed(),
+        CheckKind::ThinFeatures | CheckKind::ThinNecks => !placed.job.thicken,
         _ => hinted != Some(placed.request),
     }
 }
@@ -177,6 +178,9 @@ fn is_new(placed: &Placed, kind: &CheckKind) -> bool {
 /// Returns whether the change that a hint calls for was tried on proxies and keeps its promises.
 /// What only a whole kit can show, such as room for pins, counts as untried and is kept.
 fn does_help(placed: &Placed, kind: &CheckKind, watch: &Watch) -> Result<bool, Cancelled> {
+    if matches!(kind, CheckKind::ThinFeatures | CheckKind::ThinNecks) {
+        return can_thicken(placed, watch);
+    }
     let Some(request) = hinted_request(placed, kind) else {
         return Ok(true);
     };

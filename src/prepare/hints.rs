@@ -1,6 +1,9 @@
 //! Hints: what is worth a try for a kit that breaks a promise.
 
 use crate::base::setting::{Key, Setting};
+use crate::base::watch::{Cancelled, Watch};
+use crate::run::Placed;
+use crate::thin::{ThickenError, find_thin, thicken};
 use crate::verify::{CheckKind, FigureName};
 
 /// Returns what may help a broken check, `None` if nothing is known to.
@@ -36,6 +39,10 @@ pub fn hint(kind: &CheckKind) -> Option<String> {
             open(Key::Wall),
             Setting::new(Key::Pins, "dowel")
         ),
+        CheckKind::ThinFeatures | CheckKind::ThinNecks => format!(
+            "thicken what is thin (`{}`)",
+            Setting::new(Key::Thicken, true)
+        ),
         CheckKind::Waterline => format!(
             "leave the waterline free (`{}`)",
             Setting::new(Key::Waterline, "auto")
@@ -46,6 +53,19 @@ pub fn hint(kind: &CheckKind) -> Option<String> {
         ),
         _ => return None,
     })
+}
+
+/// Returns whether nothing of the model is thin any more when it is thickened.
+pub fn can_thicken(placed: &Placed, watch: &Watch) -> Result<bool, Cancelled> {
+    let wall_mm = placed.minimum_wall_mm();
+    match thicken(&placed.model.solid, wall_mm, watch) {
+        Ok(thick) => {
+            let left = find_thin(thick.solid.mesh(), wall_mm, watch)?;
+            Ok(left.lost.is_empty() && left.necks.is_empty())
+        }
+        Err(ThickenError::Cancelled(stopped)) => Err(stopped),
+        Err(_) => Ok(false),
+    }
 }
 
 #[cfg(test)]

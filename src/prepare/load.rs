@@ -10,6 +10,7 @@ use crate::mesh::{Defects, Solid, scaled};
 use crate::printer::{Printer, check_room_for_void};
 use crate::repair::{one_body, repair};
 use crate::run::{Model, Shop};
+use crate::thin::thicken;
 
 /// Finds the job's printer.
 pub fn printer(job: &Job, watch: &Watch) -> Result<Printer, Error> {
@@ -46,8 +47,17 @@ pub fn model(job: &Job, printer: &Printer, watch: &Watch) -> Result<Model, Error
         source: Box::new(source),
     })?;
     let sha256 = sha256_hex(&[&bytes]);
+    let wall = printer.least_wall_mm(solid.mesh().longest_side_mm());
+    let thickened = if job.thicken {
+        Some(thicken(&solid, wall.value, watch)?).filter(|thick| thick.balls > 0)
+    } else {
+        None
+    };
     Ok(Model {
-        solid,
+        solid: thickened
+            .as_ref()
+            .map_or(solid, |thick| thick.solid.clone()),
+        thickened,
         repairs,
         sha256,
         scale_ratio,

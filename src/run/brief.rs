@@ -11,6 +11,7 @@ use crate::mass::{Moments, moments_of_mesh};
 use crate::mesh::Solid;
 use crate::printer::{Material, Printer, Quantity, WallChoice};
 use crate::repair::Repairs;
+use crate::thin::Thickened;
 
 /// A model that bounds one solid body, in mm.
 #[derive(Debug, Clone)]
@@ -19,6 +20,8 @@ pub struct Model {
     pub solid: Solid,
     /// The repairs that were needed.
     pub repairs: Repairs,
+    /// The thickening of thin features; `None` if none was asked for, or nothing was thin.
+    pub thickened: Option<Thickened>,
     /// SHA-256 of the file.
     pub sha256: String,
     /// Factor from the file's numbers to mm.

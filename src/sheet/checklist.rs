@@ -137,6 +137,20 @@ pub struct ModelRow {
     pub volume_mm3: f64,
     /// Factor it was scaled by.
     pub scale_ratio: f64,
+    /// The thickening of its thin features; `None` if they were left as they are.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub thickened: Option<ThickenedRow>,
+}
+
+/// The thickening of thin features.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct ThickenedRow {
+    /// The wall up to which they were thickened, mm.
+    pub wall_mm: f64,
+    /// The greatest distance by which the surface moved outward, mm.
+    pub moved_mm: f64,
+    /// The volume that was added, mm³.
+    pub added_mm3: f64,
 }
 
 /// The verdict over all checks.

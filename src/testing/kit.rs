@@ -173,6 +173,7 @@ fn model(found: &Judgement) -> ModelRow {
         size_mm: [60.0, 40.0, 12.0],
         volume_mm3: found.solid.volume_mm3,
         scale_ratio: 1.0,
+        thickened: None,
     }
 }
 

@@ -13,8 +13,8 @@ const MOST_POINTS: f64 = 60_000.0;
 const MOST_RADIUS_WALLS: f64 = 2.0;
 /// The number of times that a ball is shrunk at most. It takes 3 to 8.
 const MOST_SHRINKS: usize = 24;
-/// The first step of a ball that moves inward, in walls, and the number of steps: together as far
-/// as the middle of a bar that is four walls thick.
+/// The first step of a ball that moves inward, in walls, and the number of steps. Together they
+/// reach the middle of a bar that is four walls thick.
 const STEP_WALLS: f64 = 0.25;
 const MOST_STEPS: usize = 12;
 /// A ball whose nearest surface is within this share of its radius touches it.

@@ -24,11 +24,9 @@ use crate::mesh::{TriMesh, bodies};
 use medial::Touched;
 use places::{Widths, sort};
 
-pub use places::ThinPlace;
+pub use places::{LEAST_LENGTH_WALLS, ThinPlace};
 pub use thicken::{ThickenError, Thickened, thicken};
 
-/// A feature that sticks out by more than this many walls is lost when it does not print.
-pub const LEAST_LENGTH_WALLS: f64 = 3.0;
 /// A thin end that is longer than this many walls is reported.
 const LEAST_TOLD_WALLS: f64 = 1.0;
 

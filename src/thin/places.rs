@@ -4,18 +4,19 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use rayon::prelude::*;
 
-use super::LEAST_LENGTH_WALLS;
 use super::medial::Touched;
 use crate::geom::{Aabb, Point};
 use crate::mesh::union_find::UnionFind;
 
+/// A feature that sticks out by more than this many walls is lost when it does not print.
+pub const LEAST_LENGTH_WALLS: f64 = 3.0;
 /// Points within this many spacings are neighbours if they look to the same side.
 const NEIGHBOUR_SPACINGS: f64 = 2.2;
 const SAME_SIDE_COSINE: f64 = 0.0;
 /// A width counts as thin below this share of the wall: facets and rounding.
 const THIN_RATIO: f64 = 0.98;
-/// A point within this many walls of a ball that is wide enough is covered: near the edges of facets
-/// balls are narrow. A right angle leaves 0.2.
+/// A point within this many walls of a ball that is wide enough is covered. Near the edges of
+/// facets balls are narrow. A right angle leaves 0.2.
 const COVERED_WALLS: f64 = 0.1;
 /// A piece behind a neck is reported if it is wider than this many walls.
 const LEAST_PIECE_WALLS: f64 = 3.0;

@@ -15,14 +15,15 @@ const BALL_SPACING_WALLS: f64 = 0.3;
 const MOST_BALLS: usize = 8_000;
 /// The spare width of the balls, as a share of the wall: more than counts as thin, which is 2 %.
 const SPARE_RATIO: f64 = 0.03;
-/// The subdivisions of a ball: 80 triangles. Its faces are raised so that all of the ball is inside.
+/// The subdivisions of a ball: 80 triangles. Its faces are raised so that all of the ball is
+/// inside.
 const BALL_LEVEL: u32 = 1;
 /// The number of times that what is left thin is thickened.
 const MOST_ROUNDS: usize = 3;
 /// A ball beside one that is wider by this factor stands for an edge of the same feature. A smaller
 /// factor takes the tips of cones for edges, a greater one thickens edges.
 const EDGE_RATIO: f64 = 1.4;
-/// The distance within which a ball is beside another, in radii of the wider one: the edge of a
+/// The distance within which a ball is beside another, in radii of the wider one. The edge of a
 /// square bar is 1.42 radii from its middle.
 const BESIDE_RADII: f64 = 2.0;
 /// A surface that moved by less than this did not move, mm: rounding of a boolean.
@@ -33,6 +34,8 @@ const MOVED_MM: f64 = 1e-9;
 pub struct Thickened {
     /// The thicker model.
     pub solid: Solid,
+    /// The wall, mm.
+    pub wall_mm: f64,
     /// The number of balls that were added; zero if nothing was thin.
     pub balls: usize,
     /// The greatest distance by which the surface moved outward, mm.
@@ -88,6 +91,7 @@ pub fn thicken(solid: &Solid, wall_mm: f64, watch: &Watch) -> Result<Thickened, 
         result = unite(&result, &centers, wall_mm, watch)?;
     }
     Ok(Thickened {
+        wall_mm,
         balls,
         moved_mm: moved_mm(solid, result.mesh(), wall_mm),
         added_mm3: result.mesh().signed_volume_mm3() - solid.mesh().signed_volume_mm3(),

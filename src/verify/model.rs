@@ -9,9 +9,11 @@ use super::cover::{Lie, ON_SHEET_MM, Sheet, Sheets, Whose};
 use super::reading::{read_file, read_mesh};
 use super::{Check, CheckKind, Evidence, Limit, Shells, VerifyError};
 use crate::base::digest::sha256_hex;
+use crate::base::watch::Watch;
 use crate::geom::Point;
-use crate::mesh::{TriMesh, scaled};
+use crate::mesh::{Solid, TriMesh, scaled};
 use crate::repair::{repair, weld};
+use crate::thin::thicken;
 
 /// Checks that the outside of the uncut result is that of the model in this file, in the stated
 /// size. Of a kit with hardware only the file is compared: its sockets are in the outside.
@@ -32,7 +34,9 @@ pub(super) fn model_check(
     };
     let sha256 = sha256_hex(&[&read_file(file)?]);
     let (mesh, _) = repair(read_mesh(file)?);
-    let count = mesh.triangles().len();
+    let scale_ratio = stated["scale_ratio"].as_f64().unwrap_or(f64::NAN);
+    let model = thickened(scaled(&mesh, scale_ratio), stated);
+    let count = model.triangles().len();
     if stated["sha256"].as_str() != Some(&sha256) {
         let words = "it is another file than the one of the checklist";
         return Ok(verdict(count, Some(words.to_owned())));
@@ -44,8 +48,6 @@ pub(super) fn model_check(
     if !evidence.promise.hardware.is_empty() {
         return Ok(verdict(0, None));
     }
-    let scale_ratio = stated["scale_ratio"].as_f64().unwrap_or(f64::NAN);
-    let model = scaled(&mesh, scale_ratio);
     let outer = Shells::of_mesh(&weld(&evidence.hollowed)).outer_mesh();
     let off = [find_off(&outer, &model), find_off(&model, &outer)].concat();
     let words = off.first().map(|at| {
@@ -53,6 +55,21 @@ pub(super) fn model_check(
         format!("{x:.1},{y:.1},{z:.1} mm")
     });
     Ok(verdict(off.len(), words))
+}
+
+/// Thickens a model as the checklist says; returns it as it is if that says nothing, or if it
+/// cannot be thickened so.
+fn thickened(model: TriMesh, stated: &Value) -> TriMesh {
+    let Some(wall_mm) = stated["thickened"]["wall_mm"].as_f64() else {
+        return model;
+    };
+    let Ok(solid) = Solid::new(model.clone()) else {
+        return model;
+    };
+    match thicken(&solid, wall_mm, &Watch::silent()) {
+        Ok(thick) => thick.solid.into_mesh(),
+        Err(_) => model,
+    }
 }
 
 /// Returns a point of each triangle that does not lie on a surface.

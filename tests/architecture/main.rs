@@ -102,14 +102,14 @@ const ARROWS: &[(&str, &[&str])] = &[
         "error",
         &[
             "base", "repair", "ballast", "cut", "draw", "goal", "hardware", "hollow", "interior",
-            "io", "job", "kit", "mesh", "printer", "sheet", "shell", "verify", "voids",
+            "io", "job", "kit", "mesh", "printer", "sheet", "shell", "thin", "verify", "voids",
         ],
     ),
     (
         "run",
         &[
             "advice", "ballast", "base", "cut", "goal", "hardware", "hollow", "interior", "job",
-            "mass", "mesh", "printer", "repair", "verify",
+            "mass", "mesh", "printer", "repair", "thin", "verify",
         ],
     ),
     (
@@ -131,7 +131,7 @@ const ARROWS: &[(&str, &[&str])] = &[
         &[
             "advice", "ballast", "base", "cut", "error", "geom", "goal", "hardware", "hollow",
             "interior", "io", "job", "kit", "make", "mass", "mesh", "open", "page", "printer",
-            "repair", "run", "sheet", "shell", "verify",
+            "repair", "run", "sheet", "shell", "thin", "verify",
         ],
     ),
     (

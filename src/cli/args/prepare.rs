@@ -77,6 +77,9 @@ pub struct PrepareArgs {
         help_heading = "Printer"
     )]
     pub wall: Option<Length>,
+    /// Thicken what of the model is thinner than the printer's least wall, in place of a refusal
+    #[arg(long, help_heading = "Printer")]
+    pub thicken: bool,
 
     /// The point where a top touches the ground: lowest, center, X,Y,Z in mm, or auto. Center is
     /// below the centre of mass; auto is lowest if it spins there, else center [default: auto]
@@ -163,10 +166,11 @@ pub struct PrepareArgs {
 pub const DEFAULT_PLANS: u8 = 3;
 
 /// The arguments that a replayed job decides.
-const DECIDED_BY_JOB: [&str; 34] = [
+const DECIDED_BY_JOB: [&str; 35] = [
     "printer",
     "material",
     "wall",
+    "thicken",
     "goal",
     "up",
     "contact",
@@ -282,6 +286,7 @@ impl PrepareArgs {
             pins: self.cutting.pins.unwrap_or(default.pins),
             ids: self.cutting.ids.unwrap_or(default.ids),
             joint_price_ratio: self.cutting.joint_price,
+            thicken: self.thicken,
             format: self.format.unwrap_or(default.format),
             ballast: self.load.ballast.unwrap_or(default.ballast),
             fill: self.load.fill,

@@ -19,8 +19,8 @@ use crate::goal::{Objective, RoundKind, RoundSurface, Warning};
 use crate::mass::moments_of_mesh;
 use crate::run::{AxisChoice, Placed};
 use crate::sheet::{
-    BallastRow, Checklist, GoalRow, ModelRow, ShaftKind, ShaftRow, Tool, Verdict, WallRow,
-    finished_size_mm,
+    BallastRow, Checklist, GoalRow, ModelRow, ShaftKind, ShaftRow, ThickenedRow, Tool, Verdict,
+    WallRow, finished_size_mm,
 };
 
 /// Fills the checklist, but for the hashes of the kit's files and the timings.
@@ -87,6 +87,11 @@ fn model_row(placed: &Placed) -> ModelRow {
         size_mm: mesh.aabb().size().into(),
         volume_mm3: moments_of_mesh(mesh).volume(),
         scale_ratio: model.scale_ratio,
+        thickened: model.thickened.as_ref().map(|thick| ThickenedRow {
+            wall_mm: thick.wall_mm,
+            moved_mm: thick.moved_mm,
+            added_mm3: thick.added_mm3,
+        }),
     }
 }
 

@@ -34,11 +34,19 @@ pub fn warnings(facts: &Facts, foot: Option<&FootRow>) -> Vec<String> {
         .map(ToString::to_string);
     let repairs = placed.model.repairs.notable();
     let repairs = (!repairs.is_empty()).then(|| format!("the model was repaired: {repairs}"));
+    let thick = placed.model.thickened.as_ref().map(|thick| {
+        format!(
+            "thin features of the model were thickened, as asked: its surface moved outward by up to {}, and {} were added",
+            measured(thick.moved_mm, "mm"),
+            measured(thick.added_mm3, "mm³")
+        )
+    });
     let floats = placed.placement.goal.kind == GoalKind::Float;
     let seal = floats.then(|| SEAL.to_owned());
     let unweighed = (floats && !placed.shop.material.is_measured()).then(|| UNWEIGHED.to_owned());
     let warnings = placement
         .chain(repairs)
+        .chain(thick)
         .chain(seal)
         .chain(unweighed)
         .chain(shallow_axle(placed));
