@@ -9,6 +9,7 @@ use super::cover::{Lie, ON_SHEET_MM, Sheet, Sheets, Whose};
 use super::reading::{read_file, read_mesh};
 use super::{Check, CheckKind, Evidence, Limit, Shells, VerifyError};
 use crate::base::digest::sha256_hex;
+use crate::base::watch::Watch;
 use crate::geom::Point;
 use crate::mesh::{TriMesh, scaled};
 use crate::repair::{repair, weld};
@@ -17,11 +18,12 @@ use crate::repair::{repair, weld};
 /// size. Of a kit with hardware only the file is compared: its sockets are in the outside.
 ///
 /// # Errors
-/// The file cannot be read, or holds no mesh.
+/// The file cannot be read, holds no mesh, or the watch was stopped.
 pub(super) fn model_check(
     file: &Path,
     sheet: &Value,
     evidence: &Evidence,
+    watch: &Watch,
 ) -> Result<Check, VerifyError> {
     let stated = &sheet["model"];
     let promise =
@@ -31,7 +33,7 @@ pub(super) fn model_check(
         Check::new(CheckKind::Model, &promise, Some(count as f64), limit).at(words)
     };
     let sha256 = sha256_hex(&[&read_file(file)?]);
-    let (mesh, _) = repair(read_mesh(file)?);
+    let (mesh, _) = repair(read_mesh(file)?, watch)?;
     let count = mesh.triangles().len();
     if stated["sha256"].as_str() != Some(&sha256) {
         let words = "it is another file than the one of the checklist";
