@@ -8,6 +8,10 @@ use super::contacts::{Cuts, share_at_plane};
 use crate::geom::Point;
 use crate::mesh::TriMesh;
 
+/// Largest number of segments of one triangle. All their pairs are compared: 1000 take some
+/// hundredths of a second, and a surface with more is a heap of parts.
+const MAX_SEGMENTS: usize = 1000;
+
 /// The plane of a triangle seen from in front, as two of the three coordinates.
 pub(super) struct View {
     axes: [usize; 2],
@@ -38,10 +42,12 @@ impl View {
     }
 }
 
-/// Adds the knots to the segments; `None` if three triangles do not agree whether they meet.
+/// Adds the knots to the segments; `None` if three triangles do not agree whether they meet, or if
+/// one has more than 1000 segments.
 pub(super) fn tie_knots(mesh: &TriMesh, cuts: &mut Cuts) -> Option<()> {
     let mut seen: BTreeMap<[u32; 3], usize> = BTreeMap::new();
     for (triangle, segments) in cuts.segments_of_triangles() {
+        (segments.len() <= MAX_SEGMENTS).then_some(())?;
         for others in crossing_segments(mesh, cuts, triangle, &segments)? {
             let mut three = [triangle, others[0], others[1]];
             three.sort_unstable();

@@ -128,6 +128,22 @@ fn a_tube_that_turns_inside_out_loses_that_end_and_tells_how_far_it_moved() {
 }
 
 #[test]
+fn a_side_pierced_by_very_many_spikes_is_given_up() {
+    let plate = cuboid(&Point::new(0.0, 0.0, -1.0), &Point::new(100.0, 100.0, 0.0));
+    let spike = cuboid(&Point::new(0.1, 0.2, -0.5), &Point::new(0.6, 0.7, 0.5));
+    let spikes = (0..300).map(|i| {
+        at(
+            &spike,
+            f64::from(i % 20) * 2.0 + 50.0,
+            f64::from(i / 20),
+            0.0,
+        )
+    });
+    let all = spikes.fold(plate, |all, spike| all.joined(&spike));
+    assert!(resolve(&all).is_none());
+}
+
+#[test]
 fn sound_surfaces_are_left_alone() {
     for mesh in [torus(3.0, 1.0, 20, 10), ball(&Point::origin(), 1.0, 2)] {
         assert!(resolve(&mesh).is_none());
