@@ -212,7 +212,11 @@ impl Scene {
 
     fn solid(&self) -> &Solid {
         self.solid.get_or_init(|| {
-            let (mesh, _) = repair(equipoise::io::read_model(&self.path).unwrap());
+            let (mesh, _) = repair(
+                equipoise::io::read_model(&self.path).unwrap(),
+                &Watch::silent(),
+            )
+            .unwrap();
             Solid::new(scaled(&mesh, SIZE_MM / mesh.longest_side_mm())).unwrap()
         })
     }

@@ -21,7 +21,7 @@ fn main() -> anyhow::Result<()> {
     let shipped = "examples/models/tilted-ellipsoid.stl".to_owned();
     let path = std::env::args().nth(1).unwrap_or(shipped);
     let watch = Watch::silent();
-    let (mesh, _) = repair(read_model(path.as_ref())?);
+    let (mesh, _) = repair(read_model(path.as_ref())?, &Watch::silent())?;
     let solid = Solid::new(mesh)?;
     // On its own lowest point: a tip would have to be weighed in.
     let top = Request::new(GoalKind::Top).unpromised();

@@ -91,7 +91,7 @@ fn bodies() -> Vec<(String, TriMesh)> {
         ),
     ];
     let mut all: Vec<(String, TriMesh)> = ours
-        .map(|(name, mesh)| (name.to_owned(), repair(mesh).0))
+        .map(|(name, mesh)| (name.to_owned(), repair(mesh, &Watch::silent()).unwrap().0))
         .to_vec();
     if let Some(folder) = std::env::var_os("EQUIPOISE_SOAK_MODELS") {
         let mut paths: Vec<_> = std::fs::read_dir(folder)
@@ -103,7 +103,8 @@ fn bodies() -> Vec<(String, TriMesh)> {
             let Ok(mesh) = read_model(&path) else {
                 continue;
             };
-            let (mesh, watch) = (repair(mesh).0, Watch::silent());
+            let watch = Watch::silent();
+            let mesh = repair(mesh, &watch).unwrap().0;
             if Solid::new(mesh.clone()).is_ok_and(|solid| one_body(&solid, &watch) == Ok(Ok(()))) {
                 all.push((
                     path.file_name().unwrap().to_string_lossy().into_owned(),

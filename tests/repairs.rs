@@ -28,7 +28,7 @@ fn shared(name: &str) -> TriMesh {
 
 /// Returns the volume of a mesh that is repaired to one body, and the words for the repairs.
 fn mend(mesh: TriMesh) -> Result<(f64, String), String> {
-    let (mesh, repairs) = repair(mesh);
+    let (mesh, repairs) = repair(mesh, &Watch::silent()).unwrap();
     let solid = Solid::new(mesh).map_err(|defects| defects.to_string())?;
     let judged = one_body(&solid, &Watch::silent()).unwrap();
     judged.map_err(|refusal| refusal.to_string())?;
@@ -116,7 +116,7 @@ fn overlapped(mesh: &TriMesh) -> (TriMesh, f64) {
 fn broken_variants_of_real_models_keep_their_volume() {
     println!("| model | broken by | error of the volume | repaired |\n|---|---|---|---|");
     for name in ["heart.obj", "elephant.obj", "homer.obj", "fertility.stl"] {
-        let sound = repair(shared(name)).0;
+        let sound = repair(shared(name), &Watch::silent()).unwrap().0;
         let volume = sound.signed_volume_mm3();
         let (overlapping, united) = overlapped(&sound);
         for (what, broken, volume) in [
@@ -144,4 +144,18 @@ fn open_models_have_the_volume_of_their_winding_number() {
         println!("{name}: {found:.6e}, error {:.4} %; {words}", 100.0 * error);
         assert!(error.abs() < VOLUME_RATIO, "{name}: {error}");
     }
+}
+
+#[test]
+#[ignore = "needs a model that is not part of the project"]
+fn the_cow_crosses_itself_no_more() {
+    // By tests/judge/winding_volume.py with a million points: 0.0534658869 ± 4.6e-6.
+    let volume = 0.053_465_886_9;
+    let (found, words) = mend(shared("cow.stl")).unwrap();
+    let error = found / volume - 1.0;
+    println!(
+        "cow.stl: {found:.6e}, error {:.4} %; {words}",
+        100.0 * error
+    );
+    assert!(error.abs() < VOLUME_RATIO, "{error}");
 }

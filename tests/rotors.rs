@@ -196,7 +196,9 @@ fn shared(name: &str) -> Option<Vec<ShaftAxis>> {
         eprintln!("SKIPPED: there is no {}", model.display());
         return None;
     }
-    let mended = repair(read_model(&model).unwrap()).0;
+    let mended = repair(read_model(&model).unwrap(), &Watch::silent())
+        .unwrap()
+        .0;
     let size_mm = mended.aabb().size().max();
     let solid = Solid::new(mended.map_vertices(|p| p * (100.0 / size_mm))).unwrap();
     Some(find_shafts(&solid, &Watch::silent()).unwrap())

@@ -92,7 +92,12 @@ fn real_models_at_100_mm() {
     ] {
         let folder = std::env::var_os("EQUIPOISE_SHARED_MODELS");
         let folder = folder.map_or_else(|| PathBuf::from(SHARED), PathBuf::from);
-        let mesh = repair(read_model(&Path::new(&folder).join(name)).unwrap()).0;
+        let mesh = repair(
+            read_model(&Path::new(&folder).join(name)).unwrap(),
+            &Watch::silent(),
+        )
+        .unwrap()
+        .0;
         let longest = mesh.aabb().size().max();
         let mesh = mesh.map_vertices(|p| p * (100.0 / longest));
         for wall_mm in [0.6, 1.0] {

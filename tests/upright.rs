@@ -63,7 +63,12 @@ fn known() -> BTreeMap<String, Known> {
 }
 
 fn read(path: &Path) -> Solid {
-    Solid::new(repair(read_model(path).unwrap()).0).unwrap()
+    Solid::new(
+        repair(read_model(path).unwrap(), &Watch::silent())
+            .unwrap()
+            .0,
+    )
+    .unwrap()
 }
 
 /// Returns the turns that map the axes to axes.

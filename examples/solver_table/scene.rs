@@ -77,7 +77,7 @@ fn solid(model: &str, file: Option<&str>) -> Result<Option<Solid>> {
     if !path.is_file() {
         return Ok(None);
     }
-    let (mesh, _) = repair(read_model(&path)?);
+    let (mesh, _) = repair(read_model(&path)?, &Watch::silent())?;
     Ok(Some(Solid::new(scaled(
         &mesh,
         SIZE_MM / mesh.longest_side_mm(),

@@ -113,7 +113,7 @@ pub fn inspect(
     voice: Voice,
     out: &mut dyn Write,
 ) -> Result<Exit, InspectError> {
-    let (file, repairs) = repair(read_model(&args.model)?);
+    let (file, repairs) = repair(read_model(&args.model)?, &Watch::silent())?;
     let mesh = scaled(&file, args.scaling.scaling().factor(file.longest_side_mm()));
     let facts = MeshFacts::of(&mesh);
     // Defects are located in the coordinates of the file, where a person looks for them.

@@ -6,7 +6,7 @@
 //! | question | answer |
 //! | --- | --- |
 //! | What happens to a job, in which order? | `prepare` in `prepare/mod.rs`, a line of seven stages |
-//! | Where is a broken mesh mended, and who says what was changed? | `repair` in `repair/ladder.rs`; `Repairs` counts the changes |
+//! | Where is a broken mesh mended, and who says what was changed? | `repair` in `repair/ladder.rs`; `Repairs` in `repair/report.rs` counts the changes |
 //! | How thick is the wall, and why? | `quantise_wall` in `printer/wall.rs`; `Shell` in `shell/wall.rs` keeps it |
 //! | Where does a request become a frame with a support? | `place` in `goal/place.rs`, then the goal's own file, say `goal/top.rs` |
 //! | Who decides if a top needs a tip, and which? | `choose_contact` in `prepare/place.rs`; `Lean` in `goal/lean.rs` says how far it leans, `TipPlace` in `goal/tips.rs` picks the pin |

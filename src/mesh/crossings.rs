@@ -83,16 +83,43 @@ fn crossings_after(index: usize, corners: &[Point; 3], bvh: &Bvh) -> usize {
     count
 }
 
+/// Returns the pairs of triangles that pass through each other or overlap in one plane, ascending.
+///
+/// Of each triangle at most 100 pairs with later ones are listed. The rules and the cost are those
+/// of [`Crossings::of`].
+pub(crate) fn crossing_pairs(mesh: &TriMesh, watch: &Watch) -> Result<Vec<[u32; 2]>, Cancelled> {
+    let bvh = Bvh::new(mesh.iter_corners());
+    let pairs_of = |index: usize| {
+        watch.check()?;
+        let mut pairs = Vec::new();
+        let corners = mesh.corners(index);
+        bvh.visit_overlapping(&Aabb::of_points(&corners), |other, other_corners| {
+            if other as usize > index && cross(&corners, other_corners) {
+                pairs.push([index as u32, other]);
+            }
+            if pairs.len() < MAX_PER_TRIANGLE {
+                ControlFlow::Continue(())
+            } else {
+                ControlFlow::Break(())
+            }
+        });
+        pairs.sort_unstable();
+        Ok(pairs)
+    };
+    let pairs = (0..mesh.triangles().len()).into_par_iter().map(pairs_of);
+    Ok(pairs.collect::<Result<Vec<_>, Cancelled>>()?.concat())
+}
+
 /// Returns true if two triangles pass through each other or overlap in one plane.
 pub(crate) fn cross(a: &[Point; 3], b: &[Point; 3]) -> bool {
-    let b_sides = b.map(|p| side(a, &p));
+    let b_sides = b.map(|p| side_of(a, &p));
     if b_sides == [0; 3] {
         return overlap_in_plane(a, b);
     }
     if !are_on_both_sides(&b_sides) {
         return false;
     }
-    let a_sides = a.map(|p| side(b, &p));
+    let a_sides = a.map(|p| side_of(b, &p));
     are_on_both_sides(&a_sides)
         && (an_edge_passes(b, &b_sides, a) || an_edge_passes(a, &a_sides, b))
 }
@@ -102,8 +129,9 @@ fn are_on_both_sides(sides: &[i8; 3]) -> bool {
     sides.contains(&1) && sides.contains(&-1)
 }
 
-/// Returns the side of the triangle's plane on which the point lies: 1, 0 or −1.
-fn side([a, b, c]: &[Point; 3], p: &Point) -> i8 {
+/// Returns the side of the triangle's plane on which the point lies: 1 behind it, −1 in front, 0 in
+/// it. Exact.
+pub(crate) fn side_of([a, b, c]: &[Point; 3], p: &Point) -> i8 {
     let [a, b, c, p] = [a, b, c, p].map(|p| Coord3D {
         x: p.x,
         y: p.y,
@@ -134,7 +162,7 @@ fn an_edge_passes(edges: &[Point; 3], sides: &[i8; 3], face: &[Point; 3]) -> boo
 /// Returns true if the line through p and q meets the face inside or on an edge, but not at a
 /// corner. The line must not be parallel to the face.
 fn line_meets(p: &Point, q: &Point, [a, b, c]: &[Point; 3]) -> bool {
-    let turns = [(a, b), (b, c), (c, a)].map(|(from, to)| side(&[*p, *q, *from], to));
+    let turns = [(a, b), (b, c), (c, a)].map(|(from, to)| side_of(&[*p, *q, *from], to));
     let at_corner = turns.iter().filter(|&&turn| turn == 0).count() > 1;
     let beside = turns.contains(&1) && turns.contains(&-1);
     !at_corner && !beside

@@ -33,7 +33,7 @@ pub fn model(job: &Job, printer: &Printer, watch: &Watch) -> Result<Model, Error
     let mesh = io::decode_model(&bytes).map_err(content)?;
     job.clone().bind_to(&bytes)?;
     watch.check()?;
-    let (mesh, repairs) = repair(mesh);
+    let (mesh, repairs) = repair(mesh, watch)?;
     let scale_ratio = job.model.scaling.factor(mesh.longest_side_mm());
     printer.check_length(scale_ratio * mesh.longest_side_mm())?;
     watch.check()?;

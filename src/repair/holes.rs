@@ -1,5 +1,6 @@
 //! Holes: fills rims with triangles over their own corners. No vertex moves and none is added.
 
+use crate::base::watch::{Cancelled, Watch};
 use crate::geom::{Point, Vector};
 use crate::mesh::edges::{EdgeKind, EdgeTable};
 use crate::mesh::fans::Fans;
@@ -39,51 +40,87 @@ pub(super) struct Filled {
 /// shell whose fillings exceed a quarter of its area stays open, nine tenths if all are flat.
 /// So does one whose rims are too long. Takes time cubic in the corners of a rim, up to a limit of
 /// about two seconds.
-pub(super) fn fill_holes(mesh: &TriMesh) -> Option<Filled> {
-    let table = EdgeTable::of(mesh);
-    let is_bad = |kind| table.of_kind(kind).next().is_some();
-    if is_bad(EdgeKind::Crowded) || is_bad(EdgeKind::Misoriented) || is_bad(EdgeKind::Collapsed) {
-        return None;
+///
+/// # Errors
+/// The watch was stopped.
+pub(super) fn fill_holes(mesh: &TriMesh, watch: &Watch) -> Result<Option<Filled>, Cancelled> {
+    let Some(open) = Open::of(mesh) else {
+        return Ok(None);
+    };
+    let mut fillings = Vec::with_capacity(open.rims.len());
+    for rim in &open.rims {
+        let Some(filling) = fill_rim(&open.mesh, rim, watch)? else {
+            return Ok(None);
+        };
+        fillings.push(filling);
     }
-    // Each rim has vertices of its own then, so that it is a loop.
-    let split = Fans::of(mesh, &table).split(mesh);
-    let table = EdgeTable::of(&split);
-    let shells = Shells::of(&split, &table);
-    let rims = find_rims(&split, &table);
-    let triples = |rim: &Rim| rim.corners.len().saturating_pow(3) / 6;
-    let budget = rims.iter().map(triples).fold(0, usize::saturating_add);
-    if rims.is_empty() || budget > MAX_TRIPLES {
-        return None;
-    }
-    let mut triangles = split.triangles().to_vec();
-    let mut areas = vec![0.0; shells.count()];
-    let mut limits = vec![MAX_FLAT_RATIO; shells.count()];
-    for rim in &rims {
-        let filling = fill_rim(&split, rim)?;
-        let shell = shells.shell_of(rim.triangles[0]);
-        areas[shell] += area(&split, &filling.triangles);
-        if !filling.is_flat {
-            limits[shell] = MAX_FILLED_RATIO;
+    Ok(open.close(&fillings))
+}
+
+/// A mesh with rims of its own for each hole.
+struct Open {
+    mesh: TriMesh,
+    shells: Shells,
+    rims: Vec<Rim>,
+}
+
+impl Open {
+    /// Finds the rims; `None` if there are none, if an edge is bad otherwise, or if they are too
+    /// long.
+    fn of(mesh: &TriMesh) -> Option<Self> {
+        let table = EdgeTable::of(mesh);
+        let is_bad = |kind| table.of_kind(kind).next().is_some();
+        if is_bad(EdgeKind::Crowded) || is_bad(EdgeKind::Misoriented) || is_bad(EdgeKind::Collapsed)
+        {
+            return None;
         }
-        triangles.extend(filling.triangles);
+        // Each rim has vertices of its own then, so that it is a loop.
+        let split = Fans::of(mesh, &table).split(mesh);
+        let table = EdgeTable::of(&split);
+        let shells = Shells::of(&split, &table);
+        let rims = find_rims(&split, &table);
+        let triples = |rim: &Rim| rim.corners.len().saturating_pow(3) / 6;
+        let budget = rims.iter().map(triples).fold(0, usize::saturating_add);
+        let is_bounded = !rims.is_empty() && budget <= MAX_TRIPLES;
+        is_bounded.then_some(Self {
+            mesh: split,
+            shells,
+            rims,
+        })
     }
-    let mut area_before = 0.0;
-    for (shell, members) in shells.members().iter().enumerate() {
-        let own = members
-            .iter()
-            .map(|&t| area_mm2(&split.corners(t as usize)));
-        let own: f64 = own.sum();
-        area_before += own;
-        let is_body = areas[shell] <= limits[shell] * own;
-        is_body.then_some(())?;
+
+    /// Adds the fillings; `None` if a shell grows too much, or an edge is bad afterwards.
+    fn close(self, fillings: &[Filling]) -> Option<Filled> {
+        let (split, shells) = (self.mesh, self.shells);
+        let mut triangles = split.triangles().to_vec();
+        let mut areas = vec![0.0; shells.count()];
+        let mut limits = vec![MAX_FLAT_RATIO; shells.count()];
+        for (rim, filling) in self.rims.iter().zip(fillings) {
+            let shell = shells.shell_of(rim.triangles[0]);
+            areas[shell] += area(&split, &filling.triangles);
+            if !filling.is_flat {
+                limits[shell] = MAX_FILLED_RATIO;
+            }
+            triangles.extend(&filling.triangles);
+        }
+        let mut area_before = 0.0;
+        for (shell, members) in shells.members().iter().enumerate() {
+            let own = members
+                .iter()
+                .map(|&t| area_mm2(&split.corners(t as usize)));
+            let own: f64 = own.sum();
+            area_before += own;
+            let is_body = areas[shell] <= limits[shell] * own;
+            is_body.then_some(())?;
+        }
+        let filled = TriMesh::from_parts(split.into_vertices(), triangles);
+        let is_closed = EdgeTable::of(&filled).bad_count() == 0;
+        is_closed.then(|| Filled {
+            mesh: filled,
+            holes: self.rims.len(),
+            area_ratio: areas.iter().sum::<f64>() / area_before,
+        })
     }
-    let filled = TriMesh::from_parts(split.into_vertices(), triangles);
-    let is_closed = EdgeTable::of(&filled).bad_count() == 0;
-    is_closed.then(|| Filled {
-        mesh: filled,
-        holes: rims.len(),
-        area_ratio: areas.iter().sum::<f64>() / area_before,
-    })
 }
 
 /// The rim of a hole.
@@ -143,7 +180,16 @@ struct Gap<'a> {
     apexes: Vec<usize>,
 }
 
-impl Gap<'_> {
+impl<'a> Gap<'a> {
+    /// Returns the gap inside a rim. Folds count if `across` has the normals beyond the rim.
+    fn new(mesh: &TriMesh, rim: &[u32], across: Option<&'a [Vector]>) -> Self {
+        Self {
+            places: rim.iter().map(|&v| mesh.vertices()[v as usize]).collect(),
+            across,
+            apexes: vec![0; rim.len() * rim.len()],
+        }
+    }
+
     /// Returns the normal of the filling at the edge from corner i to corner k, or of the surface
     /// beyond an edge of the rim.
     fn normal(&self, across: &[Vector], i: usize, k: usize) -> Vector {
@@ -182,18 +228,18 @@ fn normal([a, b, c]: &[Point; 3]) -> Vector {
 
 /// Returns the triangles of least weight between the corners of a loop; `None` for fewer than three
 /// corners or an area that is not finite. Folds count if `across` has the normals beyond the rim.
-fn triangulate(mesh: &TriMesh, rim: &[u32], across: Option<&[Vector]>) -> Option<Vec<[u32; 3]>> {
+fn triangulate(
+    mut gap: Gap,
+    rim: &[u32],
+    watch: &Watch,
+) -> Result<Option<Vec<[u32; 3]>>, Cancelled> {
     let count = rim.len();
     if count < 3 {
-        return None;
+        return Ok(None);
     }
-    let mut gap = Gap {
-        places: rim.iter().map(|&v| mesh.vertices()[v as usize]).collect(),
-        across,
-        apexes: vec![0; count * count],
-    };
     let mut weights = vec![Weight::default(); count * count];
     for span in 2..count {
+        watch.check()?;
         for i in 0..count - span {
             let k = i + span;
             let mut best = Weight {
@@ -215,7 +261,9 @@ fn triangulate(mesh: &TriMesh, rim: &[u32], across: Option<&[Vector]>) -> Option
             weights[i * count + k] = best;
         }
     }
-    weights[count - 1].area.is_finite().then_some(())?;
+    if !weights[count - 1].area.is_finite() {
+        return Ok(None);
+    }
     let mut triangles = Vec::with_capacity(count - 2);
     let mut open = vec![[0, count - 1]];
     while let Some([i, k]) = open.pop() {
@@ -225,15 +273,18 @@ fn triangulate(mesh: &TriMesh, rim: &[u32], across: Option<&[Vector]>) -> Option
             open.extend([[i, j], [j, k]]);
         }
     }
-    Some(triangles)
+    Ok(Some(triangles))
 }
 
 /// Returns the filling of a rim, and sets `is_flat` if it lies in a plane.
 ///
 /// In a plane the least area is the only one without overlaps. Elsewhere the filling that folds
 /// least is taken, as the one of least area may pass through the surface beside it.
-fn fill_rim(mesh: &TriMesh, rim: &Rim) -> Option<Filling> {
-    let least = triangulate(mesh, &rim.corners, None)?;
+fn fill_rim(mesh: &TriMesh, rim: &Rim, watch: &Watch) -> Result<Option<Filling>, Cancelled> {
+    let gap = Gap::new(mesh, &rim.corners, None);
+    let Some(least) = triangulate(gap, &rim.corners, watch)? else {
+        return Ok(None);
+    };
     let own_area = area(mesh, &least);
     let base = mesh.vertices()[rim.corners[0] as usize];
     let doubled = least.iter().map(|t| {
@@ -241,20 +292,22 @@ fn fill_rim(mesh: &TriMesh, rim: &Rim) -> Option<Filling> {
         (b - a).cross(&(c - a))
     });
     if own_area <= (1.0 + FLAT_RATIO) * doubled.sum::<Vector>().norm() / 2.0 {
-        return Some(Filling {
+        return Ok(Some(Filling {
             triangles: least,
             is_flat: true,
-        });
+        }));
     }
     let across: Vec<Vector> = rim
         .triangles
         .iter()
         .map(|&t| normal(&mesh.corners(t)))
         .collect();
-    Some(Filling {
-        triangles: triangulate(mesh, &rim.corners, Some(&across))?,
+    let gap = Gap::new(mesh, &rim.corners, Some(&across));
+    let bent = triangulate(gap, &rim.corners, watch)?;
+    Ok(bent.map(|triangles| Filling {
+        triangles,
         is_flat: false,
-    })
+    }))
 }
 
 /// The triangles that fill a rim.
@@ -275,6 +328,10 @@ mod tests {
     use crate::mesh::Solid;
     use crate::mesh::primitives::{ball, cuboid};
 
+    fn fill(mesh: &TriMesh) -> Option<Filled> {
+        fill_holes(mesh, &Watch::silent()).unwrap()
+    }
+
     fn without(mesh: &TriMesh, is_dropped: impl Fn(&[Point; 3]) -> bool) -> TriMesh {
         let kept = (0..mesh.triangles().len()).filter(|&t| !is_dropped(&mesh.corners(t)));
         let triangles = kept.map(|t| mesh.triangles()[t]).collect();
@@ -288,7 +345,7 @@ mod tests {
     #[test]
     fn a_box_without_a_side_gets_it_back() {
         let open = without(&cube(), |corners| corners.iter().all(|p| p.z == 1.0));
-        let filled = fill_holes(&open).unwrap();
+        let filled = fill(&open).unwrap();
         assert_eq!(filled.holes, 1);
         assert!((filled.area_ratio - 0.2).abs() < 1e-12);
         let solid = Solid::new(filled.mesh).unwrap();
@@ -306,7 +363,7 @@ mod tests {
             let j = (i + 1) % 6;
             triangles.extend([[i, j, j + 6], [i, j + 6, i + 6]]);
         }
-        let filled = fill_holes(&TriMesh::new(vertices, triangles).unwrap()).unwrap();
+        let filled = fill(&TriMesh::new(vertices, triangles).unwrap()).unwrap();
         let volume = filled.mesh.signed_volume_mm3();
         assert!((volume - 12.0).abs() < 1e-12, "{volume}");
         assert_eq!(crate::mesh::Crossings::of(&filled.mesh).pairs, 0);
@@ -321,7 +378,7 @@ mod tests {
         let kept = (0..ball.triangles().len()).filter(|t| *t != fan[0] && *t != fan[2]);
         let triangles = kept.map(|t| ball.triangles()[t]).collect();
         let open = TriMesh::new(ball.vertices().to_vec(), triangles).unwrap();
-        let filled = fill_holes(&open).unwrap();
+        let filled = fill(&open).unwrap();
         assert!((filled.mesh.signed_volume_mm3() / ball.signed_volume_mm3() - 1.0).abs() < 1e-12);
     }
 
@@ -330,14 +387,14 @@ mod tests {
         // A ribbon of a ball whose rim is far from flat.
         let ball = ball(&Point::origin(), 1.0, 3);
         let sheet = without(&ball, |corners| corners.iter().any(|p| p.z > p.x * p.x));
-        let filled = fill_holes(&sheet);
+        let filled = fill(&sheet);
         assert!(filled.is_none());
     }
 
     #[test]
     fn a_flat_sheet_stays_open() {
         let sheet = without(&cube(), |corners| corners.iter().any(|p| p.z != 0.0));
-        assert!(fill_holes(&sheet).is_none());
+        assert!(fill(&sheet).is_none());
     }
 
     #[test]
@@ -347,7 +404,7 @@ mod tests {
         let open = without(&ball, |corners| {
             corners.iter().any(|p| (p - hole).norm() < 0.3)
         });
-        let filled = fill_holes(&open).unwrap();
+        let filled = fill(&open).unwrap();
         assert_eq!(crate::mesh::Crossings::of(&filled.mesh).pairs, 0);
         let ratio = filled.mesh.signed_volume_mm3() / ball.signed_volume_mm3();
         // A cap of height 0.045 has 0.15 % of the ball.

@@ -1,18 +1,21 @@
 //! The rungs of [`repair`] in their order, with the count of what each did.
 
-use std::collections::HashSet;
-use std::fmt;
+use std::collections::{BTreeSet, HashSet};
 
 use super::holes::fill_holes;
 use super::orient::{face_outward, orient_neighbours};
+use super::report::Repairs;
 use super::sew::sew;
 use super::unite::unite_shells;
 use super::unstitch::unstitch;
+use super::untangle::untangle;
 use super::weld::{drop_unused_vertices, weld, weld_open_edges};
-use crate::base::units::format_count;
+use crate::base::watch::{Cancelled, Watch};
 use crate::geom::{Bvh, Point};
+use crate::mesh::crossings::crossing_pairs;
 use crate::mesh::edges::{EdgeKind, EdgeTable, edge_kind};
 use crate::mesh::fans::Fans;
+use crate::mesh::shells::Shells;
 use crate::mesh::{TriMesh, shells, smallest_first};
 
 /// Largest distance between rims to be welded, as a share of the diagonal of the bounding box.
@@ -20,125 +23,24 @@ use crate::mesh::{TriMesh, shells, smallest_first};
 /// on a 100 mm model) details that a printer can show would be merged.
 const WELD_TOLERANCE_RATIO: f64 = 1e-6;
 
-/// Largest distance between rims that are stitched, as a share of the diagonal of the bounding box.
-/// It is 0.01 mm on a model of a metre, which is larger than any printer's room that we know.
-const STITCH_TOLERANCE_RATIO: f64 = 1e-5;
+/// Largest distance by which stitching and untangling may move the surface, as a share of the
+/// diagonal of the bounding box. It is 0.01 mm on a model of a metre, which is larger than any
+/// printer's room that we know.
+const MOST_MOVED_RATIO: f64 = 1e-5;
 
 /// Largest number of open edges that are stitched: each is compared with all corners on rims.
 const MAX_STITCHED_EDGES: usize = 4000;
 
-/// Counts of the changes that [`repair`] made to a mesh.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct Repairs {
-    /// Vertices merged with another at exactly the same place.
-    pub merged_vertices: usize,
-    /// Vertices on open edges merged with another within a millionth of the model's diagonal.
-    pub merged_near_vertices: usize,
-    /// Dropped triangles that repeated a corner.
-    pub dropped_degenerate: usize,
-    /// Dropped triangles that repeated another triangle.
-    pub dropped_duplicates: usize,
-    /// Triangles flipped to agree with their neighbours or to face outward.
-    pub flipped_triangles: usize,
-    /// Vertices added to separate surfaces that only touch in a vertex or an edge.
-    pub split_vertices: usize,
-    /// Dropped vertices that no triangle used.
-    pub dropped_vertices: usize,
-    /// Open edges along cracks that were stitched.
-    pub stitched_edges: usize,
-    /// Largest distance by which a vertex moved in stitching, as a share of the diagonal.
-    pub stitched_ratio: f64,
-    /// Holes that were filled. Nothing moved.
-    pub filled_holes: usize,
-    /// Area of the fillings over that of the surface before.
-    pub filled_area_ratio: f64,
-    /// Closed surfaces that were united with those they overlap.
-    pub united_shells: usize,
-}
-
-impl Repairs {
-    /// Returns true if nothing had to be done.
-    pub fn is_empty(&self) -> bool {
-        *self == Self::default()
-    }
-
-    /// Describes what the rungs did that close the surface or unite it.
-    fn describe_closing(&self) -> Vec<String> {
-        let stitched = (self.stitched_edges > 0).then(|| {
-            format!(
-                "open edges stitched along cracks: {} (no point moved by more than {:.4} % of the model's diagonal)",
-                self.stitched_edges,
-                100.0 * self.stitched_ratio
-            )
-        });
-        let filled = (self.filled_holes > 0).then(|| {
-            format!(
-                "{} filled, {:.2} % of the surface (nothing moved)",
-                format_count(self.filled_holes, "hole"),
-                100.0 * self.filled_area_ratio
-            )
-        });
-        let united = (self.united_shells > 0).then(|| {
-            format!(
-                "closed surfaces that overlap united: {}",
-                self.united_shells
-            )
-        });
-        stitched.into_iter().chain(filled).chain(united).collect()
-    }
-
-    /// Returns the counts that a user should know. Leaves out the merging of equal vertices,
-    /// which every STL file needs, and the dropping of unused ones, which nobody sees.
-    pub fn notable(self) -> Self {
-        Self {
-            merged_vertices: 0,
-            dropped_vertices: 0,
-            ..self
-        }
-    }
-}
-
-impl fmt::Display for Repairs {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let done = [
-            (
-                self.merged_vertices,
-                "vertices merged with another at the same place",
-            ),
-            (
-                self.merged_near_vertices,
-                "vertices on open edges merged with one next to them",
-            ),
-            (self.dropped_degenerate, "triangles without area dropped"),
-            (self.dropped_duplicates, "doubled triangles dropped"),
-            (self.flipped_triangles, "triangles turned to face outward"),
-            (
-                self.split_vertices,
-                "vertices added where surfaces only touch",
-            ),
-            (self.dropped_vertices, "unused vertices dropped"),
-        ];
-        let descriptions: Vec<String> = done
-            .iter()
-            .filter(|(count, _)| *count > 0)
-            .map(|(count, description)| format!("{description}: {count}"))
-            .chain(self.describe_closing())
-            .collect();
-        if descriptions.is_empty() {
-            f.write_str("nothing")
-        } else {
-            f.write_str(&descriptions.join(", "))
-        }
-    }
-}
-
 /// Climbs the ladder of repairs that keep the shape; returns the mesh and the count of each repair.
 ///
 /// See the [room](super) for the rungs and their proofs. A mesh that is already sound comes back
-/// unchanged. Only the welding and stitching of rims moves vertices, by at most 1e-5 of the
-/// diagonal. Linear in the triangles except for sorts, rims and overlaps, which have limits.
-#[must_use]
-pub fn repair(mesh: TriMesh) -> (TriMesh, Repairs) {
+/// unchanged. Only the welding and stitching of rims and the untangling of crossings move the
+/// surface, by at most 1e-5 of the diagonal. Linear in the triangles except for sorts, rims and
+/// overlaps, which have limits.
+///
+/// # Errors
+/// The watch was stopped.
+pub fn repair(mesh: TriMesh, watch: &Watch) -> Result<(TriMesh, Repairs), Cancelled> {
     let mut repairs = Repairs::default();
     let mesh = merge_equal_vertices(mesh, &mut repairs);
     let mesh = close_seams(mesh, &mut repairs);
@@ -147,14 +49,17 @@ pub fn repair(mesh: TriMesh) -> (TriMesh, Repairs) {
     let before = mesh.clone();
     let mesh = orient_if_misoriented(mesh);
     repairs.flipped_triangles = count_flipped(&before, &mesh);
+    watch.check()?;
     let mesh = stitch_cracks(mesh, &mut repairs);
-    let mesh = fill(mesh, &mut repairs);
+    watch.check()?;
+    let mesh = fill(mesh, &mut repairs, watch)?;
     let mesh = separate_touching_surfaces(mesh, &mut repairs);
     let before = mesh.clone();
     let mesh = face_outward_if_closed(mesh);
     repairs.flipped_triangles += count_flipped(&before, &mesh);
-    let mesh = unite(mesh, &mut repairs);
-    (mesh, repairs)
+    let mesh = untangle_shells(mesh, &mut repairs, watch)?;
+    let mesh = unite(mesh, &mut repairs, watch)?;
+    Ok((mesh, repairs))
 }
 
 /// Stitches rims that nearly meet, if fewer edges are open then and none is crowded.
@@ -166,14 +71,14 @@ fn stitch_cracks(mesh: TriMesh, repairs: &mut Repairs) -> TriMesh {
         return mesh;
     }
     let mut trial = *repairs;
-    let sewn = drop_degenerate(sew(&mesh, STITCH_TOLERANCE_RATIO * diagonal), &mut trial);
+    let sewn = drop_degenerate(sew(&mesh, MOST_MOVED_RATIO * diagonal), &mut trial);
     let sewn = drop_unused_vertices(sewn);
     let still_open = EdgeTable::of(&sewn).of_kind(EdgeKind::Open).count();
     if still_open >= open || EdgeTable::of(&sewn).bad_count() > still_open {
         return mesh;
     }
     let moved_ratio = farthest_mm(&mesh, &sewn) / diagonal;
-    if moved_ratio > STITCH_TOLERANCE_RATIO {
+    if moved_ratio > MOST_MOVED_RATIO {
         return mesh;
     }
     *repairs = trial;
@@ -193,26 +98,72 @@ fn farthest_mm(mesh: &TriMesh, surface: &TriMesh) -> f64 {
 }
 
 /// Fills all holes, or none.
-fn fill(mesh: TriMesh, repairs: &mut Repairs) -> TriMesh {
-    match fill_holes(&mesh) {
+fn fill(mesh: TriMesh, repairs: &mut Repairs, watch: &Watch) -> Result<TriMesh, Cancelled> {
+    Ok(match fill_holes(&mesh, watch)? {
         Some(filled) => {
             repairs.filled_holes = filled.holes;
             repairs.filled_area_ratio = filled.area_ratio;
             filled.mesh
         }
         None => mesh,
+    })
+}
+
+/// Untangles each outward shell of a closed mesh that crosses itself, if that moves it by no more
+/// than the stitching of cracks may.
+fn untangle_shells(
+    mesh: TriMesh,
+    repairs: &mut Repairs,
+    watch: &Watch,
+) -> Result<TriMesh, Cancelled> {
+    let table = EdgeTable::of(&mesh);
+    let diagonal_mm = mesh.aabb().size().norm();
+    if table.bad_count() > 0 || !diagonal_mm.is_finite() || diagonal_mm <= 0.0 {
+        return Ok(mesh);
     }
+    let of_shells = Shells::of(&mesh, &table);
+    let shell_of = |t: u32| of_shells.shell_of(t as usize);
+    let pairs = crossing_pairs(&mesh, watch)?.into_iter();
+    let crossed: BTreeSet<usize> = pairs
+        .filter(|&[a, b]| shell_of(a) == shell_of(b))
+        .map(|[a, _]| shell_of(a))
+        .collect();
+    if crossed.is_empty() {
+        return Ok(mesh);
+    }
+    let mut all = TriMesh::default();
+    for (shell, members) in of_shells.members().iter().enumerate() {
+        let triangles = members.iter().map(|&t| mesh.triangles()[t as usize]);
+        let one = TriMesh::from_parts(mesh.vertices().to_vec(), triangles.collect());
+        let one = drop_unused_vertices(one);
+        let untangled = if crossed.contains(&shell) && one.signed_volume_mm3() > 0.0 {
+            untangle(&one, watch)?
+        } else {
+            None
+        };
+        let limit_mm = MOST_MOVED_RATIO * diagonal_mm;
+        all = match untangled.filter(|untangled| untangled.moved_mm <= limit_mm) {
+            Some(untangled) => {
+                repairs.untangled_pairs += untangled.pairs;
+                let ratio = untangled.moved_mm / diagonal_mm;
+                repairs.untangled_ratio = repairs.untangled_ratio.max(ratio);
+                all.joined(&untangled.mesh)
+            }
+            None => all.joined(&one),
+        };
+    }
+    Ok(all)
 }
 
 /// Unites the shells of a closed mesh, if some overlap.
-fn unite(mesh: TriMesh, repairs: &mut Repairs) -> TriMesh {
-    match unite_shells(&mesh) {
+fn unite(mesh: TriMesh, repairs: &mut Repairs, watch: &Watch) -> Result<TriMesh, Cancelled> {
+    Ok(match unite_shells(&mesh, watch)? {
         Some(united) => {
             repairs.united_shells = shells(&mesh).len();
             united
         }
         None => mesh,
-    }
+    })
 }
 
 /// Merges vertices at the same place, and drops the triangles that lose a corner.
@@ -324,5 +275,7 @@ fn count_flipped(before: &TriMesh, after: &TriMesh) -> usize {
         .count()
 }
 
+#[cfg(test)]
+mod broken;
 #[cfg(test)]
 mod tests;

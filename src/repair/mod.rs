@@ -3,8 +3,8 @@
 //! # The ladder
 //!
 //! [`repair`] climbs these rungs in order. None keeps a result that lacks its proof. Rungs 2 and 6
-//! move vertices, on rims that nearly meet. An edge is *bad* unless exactly two triangles share it
-//! in opposite directions.
+//! move vertices on rims that nearly meet, and rung 10 moves some along crossings. An edge is *bad*
+//! unless exactly two triangles share it in opposite directions.
 //!
 //! 1. **Merge equal vertices** (`weld`). Also drops the triangles that lose a corner. *Cost:* one
 //!    sort of the vertices. *Proof:* no vertex moves, and a second weld changes nothing.
@@ -31,13 +31,17 @@
 //! 9. **Face outward** (`orient`), if the mesh is closed. Flips whole shells. *Cost:* linear, plus
 //!    a pass over the triangles for each pair of shells. *Proof:* exact predicates decide which
 //!    shell encloses which.
-//! 10. **Unite overlapping shells** (`unite`), if closed shells cross and none lies inside
-//!     another. *Cost:* a boolean for each of at most 200 shells. *Proof:* kept only if the result
-//!     is a solid that does not cross itself.
+//! 10. **Resolve self-intersections** (`untangle`), if a shell crosses itself. Keeps what bounds
+//!     the space around which it winds at least once. *Cost:* n log n, and more only where it
+//!     crosses, with a limit. *Proof:* kept only if the result is closed, does not cross itself,
+//!     and has moved no more than the stitching of cracks may. What lay inside does not count.
+//! 11. **Unite overlapping shells** (`unite`), if closed shells cross and none lies inside
+//!     another. *Cost:* a few booleans for each of at most 200 shells. *Proof:* kept only if the
+//!     result is a solid that does not cross itself.
 //!
 //! At the top stands [`Solid::new`](crate::mesh::Solid::new), which proves the result or lists all
-//! remaining [`Defects`](crate::mesh::Defects). A shell that crosses itself stays as it is, and
-//! [`one_body`] refuses it.
+//! remaining [`Defects`](crate::mesh::Defects). A shell that still crosses itself stays as it is,
+//! and [`one_body`] refuses it.
 //!
 //! # Beside the ladder
 //!
@@ -49,14 +53,17 @@ mod holes;
 mod ladder;
 mod one_body;
 mod orient;
+mod report;
 mod sew;
 mod unfold;
 mod unite;
 mod unstitch;
+mod untangle;
 mod weld;
 
-pub use ladder::{Repairs, repair};
+pub use ladder::repair;
 pub use one_body::{NotOneBody, ShellFact, ShellRole, one_body};
+pub use report::Repairs;
 pub(crate) use sew::sew;
 pub use unfold::unfold;
 pub use weld::weld;

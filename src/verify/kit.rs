@@ -50,7 +50,7 @@ pub fn verify_kit_of(
     if let Some(model) = model {
         judgement
             .checks
-            .push(model_check(model, &sheet, &evidence)?);
+            .push(model_check(model, &sheet, &evidence, watch)?);
     }
     Ok(judgement)
 }

@@ -13,17 +13,18 @@ use crate::base::watch::Watch;
 use crate::geom::Point;
 use crate::mesh::{Solid, TriMesh, scaled};
 use crate::repair::{repair, weld};
-use crate::thin::thicken;
+use crate::thin::{ThickenError, thicken};
 
 /// Checks that the outside of the uncut result is that of the model in this file, in the stated
 /// size. Of a kit with hardware only the file is compared: its sockets are in the outside.
 ///
 /// # Errors
-/// The file cannot be read, or holds no mesh.
+/// The file cannot be read, holds no mesh, or the watch was stopped.
 pub(super) fn model_check(
     file: &Path,
     sheet: &Value,
     evidence: &Evidence,
+    watch: &Watch,
 ) -> Result<Check, VerifyError> {
     let stated = &sheet["model"];
     let promise =
@@ -33,9 +34,9 @@ pub(super) fn model_check(
         Check::new(CheckKind::Model, &promise, Some(count as f64), limit).at(words)
     };
     let sha256 = sha256_hex(&[&read_file(file)?]);
-    let (mesh, _) = repair(read_mesh(file)?);
+    let (mesh, _) = repair(read_mesh(file)?, watch)?;
     let scale_ratio = stated["scale_ratio"].as_f64().unwrap_or(f64::NAN);
-    let model = thickened(scaled(&mesh, scale_ratio), stated);
+    let model = thickened(scaled(&mesh, scale_ratio), stated, watch)?;
     let count = model.triangles().len();
     if stated["sha256"].as_str() != Some(&sha256) {
         let words = "it is another file than the one of the checklist";
@@ -59,16 +60,17 @@ pub(super) fn model_check(
 
 /// Thickens a model as the checklist says; returns it as it is if that says nothing, or if it
 /// cannot be thickened so.
-fn thickened(model: TriMesh, stated: &Value) -> TriMesh {
+fn thickened(model: TriMesh, stated: &Value, watch: &Watch) -> Result<TriMesh, VerifyError> {
     let Some(wall_mm) = stated["thickened"]["wall_mm"].as_f64() else {
-        return model;
+        return Ok(model);
     };
     let Ok(solid) = Solid::new(model.clone()) else {
-        return model;
+        return Ok(model);
     };
-    match thicken(&solid, wall_mm, &Watch::silent()) {
-        Ok(thick) => thick.solid.into_mesh(),
-        Err(_) => model,
+    match thicken(&solid, wall_mm, watch) {
+        Ok(thick) => Ok(thick.solid.into_mesh()),
+        Err(ThickenError::Cancelled(stopped)) => Err(stopped.into()),
+        Err(_) => Ok(model),
     }
 }
 

@@ -176,7 +176,7 @@ fn ask_up(solid: &Solid, kind: GoalKind) -> Result<UpChoice, AskError> {
 
 /// Reads the model in the numbers of its file.
 fn load(path: &Path) -> Result<Solid, Error> {
-    let (mesh, _) = repair(read_model(path)?);
+    let (mesh, _) = repair(read_model(path)?, &Watch::silent())?;
     Solid::new(scaled(&mesh, 1.0)).map_err(|defects| Error::NotSolid {
         path: path.to_owned(),
         source: Box::new(Defects::of(&mesh).unwrap_or(defects)),

@@ -1,6 +1,7 @@
 //! Hostile files: each gives a precise error or the right mesh, none a panic.
 
 use super::*;
+use crate::base::watch::Watch;
 
 /// A binary STL with the number at `offset` replaced.
 fn binary_with(offset: usize, number: f32) -> Vec<u8> {
@@ -238,7 +239,7 @@ fn changed_files_never_panic_or_give_infinite_places() {
                     .all(|p| p.coords.iter().all(|x| x.is_finite()))
             );
             assert!(!mesh.triangles().is_empty());
-            let _ = Solid::new(repair(mesh).0);
+            let _ = Solid::new(repair(mesh, &Watch::silent()).unwrap().0);
         }
     }
 }
