@@ -34,7 +34,9 @@ pub use chain::Chain;
 pub use deviation::{Deviation, frechet_mm, hausdorff_mm};
 pub use embedding::least_gap_mm;
 pub use error::{CurveError, NameError};
-pub use fit::{Ends, Fit, FitError, FitRequest, Freedom, TradeRow, first_guess, fit, trade};
+pub use fit::{
+    Ends, Fit, FitError, FitRequest, Freedom, TradeRow, TurnBound, first_guess, fit, trade,
+};
 pub use frames::DiscreteFrames;
 pub use heat::flow_heat;
 pub use helix::{Helix, Twist, roll};

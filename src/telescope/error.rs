@@ -86,6 +86,14 @@ pub enum TelescopeError {
         /// What the caps take of it, mm.
         closed_mm: f64,
     },
+    /// A root that is thicker than it may be.
+    #[error("the root would be {root_mm:.1} mm in radius, more than {most_mm:.1} mm")]
+    RootTooThick {
+        /// Its radius, mm.
+        root_mm: f64,
+        /// The most that was allowed, mm.
+        most_mm: f64,
+    },
     /// A boolean failed.
     #[error("shell {shell} cannot be made: {error}")]
     Solid {

@@ -76,7 +76,11 @@ pub fn budget_limit(sizes: &JointSizes, shells: usize, tip_mm: f64, root_mm: f64
     let steps = shells.saturating_sub(1) as f64;
     let needed_mm = tip_mm + steps * sizes.pitch_mm();
     let room = ((root_mm - tip_mm) / sizes.pitch_mm()).floor();
-    let most = if room < 0.0 { 0 } else { 1 + room as usize };
+    let most = if room < 0.0 {
+        0
+    } else {
+        (room as usize).saturating_add(1)
+    };
     (needed_mm > root_mm).then_some(Limit::Budget {
         shells,
         needed_mm,

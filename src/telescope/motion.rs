@@ -1,9 +1,9 @@
 //! Opening a telescope: joint after joint, with a proof that nothing is hit on the way.
 //!
-//! The proof leaves out neighbours, and pairs within π/2·(r + s) of each other along the curve.
-//! Where two bounds are not finite, 50 states of a move are tried in its place.
+//! Neighbours are free where they slide by the identity of the helix, pairs of one bend by its
+//! reach. All other pairs are measured, in states so near that nothing lies between them.
 
-use super::clearance::{Gap, Shown};
+use super::clearance::{Gap, Gaps, MAX_SLIDE_MM, Shown};
 use super::nest::{JointState, Telescope};
 
 /// The gap at which shells count as touching, mm.
@@ -87,12 +87,12 @@ impl Order {
 impl Telescope {
     /// Opens the telescope in an order, or says which shells collide.
     ///
-    /// Neighbours are free by the identity of the helix. All others are checked by conservative
-    /// advancement. From a state with a gap, the next is so near that no point moves by more than
-    /// half of the gap. So none lies between them in which shells touch.
+    /// All pairs are checked by conservative advancement. From a state with a gap, the next is so
+    /// near that no point moves by more than half of the gap. So none lies between them in which
+    /// shells touch. That holds for pairs that cease to be of one bend between the two, too.
     pub fn open_in(&self, order: &Order) -> Result<Opening, Box<Collision>> {
         let keys = self.keys(order);
-        let mut least = Shown::of(self, &keys[0]).gap();
+        let mut least = Shown::of(self, &keys[0]).gaps().least;
         for pair in keys.windows(2) {
             let motion = Move {
                 telescope: self,
@@ -110,18 +110,21 @@ impl Telescope {
         Ok(Opening { order, keys, least })
     }
 
-    /// Finds the order with the greatest gap: root first, tip first, or one found step by step. The
-    /// error is that of the root first if none is free.
+    /// Finds a free order: root first or tip first, the one with the greater gap, else one found
+    /// step by step. The error is that of the root first if none is free.
     pub fn find_opening(&self) -> Result<Opening, Box<Collision>> {
         let joints = self.joints.len();
         let first = self.open_in(&Order::root_first(joints));
-        let others = [Some(Order::tip_first(joints)), self.step_by_step()];
-        let others = others.into_iter().flatten();
-        let free = others.filter_map(|order| self.open_in(&order).ok());
-        free.fold(first, |best, other| match best {
-            Ok(best) if best.least.gap_mm >= other.least.gap_mm => Ok(best),
-            _ => Ok(other),
-        })
+        match (first, self.open_in(&Order::tip_first(joints))) {
+            (Ok(root), Ok(tip)) if tip.least.gap_mm > root.least.gap_mm => Ok(tip),
+            (Ok(root), _) => Ok(root),
+            (Err(_), Ok(tip)) => Ok(tip),
+            (Err(collision), Err(_)) => {
+                let found = self.step_by_step();
+                let opening = found.and_then(|order| self.open_in(&order).ok());
+                opening.ok_or(collision)
+            }
+        }
     }
 
     /// Opens at each turn the joint that keeps the greatest gap; `None` if a turn has none.
@@ -191,31 +194,34 @@ impl Move<'_> {
     /// Returns the least gap on the way; `None` if shells touch.
     fn least_gap(&self) -> Option<Gap> {
         let mut shown = Shown::of(self.telescope, self.from);
-        let mut least = shown.gap();
-        let (mut gap, mut done) = (least, 0.0);
+        let mut gaps = shown.gaps();
+        let (mut least, mut done) = (gaps.least, 0.0);
         for _ in 0..MAX_STEPS {
-            if gap.gap_mm < TOUCHING_MM {
+            if gaps.least.gap_mm < TOUCHING_MM {
                 return None;
             }
             if done >= 1.0 {
                 return Some(least);
             }
-            done += self.safe_share(&shown, gap.gap_mm);
+            done += self.safe_share(&shown, &gaps);
             shown = Shown::of(self.telescope, &self.at(done.min(1.0)));
-            gap = shown.gap();
-            if gap.gap_mm < least.gap_mm {
-                least = gap;
+            gaps = shown.gaps();
+            if gaps.least.gap_mm < least.gap_mm {
+                least = gaps.least;
             }
         }
         None
     }
 
-    /// Returns the share of the move in which no point goes farther than half of the gap.
-    fn safe_share(&self, shown: &Shown, gap_mm: f64) -> f64 {
-        let far_mm = STEP_SHARE * gap_mm;
+    /// Returns the share of the move in which no point goes farther than half of every gap, and no
+    /// more than some mm come out.
+    fn safe_share(&self, shown: &Shown, gaps: &Gaps) -> f64 {
+        let slides = self.from.iter().zip(self.to);
+        let slid_mm: f64 = slides.map(|(a, b)| (b.slide_mm - a.slide_mm).abs()).sum();
+        let by_slide = MAX_SLIDE_MM / slid_mm.max(MAX_SLIDE_MM);
+        let far_mm = STEP_SHARE * gaps.least.gap_mm.min(gaps.reserve_mm);
         if !far_mm.is_finite() {
-            // Nothing can meet yet: a step short enough that what comes out is seen in time.
-            return 1.0 / DEPTH_STATES as f64;
+            return by_slide;
         }
         let speeds = (0..self.from.len()).map(|joint| {
             // The reach grows by no more than the step itself.
@@ -225,7 +231,7 @@ impl Move<'_> {
             let turn = (self.to[joint].turn_rad - self.from[joint].turn_rad).abs();
             slide * (1.0 + helix.curvature.hypot(helix.torsion) * reach) + turn * reach
         });
-        far_mm / speeds.sum::<f64>().max(f64::MIN_POSITIVE)
+        by_slide.min(far_mm / speeds.sum::<f64>().max(f64::MIN_POSITIVE))
     }
 
     fn at(&self, share: f64) -> Key {
@@ -235,11 +241,11 @@ impl Move<'_> {
     /// Returns the deepest overlap of the move.
     fn collision(&self, order: &Order) -> Collision {
         let states = (0..=DEPTH_STATES).map(|i| self.at(i as f64 / DEPTH_STATES as f64));
-        let gaps = states.map(|state| (Shown::of(self.telescope, &state).gap(), state));
+        let gaps = states.map(|state| (Shown::of(self.telescope, &state).gaps().least, state));
         let deepest = gaps.min_by(|a, b| a.0.gap_mm.total_cmp(&b.0.gap_mm));
         let (gap, state) = deepest.unwrap_or_else(|| {
             let state = self.from.to_vec();
-            (Shown::of(self.telescope, &state).gap(), state)
+            (Shown::of(self.telescope, &state).gaps().least, state)
         });
         Collision {
             order: order.clone(),

@@ -4,15 +4,15 @@ use std::f64::consts::{PI, TAU};
 
 use super::error::TelescopeError;
 use super::fits::{axis_excess_mm, turning_offset_mm};
-use super::sizes::{JointSizes, Radii};
+use super::sizes::{JointSizes, Radii, SEAT_ROOM_MM};
 use crate::curve::{Chain, Helix, roll};
 use crate::geom::Frame;
 
 /// The greatest product of curvature and radius of a tube. At one its inner side has no length.
 const MAX_BEND_RATIO: f64 = 0.8;
 
-/// Room that a seat has beyond what a turn takes, mm.
-const SEAT_ROOM_MM: f64 = 0.02;
+/// The offset of a turn up to which it parts nothing, mm: rounding.
+const NO_OFFSET_MM: f64 = 1e-9;
 
 /// Least angle of flange that is left beside a twist stop, rad: a third of the circle.
 const LEAST_FLANGE_RAD: f64 = TAU / 3.0;
@@ -35,6 +35,9 @@ pub struct Joint {
     pub radii: Radii,
     /// Clearance of the seat when all out, mm.
     pub seat_mm: f64,
+    /// How far the stop is beyond the visible length, mm. A turned flange is out of the middle,
+    /// so its cone meets the lip's earlier.
+    pub stop_room_mm: f64,
     /// By how much the cavity is out of the outer shell's axis, mm: its wall is thicker by this.
     pub excess_mm: f64,
     /// Angle β of the twist rib, rad.
@@ -204,10 +207,18 @@ fn joint(
     check_bend(inner + 1, child, radii.bore_mm)?;
     let half = 0.5 * sizes.overlap_mm();
     let arcs_mm = [-chain.piece_mm - half, half];
+    let turn_rad = chain.turns_rad[inner - 1];
+    let offset_mm = turning_offset_mm(child, sizes.overlap_mm(), turn_rad);
+    let is_parted = offset_mm > NO_OFFSET_MM;
     let joint = Joint {
-        turn_rad: chain.turns_rad[inner - 1],
+        turn_rad,
         radii,
-        seat_mm: seat_mm(chain, inner, sizes)?,
+        seat_mm: seat_mm(inner, turn_rad, offset_mm, sizes)?,
+        stop_room_mm: if is_parted {
+            offset_mm + SEAT_ROOM_MM
+        } else {
+            0.0
+        },
         excess_mm: axis_excess_mm(parent, child, radii.bore_mm, arcs_mm),
         rib_rad: sizes.feature_mm / radii.lip_mm,
         play_rad: sizes.slide_mm / radii.lip_mm,
@@ -223,15 +234,20 @@ fn joint(
 }
 
 /// Returns the clearance of the seat: that of the press ring, or more if the turn takes more.
-fn seat_mm(chain: &Chain, inner: usize, sizes: &JointSizes) -> Result<f64, TelescopeError> {
-    let turn_rad = chain.turns_rad[inner - 1];
-    let offset_mm = turning_offset_mm(&chain.pieces[inner], sizes.overlap_mm(), turn_rad);
-    let seat_mm = sizes.seat_mm.max(offset_mm + SEAT_ROOM_MM);
-    if offset_mm == 0.0 || seat_mm <= sizes.slide_mm {
-        return Ok(seat_mm.min(sizes.slide_mm));
-    }
-    if offset_mm < 1e-9 {
-        return Ok(sizes.seat_mm);
+fn seat_mm(
+    inner: usize,
+    turn_rad: f64,
+    offset_mm: f64,
+    sizes: &JointSizes,
+) -> Result<f64, TelescopeError> {
+    let needed_mm = offset_mm + SEAT_ROOM_MM;
+    if offset_mm <= NO_OFFSET_MM || needed_mm <= sizes.slide_mm {
+        let taken_mm = if offset_mm <= NO_OFFSET_MM {
+            0.0
+        } else {
+            needed_mm
+        };
+        return Ok(sizes.seat_mm.max(taken_mm));
     }
     Err(TelescopeError::TurnTooGreat {
         shell: inner + 1,

@@ -1,5 +1,6 @@
 //! The parts of a telescope: shells and their caps.
 
+use super::balance::DiscFoot;
 use super::error::TelescopeError;
 use super::nest::{Joint, Telescope};
 use super::profile::Profile;
@@ -28,6 +29,8 @@ struct Inside {
     joint: Option<Joint>,
     bore_mm: f64,
     lip_mm: f64,
+    /// The radius to which ribs reach inwards: the press ring passes them with the whole clearance.
+    rib_mm: f64,
     rib_rad: f64,
 }
 
@@ -55,6 +58,15 @@ impl Telescope {
     ///
     /// It is a disc that carries the flange, a spigot with a slot that fits one way, and a vent.
     pub fn cap_solid(&self, shell: usize) -> Result<Solid, TelescopeError> {
+        self.cap_on(shell, None)
+    }
+
+    /// Returns the solid of the root's tail cap with a foot on its tail, in the root's frame.
+    pub fn foot_solid(&self, foot: &DiscFoot) -> Result<Solid, TelescopeError> {
+        self.cap_on(0, Some(foot))
+    }
+
+    fn cap_on(&self, shell: usize, foot: Option<&DiscFoot>) -> Result<Solid, TelescopeError> {
         let make = || -> Result<Solid, ClipError> {
             let helix = &self.shells[shell].helix;
             let disc = sweep_profile(&Frame::identity(), helix, &self.disc_profile(shell));
@@ -63,7 +75,10 @@ impl Telescope {
                 None => body(disc)?,
             };
             let inside = self.inside(shell);
-            let whole = disc.union(&self.spigot(&inside)?)?;
+            let mut whole = disc.union(&self.spigot(&inside)?)?;
+            if let Some(foot) = foot {
+                whole = whole.union(&self.foot(foot)?)?;
+            }
             whole.subtract(&self.vent(&inside)?)?.to_solid()
         };
         make().map_err(|error| self.fault(shell, error))
@@ -104,7 +119,7 @@ impl Telescope {
         };
         let ring = sizes.slide_mm - joint.seat_mm;
         let seat = inside.bore_mm - ring;
-        let lip_start = half - sizes.lip_mm;
+        let lip_start = half - sizes.lip_mm + joint.stop_room_mm;
         let rim = inside.lip_mm + sizes.chamfer_mm;
         Profile::new([
             [back, inside.bore_mm],
@@ -151,6 +166,7 @@ impl Telescope {
                 joint: Some(*joint),
                 bore_mm: joint.radii.bore_mm,
                 lip_mm: joint.radii.lip_mm,
+                rib_mm: joint.radii.lip_mm + self.sizes.slide_mm - joint.seat_mm,
                 rib_rad: joint.rib_rad,
             },
             None => {
@@ -163,6 +179,7 @@ impl Telescope {
                     joint: None,
                     bore_mm,
                     lip_mm,
+                    rib_mm: lip_mm,
                     rib_rad: self.sizes.feature_mm / lip_mm,
                 }
             }
@@ -177,12 +194,13 @@ impl Telescope {
         let tail = self.face_mm() - self.visible_mm;
         let key = inside.rib([inside.back_mm(tail) - BEYOND_MM, tail + sizes.spigot_mm]);
         let cavity = body(bore)?.subtract(&body(key)?)?;
-        if inside.joint.is_none() {
+        let Some(joint) = inside.joint else {
             return Ok(cavity);
-        }
+        };
         // From the lip's cone back over the length of the flange.
-        let cone = half - sizes.lip_mm - sizes.rise_mm();
-        let stop = inside.rib([cone - sizes.flange_mm, half - sizes.lip_mm]);
+        let lip_start = half - sizes.lip_mm + joint.stop_room_mm;
+        let cone = lip_start - sizes.rise_mm();
+        let stop = inside.rib([cone - sizes.flange_mm, lip_start]);
         cavity.subtract(&body(stop)?)
     }
 
@@ -228,6 +246,20 @@ impl Telescope {
         Ok(slotted.split_by_plane(&plane)?.0)
     }
 
+    /// Returns a foot, which reaches into the disc of the root's cap so that no faces coincide.
+    fn foot(&self, foot: &DiscFoot) -> Result<Csg, ClipError> {
+        let (radius, chamfer) = (foot.radius_mm, self.sizes.chamfer_mm);
+        let tail = self.shells[0].helix.frame_at(self.ends_mm()[0]);
+        let [low, high] = [-foot.height_mm, ROOT_SHARE * self.sizes.flange_mm];
+        let disc = Profile::new([
+            [low, radius - chamfer],
+            [low + chamfer, radius],
+            [high - chamfer, radius],
+            [high, radius - chamfer],
+        ]);
+        body(sweep_profile(&tail, &Helix::LINE, &disc))
+    }
+
     fn vent(&self, inside: &Inside) -> Result<Csg, ClipError> {
         let tail = self.face_mm() - self.visible_mm;
         let radius = (0.5 * self.sizes.vent_mm).min(0.5 * inside.lip_mm);
@@ -266,7 +298,7 @@ impl Inside {
 
     fn rib(&self, arcs_mm: [f64; 2]) -> Result<TriMesh, MeshError> {
         let sector = Sector {
-            radii_mm: [self.lip_mm, self.bore_mm + BEYOND_MM],
+            radii_mm: [self.rib_mm, self.bore_mm + BEYOND_MM],
             angles_rad: self.rib_angles(),
             arcs_mm,
         };

@@ -1,6 +1,10 @@
 //! The measures of a joint, and the radii that follow from them.
 
 use super::error::TelescopeError;
+use crate::curve::TurnBound;
+
+/// Room that a seat has beyond what a turn takes, mm.
+pub(super) const SEAT_ROOM_MM: f64 = 0.02;
 
 /// Clearances, walls and lengths of every joint, mm. Clearances are radial, on each side.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -65,6 +69,14 @@ impl JointSizes {
     /// It is the cap of its parent with its spigot, and a gap on the inside of a bend too.
     pub fn closed_mm(&self) -> f64 {
         self.flange_mm + self.spigot_mm + 2.0 * self.slide_mm
+    }
+
+    /// Returns the bound of turns: what the seat leaves of the sliding clearance.
+    pub fn turn_bound(&self) -> TurnBound {
+        TurnBound {
+            overlap_mm: self.overlap_mm(),
+            offset_mm: (self.slide_mm - SEAT_ROOM_MM).max(0.0),
+        }
     }
 
     /// Returns the radii of a body in its parent.

@@ -137,15 +137,16 @@ fn the_twist_stop_turns_as_far_as_asked_and_no_farther() {
         let turn = sign * 110f64.to_radians();
         let pair = Pair::new(turn, &sizes());
         let beyond = sign * (pair.telescope.joints[0].play_rad + 2f64.to_radians());
-        // A turned flange is out of the middle, and its cone stands that much short of the stop.
-        let helix = &pair.telescope.shells[1].helix;
-        let short = |turn| turning_offset_mm(helix, sizes().overlap_mm(), turn) + 0.02;
+        // A turned flange is out of the middle, and the stop leaves room for that.
         for share in [0.0, 0.5, 1.0] {
-            let free = pair.common_mm3(40.0 - short(share * turn), share * turn);
+            let free = pair.common_mm3(40.0, share * turn);
             assert!(free < 1e-6, "{share}: {free}");
         }
+        let stop_mm = 40.0 + pair.telescope.joints[0].stop_room_mm;
+        assert!(pair.common_mm3(stop_mm - 0.02, 0.0) < 1e-6);
+        assert!(pair.common_mm3(stop_mm + 0.05, 0.0) > 0.1);
         for stopped in [turn + beyond, -beyond] {
-            let held = pair.common_mm3(40.0 - short(stopped), stopped);
+            let held = pair.common_mm3(40.0, stopped);
             // The reference has 0.37 and 0.39; our rib reaches on to the lip's cone.
             assert!((0.36..0.5).contains(&held), "{stopped}: {held}");
         }
@@ -340,7 +341,7 @@ fn no_state_on_a_free_way_has_a_lesser_gap_than_was_told() {
                     turn_rad: mix(a.turn_rad, b.turn_rad),
                 })
                 .collect();
-            let gap = clearance::Shown::of(&telescope, &state).gap().gap_mm;
+            let gap = clearance::Shown::of(&telescope, &state).gaps().least.gap_mm;
             assert!(
                 gap >= 0.5 * opening.least.gap_mm,
                 "{gap} {:?}",
@@ -350,8 +351,8 @@ fn no_state_on_a_free_way_has_a_lesser_gap_than_was_told() {
     }
 }
 
-/// The trefoil of the reference, 900 mm in 12 shells with bodies of 14 to 3 mm, fitted anew.
-fn trefoil() -> Telescope {
+/// The trefoil of the reference, 900 mm long.
+fn trefoil_curve() -> Curve {
     let at = |i: u32| {
         let t = 0.25 + (std::f64::consts::TAU - 0.5) * f64::from(i) / 3000.0;
         let [x, y] = [
@@ -361,22 +362,20 @@ fn trefoil() -> Telescope {
         Point::new(x, y, -(3.0 * t).sin())
     };
     let curve = Curve::of_polyline((0..=3000).map(at).collect()).unwrap();
+    curve.scaled_to(900.0)
+}
+
+/// The trefoil in 12 shells with bodies of 14 to 3 mm, fitted anew.
+fn trefoil() -> Telescope {
     let body_mm: Vec<f64> = (0..12).map(|i| 14.0 - f64::from(i)).collect();
     let request = FitRequest {
         body_mm: body_mm.clone(),
         ..FitRequest::new(12, 0.75 / 14.0, 0.01)
     };
-    let fit = fit(&curve.scaled_to(900.0), &request).unwrap();
+    let fit = fit(&trefoil_curve(), &request).unwrap();
     println!("deviation {:?}", fit.deviation);
     // The reference has its bodies as given, without the walls that unlike shapes cost.
-    let mut telescope = Telescope::nest(&fit.chain, 3.0, &thin()).unwrap_or_else(|error| {
-        println!("as a kit: {error}");
-        bare(&fit.chain, &body_mm)
-    });
-    for (shell, body_mm) in telescope.shells.iter_mut().zip(body_mm) {
-        shell.body_mm = body_mm;
-    }
-    telescope
+    bare(&fit.chain, &body_mm)
 }
 
 /// Measures with a pitch of 1 mm.
@@ -397,6 +396,7 @@ fn bare(chain: &Chain, body_mm: &[f64]) -> Telescope {
         turn_rad: *turn_rad,
         radii: thin().radii(*body_mm),
         seat_mm: 0.15,
+        stop_room_mm: 0.0,
         excess_mm: 0.0,
         rib_rad: 0.1,
         play_rad: 0.05,
@@ -442,6 +442,72 @@ fn the_trefoil_opens_root_first_and_not_all_at_once() {
         }
         assert_eq!(found.is_err(), order == Order::together(joints));
     }
+}
+
+#[test]
+#[ignore = "takes a minute; run before a change of the fit"]
+fn the_trefoil_nests_with_its_turns_bounded_and_opens() {
+    let wish = Wish {
+        tip_mm: 3.0,
+        within_mm: 20.0,
+        max_torsion: 0.01,
+        ..Wish::new(vec![12], thin())
+    };
+    let made = design(&trefoil_curve(), &wish, 12).unwrap();
+    let turns = made
+        .telescope
+        .joints
+        .iter()
+        .map(|j| j.turn_rad.to_degrees());
+    println!(
+        "deviation {:?}, root {:.1} mm, turns {:.0?}, {:?}",
+        made.fit.deviation,
+        made.telescope.shells[0].body_mm,
+        turns.collect::<Vec<f64>>(),
+        made.opening.least,
+    );
+    for joint in &made.telescope.joints {
+        assert!(joint.seat_mm <= thin().slide_mm);
+    }
+}
+
+#[test]
+fn neighbours_that_curl_into_each_other_are_refused() {
+    let curl = |degrees: f64| {
+        let arc = Helix {
+            curvature: degrees.to_radians() / 100.0,
+            torsion: 0.0,
+        };
+        let chain = Chain {
+            start: Frame::identity(),
+            piece_mm: 100.0,
+            pieces: vec![arc; 2],
+            turns_rad: vec![0.0],
+        };
+        bare(&chain, &[4.0, 3.0]).open_in(&Order::root_first(1))
+    };
+    // With half an overlap of 6.3 mm at either end, twice 178° go round once and 7° more.
+    assert_eq!(curl(178.0).unwrap_err().shells, [0, 1]);
+    // Twice 170° leave 20° of 33.7 mm less the overlap: 5.5 mm between two faces that lean by 9°.
+    let gap_mm = curl(170.0).unwrap().least.gap_mm;
+    assert!((4.0..5.5).contains(&gap_mm), "{gap_mm}");
+}
+
+#[test]
+fn a_plane_across_a_mouth_parts_what_is_beyond_it() {
+    // A last shell that bends as sharply as it can, before a root much thicker than its bend.
+    let piece = |curvature| Helix {
+        curvature,
+        torsion: 0.0,
+    };
+    let chain = Chain {
+        start: Frame::identity(),
+        piece_mm: 60.0,
+        pieces: vec![piece(0.0), piece(0.0), piece(0.05)],
+        turns_rad: vec![0.0; 2],
+    };
+    let opening = bare(&chain, &[30.0, 27.0, 4.0]).open_in(&Order::root_first(2));
+    assert!(opening.unwrap().least.gap_mm > 0.5);
 }
 
 /// The crook of the reference: six tubes of 40 mm on a foot, in a plane.

@@ -23,13 +23,13 @@ use super::embedding::least_gap_mm;
 use super::points::Curve;
 use crate::geom::Point;
 
-pub use request::{Ends, FitError, FitRequest, Freedom};
+pub use request::{Ends, FitError, FitRequest, Freedom, TurnBound};
 pub use starts::first_guess;
 pub use trade::{TradeRow, trade};
 
 use descent::descend;
 use request::FIT_SAMPLES;
-use residuals::Problem;
+use residuals::{OFFSET_WEIGHTS, Problem};
 use unknowns::Unknowns;
 
 /// Edges for each piece on which the noise of the curve is smoothed: over an eighth of a piece.
@@ -92,8 +92,14 @@ fn fit_checked(curve: &Curve, request: &FitRequest) -> Fit {
 /// Goes down from a start. Small turns are then left out, if turns have a price.
 fn refine(target: &[Point], request: &FitRequest, start: &Chain) -> Chain {
     let free = Unknowns::of(request, start);
-    let problem = Problem::new(target, request);
-    let chain = free.wrapped(&descend(&problem, &free, start));
+    let [soft, firm] = OFFSET_WEIGHTS;
+    let problem = |weight| Problem::new(target, request).with_offset_weight(weight);
+    let mut chain = descend(&problem(soft), &free, start);
+    let problem = problem(firm);
+    if request.turn_bound.is_some() {
+        chain = descend(&problem, &free, &chain);
+    }
+    let chain = free.wrapped(&chain);
     if request.impulse_price == 0.0 {
         return chain;
     }

@@ -28,6 +28,22 @@ pub enum Ends {
     Pinned,
 }
 
+/// How far a turn may part neighbours that slide in each other.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TurnBound {
+    /// What stays inside of a piece that is all out, mm. It turns about the middle of this.
+    pub overlap_mm: f64,
+    /// The greatest distance of their centre lines at the ends of the overlap, mm.
+    pub offset_mm: f64,
+}
+
+impl TurnBound {
+    /// Returns the offset over κ and the sine of half of the turn, mm²: (o/2)².
+    pub(super) fn lever_mm2(&self) -> f64 {
+        0.25 * self.overlap_mm * self.overlap_mm
+    }
+}
+
 /// What a chain must be like, and what it pays for.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FitRequest {
@@ -46,6 +62,8 @@ pub struct FitRequest {
     pub nesting_price: f64,
     /// The price of a turn between pieces, mm²/rad. Without one all turns are taken.
     pub impulse_price: f64,
+    /// The bound of e = κ (o/2)² sin(|θ|/2) at every turn; `None` if turns part nothing.
+    pub turn_bound: Option<TurnBound>,
     /// The ends of the chain.
     pub ends: Ends,
     /// The radius of the tube of each piece, mm; empty for a line without a body.
@@ -96,6 +114,7 @@ impl FitRequest {
             max_torsion,
             nesting_price: 0.3,
             impulse_price: 0.0,
+            turn_bound: None,
             ends: Ends::Free,
             body_mm: Vec::new(),
         }
@@ -115,9 +134,16 @@ impl FitRequest {
             ("price of nesting", self.nesting_price),
             ("price of turns", self.impulse_price),
         ];
+        let of_turns = self.turn_bound.iter().flat_map(|bound| {
+            [
+                ("overlap", bound.overlap_mm),
+                ("offset of turns", bound.offset_mm),
+            ]
+        });
+        let numbers = numbers.into_iter().chain(of_turns);
         let radii = self.body_mm.iter().map(|radius| ("radius", *radius));
         let is_bad = |value: f64| !(value.is_finite() && value >= 0.0);
-        let mut all = numbers.into_iter().chain(radii);
+        let mut all = numbers.chain(radii);
         if let Some((quantity, value)) = all.find(|(_, value)| is_bad(*value)) {
             return Err(FitError::Quantity { quantity, value });
         }

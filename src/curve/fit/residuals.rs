@@ -14,6 +14,14 @@ const PIN_WEIGHT: f64 = 1e3;
 /// The angle over which the price of a turn is rounded off at zero, rad.
 const ROUNDING_RAD: f64 = 1e-2;
 
+/// Weights of an offset beyond its bound, against a distance from the curve. The first is for a
+/// chain far from its place, the last is so great that the bound holds.
+pub(super) const OFFSET_WEIGHTS: [f64; 2] = [30.0, 1000.0];
+
+/// Share of its bound at which an offset begins to cost. The rest is more than what is left over
+/// at the last weight, and than the offset differs from its formula.
+const OFFSET_SHARE: f64 = 0.97;
+
 /// Places and weights of the three-node rule of Gauss and Legendre on 0 to 1.
 const GAUSS: [[f64; 2]; 3] = [
     [0.112_701_665_379_258_3, 5.0 / 18.0],
@@ -29,6 +37,7 @@ pub(super) struct Problem<'a> {
     request: &'a FitRequest,
     /// The length of a piece in the price of nesting, mm.
     nominal_mm: f64,
+    offset_weight: f64,
 }
 
 /// Residuals, and their derivatives by row and unknown.
@@ -58,6 +67,15 @@ impl<'a> Problem<'a> {
             steps: edges / request.pieces,
             request,
             nominal_mm: length_mm / request.pieces as f64,
+            offset_weight: OFFSET_WEIGHTS[1],
+        }
+    }
+
+    /// Returns the problem with another weight of offsets beyond their bound.
+    pub fn with_offset_weight(self, offset_weight: f64) -> Self {
+        Self {
+            offset_weight,
+            ..self
         }
     }
 
@@ -66,7 +84,7 @@ impl<'a> Problem<'a> {
         self.residuals(chain).norm_squared()
     }
 
-    /// Returns the residuals: distances, pins, misfits of neighbours, turns.
+    /// Returns the residuals: distances, pins, misfits of neighbours, offsets, turns.
     pub fn residuals(&self, chain: &Chain) -> DVector<f64> {
         let samples = chain.samples(self.steps);
         let weight = self.sample_weight();
@@ -82,7 +100,9 @@ impl<'a> Problem<'a> {
             .turns_rad
             .iter()
             .map(|turn| rounded_root(*turn, price).value);
-        DVector::from_vec(spatial.chain(misfits).chain(turns).collect())
+        let offsets = self.offsets(chain).into_iter().map(|offset| offset.value);
+        let all = spatial.chain(misfits).chain(offsets).chain(turns);
+        DVector::from_vec(all.collect())
     }
 
     /// Returns the residuals with their derivatives by every unknown.
@@ -92,6 +112,7 @@ impl<'a> Problem<'a> {
         self.fill_samples(chain, free, &mut jacobian);
         self.fill_pins(&mut jacobian);
         self.fill_nesting(chain, free, &mut jacobian);
+        self.fill_offsets(chain, free, &mut jacobian);
         self.fill_turns(chain, free, &mut jacobian);
         Linear {
             residuals,
@@ -194,6 +215,43 @@ impl<'a> Problem<'a> {
         }
     }
 
+    /// Returns the residual of every joint's offset beyond its bound; none without a bound.
+    fn offsets(&self, chain: &Chain) -> Vec<Offset> {
+        let Some(bound) = self.request.turn_bound else {
+            return Vec::new();
+        };
+        let joints = chain.turns_rad.iter().zip(&chain.pieces[1..]);
+        let offset = |(turn, piece): (&f64, &Helix)| {
+            let (sine, cosine) = (0.5 * turn).sin_cos();
+            let lever = bound.lever_mm2();
+            let offset_mm = lever * piece.curvature * sine.abs();
+            let excess_mm = offset_mm - OFFSET_SHARE * bound.offset_mm;
+            if excess_mm <= 0.0 {
+                return Offset::default();
+            }
+            let scale = self.offset_weight * lever;
+            Offset {
+                value: self.offset_weight * excess_mm,
+                by_curvature: scale * sine.abs(),
+                by_turn: scale * piece.curvature * 0.5 * cosine * sine.signum(),
+            }
+        };
+        joints.map(offset).collect()
+    }
+
+    fn fill_offsets(&self, chain: &Chain, free: &Unknowns, jacobian: &mut DMatrix<f64>) {
+        let offsets = self.offsets(chain);
+        let first = jacobian.nrows() - chain.turns_rad.len() - offsets.len();
+        for (joint, offset) in offsets.iter().enumerate() {
+            if let Some(place) = free.curvature(joint + 1) {
+                jacobian[(first + joint, place)] += offset.by_curvature;
+            }
+            if let Some(place) = free.turn(joint + 1) {
+                jacobian[(first + joint, place)] += offset.by_turn;
+            }
+        }
+    }
+
     fn fill_turns(&self, chain: &Chain, free: &Unknowns, jacobian: &mut DMatrix<f64>) {
         let first = jacobian.nrows() - chain.turns_rad.len();
         for (joint, turn) in chain.turns_rad.iter().enumerate() {
@@ -219,6 +277,14 @@ impl<'a> Problem<'a> {
             Ends::Pinned => vec![0, self.target.len() - 1],
         }
     }
+}
+
+/// The residual of an offset beyond its bound, and its derivatives.
+#[derive(Default)]
+struct Offset {
+    value: f64,
+    by_curvature: f64,
+    by_turn: f64,
 }
 
 /// A residual and its derivative.

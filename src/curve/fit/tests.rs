@@ -22,6 +22,10 @@ fn skew_chain() -> Chain {
 fn every_kind_of_residual() -> FitRequest {
     FitRequest {
         impulse_price: 0.7,
+        turn_bound: Some(TurnBound {
+            overlap_mm: 12.0,
+            offset_mm: 0.2,
+        }),
         ends: Ends::Pinned,
         ..FitRequest::new(7, 0.06, 0.05)
     }
@@ -77,6 +81,29 @@ fn bounds_hold_and_one_value_for_all_is_one_value() {
     };
     let chain = fit(&curve, &flat).unwrap().chain;
     assert!(chain.pieces.iter().all(|piece| piece.torsion == 0.0));
+}
+
+#[test]
+fn no_turn_parts_neighbours_by_more_than_its_bound() {
+    let curve = samples::viviani().scaled_to(300.0);
+    let bound = TurnBound {
+        overlap_mm: 6.6,
+        offset_mm: 0.05,
+    };
+    let free = FitRequest::new(6, 0.04, 0.02);
+    let bounded = FitRequest {
+        turn_bound: Some(bound),
+        ..free.clone()
+    };
+    let greatest_mm = |request: &FitRequest| {
+        let chain = fit(&curve, request).unwrap().chain;
+        let joints = chain.turns_rad.iter().zip(&chain.pieces[1..]);
+        let offsets = joints
+            .map(|(turn, piece)| 0.25 * 6.6 * 6.6 * piece.curvature * (0.5 * turn.abs()).sin());
+        offsets.fold(0.0, f64::max)
+    };
+    assert!(greatest_mm(&free) > 0.1);
+    assert!(greatest_mm(&bounded) <= bound.offset_mm);
 }
 
 #[test]
