@@ -206,9 +206,17 @@ fn number_row<T>(key: &str, value: String, number: &Sourced<T>) -> [String; 4] {
     ]
 }
 
-fn materials(printer: &Printer) -> Vec<[String; 6]> {
-    let mut rows =
-        vec![["material", "name", "density", "± mass", "from", "source"].map(str::to_owned)];
+fn materials(printer: &Printer) -> Vec<[String; 7]> {
+    let titles = [
+        "material",
+        "name",
+        "density",
+        "± mass",
+        "slides with",
+        "from",
+        "source",
+    ];
+    let mut rows = vec![titles.map(str::to_owned)];
     rows.extend(printer.materials.iter().map(|material| {
         [
             material.id.clone(),
@@ -218,6 +226,9 @@ fn materials(printer: &Printer) -> Vec<[String; 6]> {
                 || "not known".to_owned(),
                 |spread| show_percent(spread.value),
             ),
+            printer
+                .slide_clearance(material)
+                .map_or_else(|| "not known".to_owned(), |gap| show_mm(gap.value)),
             origin(material.density_g_cm3.sure).to_owned(),
             material.density_g_cm3.source.clone(),
         ]
@@ -326,7 +337,7 @@ mod tests {
         let said = text(Some(PrintersAction::Check { file }), false);
         assert_eq!(
             said,
-            "shop-mk4: a profile that can be used; 26 numbers, 20 of them process defaults, 9 our own choices\n"
+            "shop-mk4: a profile that can be used; 29 numbers, 23 of them process defaults, 12 our own choices\n"
         );
         let mut out = Vec::new();
         let error = run(

@@ -18,6 +18,10 @@ pub(super) fn note_contradictions(reader: &mut Reader, layer: &Layer) {
             Quantity::ClearancePressPerSideMm,
             Quantity::ClearanceLoosePerSideMm,
         ),
+        (
+            Quantity::ClearancePressPerSideMm,
+            Quantity::ClearanceSlidePerSideMm,
+        ),
     ];
     for (small, large) in pairs {
         if let (Some((small, less)), Some((large, more))) = (value(small), value(large))

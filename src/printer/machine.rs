@@ -257,6 +257,15 @@ impl Printer {
     }
 }
 
+impl Printer {
+    /// Returns the gap on each side with which shells of a material slide; `None` if it is not
+    /// known.
+    pub fn slide_clearance<'a>(&'a self, material: &'a Material) -> Option<&'a Sourced<f64>> {
+        let own = material.clearance_slide_per_side_mm.as_ref();
+        own.or_else(|| self.number(Quantity::ClearanceSlidePerSideMm))
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -300,6 +309,21 @@ mod tests {
         pla.density_spread_ratio = Some(spread);
         let window = pla.weighing_window_g(100.0).unwrap();
         assert!((window[0] - 98.0).abs() < 1e-12 && (window[1] - 102.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_material_may_slide_with_a_gap_of_its_own() {
+        let mk4 = printer("prusa-mk4");
+        let gap = |material| {
+            let material = mk4.material(Some(material)).unwrap();
+            mk4.slide_clearance(material).unwrap().value
+        };
+        assert_eq!((gap("pla"), gap("petg")), (0.3, 0.4));
+        let sla = printer("formlabs-form4");
+        assert_eq!(sla.number(Quantity::ClearanceInPlacePerSideMm), None);
+        let all = Printer::all().unwrap();
+        let slides = |printer: &Printer| printer.slide_clearance(&printer.materials[0]).is_some();
+        assert!(all.iter().all(slides));
     }
 
     #[test]

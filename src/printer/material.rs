@@ -17,6 +17,9 @@ pub struct Material {
     /// The greatest relative deviation of a sound print's mass from volume × density; `None` if
     /// unknown.
     pub density_spread_ratio: Option<Sourced<f64>>,
+    /// Gap on each side for shells that slide; `None` if the printer's own holds.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub clearance_slide_per_side_mm: Option<Sourced<f64>>,
     /// The lot on which the density was measured.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub lot: Option<String>,

@@ -76,10 +76,16 @@ pub enum Quantity {
     ClearancePressPerSideMm,
     /// Gap on each side for a joint that comes apart by itself.
     ClearanceLoosePerSideMm,
+    /// Gap on each side for shells that slide in each other along their whole length.
+    ClearanceSlidePerSideMm,
+    /// Gap on each side of parts that are printed in each other and move afterwards.
+    ClearanceInPlacePerSideMm,
     /// Depth of a socket beyond the end of its pin.
     SocketExtraDepthMm,
     /// Chamfer of pins and socket mouths.
     ChamferMm,
+    /// Chamfer of sliding edges that lie on the plate, so that spread first layers do not rub.
+    ChamferFirstLayerMm,
     /// Spread of the first layers beyond the drawing.
     ElephantFootMm,
     /// The least tolerance, that of short dimensions.
@@ -105,7 +111,7 @@ pub enum Quantity {
 
 impl Quantity {
     /// Every quantity, in order.
-    pub const ALL: [Self; 32] = [
+    pub const ALL: [Self; 35] = [
         Self::PixelXMm,
         Self::PixelYMm,
         Self::LayerMm,
@@ -126,8 +132,11 @@ impl Quantity {
         Self::ClearancePerSideMm,
         Self::ClearancePressPerSideMm,
         Self::ClearanceLoosePerSideMm,
+        Self::ClearanceSlidePerSideMm,
+        Self::ClearanceInPlacePerSideMm,
         Self::SocketExtraDepthMm,
         Self::ChamferMm,
+        Self::ChamferFirstLayerMm,
         Self::ElephantFootMm,
         Self::ToleranceLeastMm,
         Self::ToleranceBaseMm,
@@ -163,8 +172,11 @@ impl Quantity {
             Self::ClearancePerSideMm => "clearance_per_side_mm",
             Self::ClearancePressPerSideMm => "clearance_press_per_side_mm",
             Self::ClearanceLoosePerSideMm => "clearance_loose_per_side_mm",
+            Self::ClearanceSlidePerSideMm => "clearance_slide_per_side_mm",
+            Self::ClearanceInPlacePerSideMm => "clearance_in_place_per_side_mm",
             Self::SocketExtraDepthMm => "socket_extra_depth_mm",
             Self::ChamferMm => "chamfer_mm",
+            Self::ChamferFirstLayerMm => "chamfer_first_layer_mm",
             Self::ElephantFootMm => "elephant_foot_mm",
             Self::ToleranceLeastMm => "tolerance_least_mm",
             Self::ToleranceBaseMm => "tolerance_base_mm",
@@ -194,6 +206,9 @@ impl Quantity {
                 | Self::SeamStepMm
                 | Self::ClearancePressPerSideMm
                 | Self::ClearanceLoosePerSideMm
+                | Self::ClearanceSlidePerSideMm
+                | Self::ClearanceInPlacePerSideMm
+                | Self::ChamferFirstLayerMm
                 | Self::ElephantFootMm
                 | Self::ToleranceBaseMm
                 | Self::ToleranceRatio
@@ -229,6 +244,9 @@ impl Quantity {
             | Self::ClearancePerSideMm
             | Self::ClearancePressPerSideMm
             | Self::ClearanceLoosePerSideMm
+            | Self::ClearanceSlidePerSideMm
+            | Self::ClearanceInPlacePerSideMm
+            | Self::ChamferFirstLayerMm
             | Self::ElephantFootMm
             | Self::ChamferMm => FINEST_MM..=LARGEST_GAP_MM,
             Self::SocketExtraDepthMm | Self::ToleranceLeastMm | Self::ToleranceBaseMm => {

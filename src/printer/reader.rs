@@ -187,6 +187,9 @@ impl<'a> Reader<'a> {
         let spread = text.density_spread_ratio.as_ref();
         let spread = spread
             .map(|text| self.number_within("density_spread_ratio", text, DENSITY_SPREAD_RATIO));
+        let slide = Quantity::ClearanceSlidePerSideMm;
+        let gap = text.clearance_slide_per_side_mm.as_ref();
+        let gap = gap.and_then(|text| self.number_within(slide.key(), text, slide.plausible()));
         let lot = text.lot.as_ref().map(|lot| self.words("lot", lot));
         let measured_on = text.measured_on.as_ref().and_then(|day| self.day(day));
         let density = density?;
@@ -199,6 +202,7 @@ impl<'a> Reader<'a> {
             name,
             density_g_cm3: density,
             density_spread_ratio,
+            clearance_slide_per_side_mm: gap,
             lot,
             measured_on,
         })
