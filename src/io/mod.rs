@@ -2,12 +2,14 @@
 //!
 //! * `read` reads a file in any of the formats; `sniff` recognises the format from the content.
 //! * [`stl`], `obj`, `ply` and [`threemf`] hold one format each.
-//! * `points` reads curves, a point a line.
+//! * `points` reads curves, a point a line; `lines` reads them as OBJ lines or PLY edges, too.
 //! * `ear_clip` cuts the polygons of OBJ and PLY into triangles.
 
 mod ear_clip;
+mod lines;
 mod obj;
 mod ply;
+mod ply_edges;
 mod points;
 mod read;
 mod sniff;
@@ -16,6 +18,7 @@ pub mod stl;
 mod tests;
 pub mod threemf;
 
+pub use lines::{LinesError, decode_curve};
 pub use obj::ObjError;
 pub use ply::PlyError;
 pub use points::{PointsError, decode_points};

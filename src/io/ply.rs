@@ -57,7 +57,7 @@ pub enum PlyError {
 
 /// The encoding of the numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Form {
+pub(super) enum Form {
     Text,
     LittleEndian,
     BigEndian,
@@ -65,7 +65,7 @@ enum Form {
 
 /// The type of a number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Kind {
+pub(super) enum Kind {
     I8,
     U8,
     I16,
@@ -100,18 +100,18 @@ const CORNERS: [&str; 2] = ["vertex_indices", "vertex_index"];
 
 /// A property of an element: a number, or a list of them if it has a type for its length.
 #[derive(Debug, Clone)]
-struct Property {
-    name: String,
+pub(super) struct Property {
+    pub name: String,
     kind: Kind,
     length: Option<Kind>,
 }
 
 /// A group of items with the same properties, as the header declares it.
 #[derive(Debug, Clone)]
-struct Element {
-    name: String,
+pub(super) struct Element {
+    pub name: String,
     count: usize,
-    properties: Vec<Property>,
+    pub properties: Vec<Property>,
 }
 
 /// Returns the triangles of a PLY file: at least one, with finite coordinates.
@@ -142,7 +142,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<TriMesh, PlyError> {
     Ok(TriMesh::from_parts(vertices, triangles))
 }
 
-fn read_vertices(body: &mut Body, element: &Element) -> Result<Vec<Point>, PlyError> {
+pub(super) fn read_vertices(body: &mut Body, element: &Element) -> Result<Vec<Point>, PlyError> {
     let axis = |name: &str| {
         element
             .properties
@@ -205,7 +205,7 @@ fn check_face(face: &[u32], index: usize, vertices: usize) -> Result<(), PlyErro
     })
 }
 
-fn fault(element: &Element, index: usize, property: &str, found: String) -> PlyError {
+pub(super) fn fault(element: &Element, index: usize, property: &str, found: String) -> PlyError {
     PlyError::Value {
         element: element.name.clone(),
         index,
@@ -215,7 +215,7 @@ fn fault(element: &Element, index: usize, property: &str, found: String) -> PlyE
 }
 
 /// Reads the header; returns the encoding, the elements, and the bytes after the header.
-fn header(bytes: &[u8]) -> Result<(Form, Vec<Element>, &[u8]), PlyError> {
+pub(super) fn header(bytes: &[u8]) -> Result<(Form, Vec<Element>, &[u8]), PlyError> {
     let (mut form, mut elements) = (None, Vec::<Element>::new());
     let (mut rest, mut line) = (bytes, 0);
     while !rest.is_empty() {
@@ -303,14 +303,14 @@ fn property(words: &[&str]) -> Option<Property> {
 }
 
 /// The part of the file after the header that is still to be read.
-struct Body<'a> {
-    rest: &'a [u8],
-    form: Form,
+pub(super) struct Body<'a> {
+    pub rest: &'a [u8],
+    pub form: Form,
 }
 
 impl Body<'_> {
     /// Calls `take` with the index of each item and its values, one list for each property.
-    fn for_each_item(
+    pub fn for_each_item(
         &mut self,
         element: &Element,
         mut take: impl FnMut(usize, &[Vec<f64>]) -> Result<(), PlyError>,
