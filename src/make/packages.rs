@@ -95,7 +95,7 @@ pub fn packages(placed: &Placed, made: &Made, watch: &Watch) -> Result<Vec<File>
         .into_par_iter()
         .map(|i| object(placed, i, &parts[i], &printed[i]))
         .collect();
-    let mut jobs = plates(placed, &printed);
+    let mut jobs = plates(&placed.shop.printer, &printed);
     jobs.insert(0, (ASSEMBLY.to_owned(), together(placed, parts)));
     let shared = jobs.into_par_iter().map(|(file, arrangement)| {
         watch.check()?;
@@ -117,7 +117,7 @@ pub fn packages(placed: &Placed, made: &Made, watch: &Watch) -> Result<Vec<File>
 }
 
 /// The description of a package, and the places of its objects.
-type Arrangement = (String, Build);
+pub type Arrangement = (String, Build);
 
 /// A part's own package, as it lies in print pose.
 fn pack(placed: &Placed, part: &WrittenPart, object: &[Object]) -> Result<File, Error> {
@@ -161,7 +161,7 @@ fn is_in(socket: &PinSite, at: &Point) -> bool {
 
 /// Returns the settings that a slicer of filament printers takes from a package: without them it
 /// would print the parts with its own infill. Other processes print solid anyway.
-fn settings(printer: &Printer) -> Option<PrintSettings> {
+pub fn print_settings(printer: &Printer) -> Option<PrintSettings> {
     let overhang_deg = printer.number(Quantity::OverhangDeg).map(|deg| deg.value);
     (printer.process.as_deref() == Some(FILAMENT)).then_some(PrintSettings {
         layer_mm: printer.layer_mm.value,
@@ -187,7 +187,7 @@ fn package(
         job: placed.name(),
         objects,
         build,
-        settings: settings(&placed.shop.printer),
+        settings: print_settings(&placed.shop.printer),
     }
     .encode()?;
     Ok((file, bytes))
@@ -216,14 +216,14 @@ fn together(placed: &Placed, parts: &[WrittenPart]) -> Arrangement {
     (description, Build::Assembly(placed.name(), places))
 }
 
-/// The plates with their parts in print pose.
-fn plates(placed: &Placed, printed: &[TriMesh]) -> Vec<(String, Arrangement)> {
+/// Returns the plates with their parts in print pose, each with the name of its file.
+pub fn plates(printer: &Printer, printed: &[TriMesh]) -> Vec<(String, Arrangement)> {
     let boxes: Vec<Aabb> = printed.iter().map(TriMesh::aabb).collect();
     let sizes: Vec<[f64; 2]> = boxes
         .iter()
         .map(|aabb| [aabb.size().x, aabb.size().y])
         .collect();
-    let known = placed.shop.printer.plate();
+    let known = printer.plate();
     let spots = known
         .clone()
         .unwrap_or_else(|| Plate::for_parts(&sizes))
@@ -242,7 +242,7 @@ fn plates(placed: &Placed, printed: &[TriMesh]) -> Vec<(String, Arrangement)> {
         (
             file,
             (
-                plate_words(placed, [plate + 1, count], known.is_some().then_some(fits)),
+                plate_words(printer, [plate + 1, count], known.is_some().then_some(fits)),
                 Build::Items(places),
             ),
         )
@@ -251,8 +251,8 @@ fn plates(placed: &Placed, printed: &[TriMesh]) -> Vec<(String, Arrangement)> {
 }
 
 /// Describes a plate and says if its parts fit; `fits` is `None` if its size is not known.
-fn plate_words(placed: &Placed, [plate, count]: [usize; 2], fits: Option<bool>) -> String {
-    let printer = &placed.shop.printer.name;
+fn plate_words(printer: &Printer, [plate, count]: [usize; 2], fits: Option<bool>) -> String {
+    let printer = &printer.name;
     let fit = match fits {
         Some(true) => "",
         Some(false) => " What lies on it is larger than the plate.",

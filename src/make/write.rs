@@ -5,7 +5,7 @@ use crate::cut::{Jig, JointId, Part};
 use crate::error::Error;
 use crate::geom::Vector;
 use crate::io::stl;
-use crate::mesh::Crossings;
+use crate::mesh::{Crossings, TriMesh};
 use crate::repair::{unfold, weld};
 use crate::run::{Placed, WrittenJig, WrittenPart};
 use crate::verify::Pose;
@@ -59,18 +59,27 @@ pub fn write_jig(placed: &Placed, jig: Jig, watch: &Watch) -> Result<WrittenJig,
     let mesh = jig.solid.mesh();
     let laid = mesh.map_vertices(|p| pose.to_print(p).coords.component_mul(&scale).into());
     let name = format!("{}_jig-{}", placed.name(), JointId::of(jig.joint));
-    let mut bytes = stl::encode(&laid, &name);
-    let mut read_back = stl::decode(&bytes)?;
-    if Crossings::of_watched(&weld(&read_back), watch)?.pairs > 0 {
-        bytes = stl::encode(&unfold(&laid, watch)?, &name);
-        read_back = stl::decode(&bytes)?;
-    }
+    let bytes = write_free_of_folds(&laid, &name, watch)?;
+    let read_back = stl::decode(&bytes)?;
     Ok(WrittenJig {
         jig,
         file: format!("jigs/{name}.stl"),
         bytes,
         read_back: read_back.map_vertices(|p| p.coords.component_div(&scale).into()),
     })
+}
+
+/// Returns the bytes of a mesh's STL file: as it is, or unfolded if rounding folds it.
+///
+/// # Errors
+/// The file does not read back, or the watch was stopped.
+pub fn write_free_of_folds(mesh: &TriMesh, name: &str, watch: &Watch) -> Result<Vec<u8>, Error> {
+    let bytes = stl::encode(mesh, name);
+    let is_folded = Crossings::of_watched(&weld(&stl::decode(&bytes)?), watch)?.pairs > 0;
+    if is_folded {
+        return Ok(stl::encode(&unfold(mesh, watch)?, name));
+    }
+    Ok(bytes)
 }
 
 /// Writes a part again and again.

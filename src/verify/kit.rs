@@ -41,7 +41,11 @@ pub fn verify_kit_of(
     judgement
         .changes
         .extend(find_paper_changes(folder, &evidence.promise)?);
-    let strangers = find_strangers(folder, &evidence.promise)?;
+    let promise = &evidence.promise;
+    let parts = promise.parts.iter().map(|part| part.file.as_str());
+    let jigs = promise.jigs.iter().map(|jig| jig.file.as_str());
+    let others = promise.files.keys().map(String::as_str);
+    let strangers = find_strangers(folder, parts.chain(jigs).chain(others))?;
     judgement.changes.extend(strangers.changes);
     judgement.unlisted = strangers.others;
     judgement.checks.push(sheet_check(&misstated));

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::files::{CERTIFICATE_FILE, CHECKLIST_FILE, SHEET_FILE, SUMS_FILE};
-use super::{Change, FileChange, Promise, VerifyError};
+use super::{Change, FileChange, VerifyError};
 
 /// The endings of files that somebody could print by mistake.
 const PRINTABLE: [&str; 10] = [
@@ -25,21 +25,17 @@ pub(super) struct Strangers {
     pub(super) others: Vec<String>,
 }
 
-/// Finds what is in a kit's folder and not on its list, in the order of the paths. Links are not
-/// followed.
+/// Finds what is in a kit's folder, neither listed nor one of its papers, in the order of the
+/// paths. Links are not followed.
 ///
 /// # Errors
 /// A folder of the kit cannot be read.
-pub(super) fn find_strangers(folder: &Path, promise: &Promise) -> Result<Strangers, VerifyError> {
+pub(super) fn find_strangers<'a>(
+    folder: &Path,
+    listed: impl Iterator<Item = &'a str>,
+) -> Result<Strangers, VerifyError> {
     let papers = [CHECKLIST_FILE, SHEET_FILE, CERTIFICATE_FILE, SUMS_FILE];
-    let listed: BTreeSet<&str> = promise
-        .files
-        .keys()
-        .map(String::as_str)
-        .chain(promise.parts.iter().map(|part| part.file.as_str()))
-        .chain(promise.jigs.iter().map(|jig| jig.file.as_str()))
-        .chain(papers)
-        .collect();
+    let listed: BTreeSet<&str> = listed.chain(papers).collect();
     let mut found = Strangers::default();
     let mut entries = 0;
     let mut folders = vec![(String::new(), 0)];
