@@ -2,6 +2,7 @@
 
 mod choices;
 mod filling;
+pub mod telescope;
 
 use std::path::{Path, PathBuf};
 

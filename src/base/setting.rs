@@ -85,6 +85,24 @@ choice! {
         LeastLean = "least_lean_deg",
         /// The least toppling angle that a standing object promises.
         LeastAngle = "least_angle_deg",
+        /// The number of shells of a telescope.
+        Shells = "shells",
+        /// The radius of a telescope's tip.
+        TipRadius = "tip_radius",
+        /// The greatest radius of a telescope's root.
+        RootRadius = "root_radius",
+        /// The greatest visible length of a shell.
+        ShellLength = "shell_length",
+        /// The deviation of a telescope from its curve that is near enough.
+        Deviation = "deviation",
+        /// The sliding clearance of shells.
+        Clearance = "clearance",
+        /// The overlap of shells that are all out.
+        Overlap = "overlap",
+        /// The order in which shells come out.
+        Order = "order",
+        /// The radius of a telescope's foot.
+        Foot = "foot",
         /// The folder or file that is written; it is not part of a job.
         Out = "out",
         /// The permission to replace what is there; it is not part of a job.

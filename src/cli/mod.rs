@@ -17,6 +17,7 @@ pub mod shop;
 pub mod show;
 pub mod signals;
 mod summary;
+pub mod telescope;
 mod values;
 pub mod verify;
 pub mod voice;
@@ -25,7 +26,7 @@ use std::error::Error;
 
 pub use exit::Exit;
 
-use args::{Cli, Command, DEFAULT_PLANS};
+use args::{Cli, Command, DEFAULT_PLANS, PrepareArgs};
 use prepare::PrepareError;
 use signals::{Stop, end_process_on_signal};
 use voice::{Manner, Voice};
@@ -48,27 +49,19 @@ fn dispatch(cli: Cli, manner: Manner) -> Result<Exit, Box<dyn Error + Send + Syn
     let out = &mut std::io::stdout();
     match cli.command {
         Command::Prepare(args) => match args.plans {
-            Some(count) => {
-                let request = args.request().map_err(PrepareError::from)?;
-                Ok(cuts::cuts(
-                    &request,
-                    usize::from(count),
-                    voice,
-                    &Stop::on_signals(),
-                )?)
-            }
+            Some(count) => show_plans(*args, count, voice),
             None => Ok(prepare::prepare(*args, voice, &Stop::on_signals(), out)?),
         },
         Command::Cuts(mut args) => {
             let count = *args.plans.get_or_insert(DEFAULT_PLANS);
-            let request = args.request().map_err(PrepareError::from)?;
-            Ok(cuts::cuts(
-                &request,
-                usize::from(count),
-                voice,
-                &Stop::on_signals(),
-            )?)
+            show_plans(*args, count, voice)
         }
+        Command::Telescope(args) => Ok(telescope::telescope(
+            *args,
+            voice,
+            &Stop::on_signals(),
+            out,
+        )?),
         Command::Inspect(args) => {
             end_process_on_signal();
             Ok(inspect::inspect(&args, voice, out)?)
@@ -96,4 +89,15 @@ fn dispatch(cli: Cli, manner: Manner) -> Result<Exit, Box<dyn Error + Send + Syn
             Ok(Exit::Kept)
         }
     }
+}
+
+/// Writes so many plans of cuts side by side.
+fn show_plans(
+    args: PrepareArgs,
+    count: u8,
+    voice: Voice,
+) -> Result<Exit, Box<dyn Error + Send + Sync>> {
+    let request = args.request().map_err(PrepareError::from)?;
+    let count = usize::from(count);
+    Ok(cuts::cuts(&request, count, voice, &Stop::on_signals())?)
 }

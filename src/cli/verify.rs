@@ -8,7 +8,10 @@ use super::show::{GREEN, RED, paint, say};
 use super::summary::{checks_table, summary};
 use super::voice::{Manner, Voice};
 use crate::base::watch::Watch;
-use crate::verify::{Check, CheckKind, FileChange, VerifyError, files_check, verify_kit_of};
+use crate::verify::{
+    Check, CheckKind, FileChange, TelescopeVerifyError, VerifyError, files_check, is_telescope,
+    verify_kit_of, verify_telescope,
+};
 
 /// Greatest number of files that are not on the list and are named.
 const MAX_NAMED: usize = 10;
@@ -20,6 +23,12 @@ pub enum VerifyCommandError {
     /// The kit cannot be judged.
     #[error(transparent)]
     Verify(#[from] VerifyError),
+    /// The kit of a telescope cannot be judged.
+    #[error(transparent)]
+    Telescope(#[from] TelescopeVerifyError),
+    /// A telescope is made of no model.
+    #[error("this kit is a telescope's, which is made of no model; remedy: verify it without one")]
+    NoModel,
     /// The standard output is closed.
     #[error("cannot write to the standard output")]
     Output(#[from] std::io::Error),
@@ -36,12 +45,15 @@ pub fn verify(
     voice: Voice,
     out: &mut dyn Write,
 ) -> Result<Exit, VerifyCommandError> {
-    let judged = verify_kit_of(folder, model, &Watch::silent())
-        .map(|judgement| (judgement.checks, judgement.changes, judgement.unlisted));
-    let (checks, changes, unlisted) = judged.or_else(|error| match error.changes(folder) {
-        changes if changes.is_empty() => Err(error),
-        changes => Ok((vec![files_check(&changes)], changes, Vec::new())),
-    })?;
+    let Judged {
+        checks,
+        changes,
+        unlisted,
+    } = if is_telescope(folder) {
+        judge_telescope(folder, model)?
+    } else {
+        judge_kit(folder, model)?
+    };
     let is_kept = checks.iter().all(|check| check.pass);
     if voice.json {
         writeln!(out, "{}", serde_json::to_string_pretty(&checks)?)?;
@@ -52,6 +64,43 @@ pub fn verify(
         say(text(&checks, &changes, voice.manner).trim_end());
     }
     Ok(if is_kept { Exit::Kept } else { Exit::NotKept })
+}
+
+/// What was found in a kit.
+struct Judged {
+    checks: Vec<Check>,
+    changes: Vec<FileChange>,
+    unlisted: Vec<String>,
+}
+
+fn judge_kit(folder: &Path, model: Option<&Path>) -> Result<Judged, VerifyError> {
+    match verify_kit_of(folder, model, &Watch::silent()) {
+        Ok(judgement) => Ok(Judged {
+            checks: judgement.checks,
+            changes: judgement.changes,
+            unlisted: judgement.unlisted,
+        }),
+        Err(error) => match error.changes(folder) {
+            changes if changes.is_empty() => Err(error),
+            changes => Ok(Judged {
+                checks: vec![files_check(&changes)],
+                changes,
+                unlisted: Vec::new(),
+            }),
+        },
+    }
+}
+
+fn judge_telescope(folder: &Path, model: Option<&Path>) -> Result<Judged, VerifyCommandError> {
+    if model.is_some() {
+        return Err(VerifyCommandError::NoModel);
+    }
+    let judgement = verify_telescope(folder, &Watch::silent())?;
+    Ok(Judged {
+        checks: judgement.checks,
+        changes: judgement.changes,
+        unlisted: judgement.unlisted,
+    })
 }
 
 /// Returns a line about the files that are not on the kit's list; empty without any.

@@ -31,13 +31,17 @@ pub enum Role {
     Made,
     /// Proof: plots of the search.
     Proof,
+    /// Telescope: a state of its opening.
+    State,
+    /// Telescope: one joint cut open.
+    CutJoint,
 }
 
 impl Role {
     /// Returns the CSS class of its pictures: side by side, or wider for drawings with small words.
     fn class(self) -> &'static str {
         match self {
-            Self::Cut => "pictures wide",
+            Self::Cut | Self::CutJoint => "pictures wide",
             Self::Exploded | Self::Halves => "pictures wide whole",
             Self::Joint => "pictures joints",
             _ => "pictures",

@@ -31,6 +31,9 @@ mod running;
 mod steps;
 mod subject;
 mod support;
+mod telescope;
+mod telescope_album;
+mod telescope_proof;
 #[cfg(test)]
 mod tests;
 mod trials;
@@ -50,5 +53,8 @@ pub use job_sheet::job;
 pub use plans::{PlanCard, draw_sides, plans};
 pub use printing::cup_warning;
 pub use subject::Subject;
+pub use telescope::{TelescopePage, telescope_job};
+pub use telescope_album::{CutJoint, ShownPart, TelescopeView, draw_telescope};
+pub use telescope_proof::telescope_certificate;
 pub use view::View;
 pub use words::{promise, shortfall, spins_on};

@@ -8,6 +8,7 @@ mod joints;
 mod parts;
 mod printer;
 mod shortfall;
+pub mod telescope;
 #[cfg(test)]
 mod tests;
 mod timing;

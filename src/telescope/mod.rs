@@ -6,8 +6,10 @@
 //! (Yu, Crane and Coros, "Computational Design of Telescoping Structures", ACM TOG 36(4), 2017.)
 //!
 //! # The line
-//! [`design()`] goes it from a curve. [`Telescope::nest`] finds the radii of a chain of helices, [`Telescope::shell_solid`] and
-//! [`Telescope::cap_solid`] make its parts. [`Telescope::find_opening`] opens it without a collision.
+//! [`prepare()`] goes it from a job to a kit: load, measure, design, make, judge, kit. Its middle
+//! is [`design()`]. [`Telescope::nest`] finds the radii of a chain of helices.
+//! [`Telescope::shell_solid`] and [`Telescope::cap_solid`] make its parts.
+//! [`Telescope::find_opening`] opens it without a collision.
 //!
 //! * **Measures:** [`JointSizes`], walls, clearances and lengths of a joint; [`Radii`], what
 //!   follows from them for a body.
@@ -26,6 +28,7 @@ mod limits;
 mod motion;
 mod nest;
 mod parts;
+pub mod prepare;
 mod profile;
 mod sizes;
 mod sweep;
@@ -36,12 +39,15 @@ mod tests;
 
 pub use balance::{Balance, DiscFoot};
 pub use clearance::Gap;
-pub use design::{Design, DesignError, DesignRow, Wish, choose_design, design, design_table};
+pub use design::{
+    Design, DesignError, DesignRow, OrderWish, Wish, choose_design, design, design_table,
+};
 pub use error::TelescopeError;
 pub use fits::{axis_excess_mm, lock_slack_mm, turning_offset_mm};
 pub use limits::{Limit, ball_limit, budget_limit, strands_limit};
 pub use motion::{Collision, Key, Opening, Order};
 pub use nest::{Joint, JointState, Shell, Telescope};
+pub use prepare::{Impossible, Outcome, Prepared, Remedy, TelescopeRunError, prepare};
 pub use profile::Profile;
 pub use sizes::{JointSizes, Radii};
 pub use sweep::{Sector, sweep_profile, sweep_sector};

@@ -117,6 +117,30 @@ pub enum CheckKind {
     Packages,
     /// Agreement of the outside with the model.
     Model,
+    /// Tubes of a telescope, round about their helices.
+    ShellBodies,
+    /// Clearance of sliding shells.
+    Sliding,
+    /// Stops of sliding shells.
+    Stops,
+    /// Twist stops of sliding shells.
+    TwistStops,
+    /// The way back out of a shell, which caps close.
+    WayBack,
+    /// Shells that touch while a telescope opens.
+    Motion,
+    /// Placements of shells at the keys of a motion.
+    Placements,
+    /// Deviation of an open telescope from its curve.
+    Deviation,
+    /// Boxes of a telescope, all in and all out.
+    Sizes,
+    /// Mass of all parts.
+    Mass,
+    /// Centres of mass along a motion.
+    Centres,
+    /// Toppling angles along a motion.
+    Toppling,
 }
 
 impl CheckKind {
@@ -178,6 +202,18 @@ impl fmt::Display for CheckKind {
             Self::ChangedFiles => "changed files",
             Self::Packages => "3MF files",
             Self::Model => "model",
+            Self::ShellBodies => "shell bodies",
+            Self::Sliding => "sliding",
+            Self::Stops => "stops",
+            Self::TwistStops => "twist stops",
+            Self::WayBack => "way back",
+            Self::Motion => "motion",
+            Self::Placements => "placements",
+            Self::Deviation => "deviation",
+            Self::Sizes => "sizes",
+            Self::Mass => "mass",
+            Self::Centres => "centres",
+            Self::Toppling => "toppling",
         })
     }
 }
@@ -188,7 +224,7 @@ mod tests {
     use serde_json::json;
 
     /// The keys and names of all kinds without data.
-    const KEYS: [(CheckKind, &str, &str); 43] = [
+    const KEYS: [(CheckKind, &str, &str); 55] = [
         (CheckKind::AxisOffset, "axis-offset", "axis offset"),
         (CheckKind::AxisTilt, "axis-tilt", "axis tilt"),
         (CheckKind::Dominance, "dominance", "dominance"),
@@ -252,6 +288,18 @@ mod tests {
         (CheckKind::ChangedFiles, "changed-files", "changed files"),
         (CheckKind::Packages, "packages", "3MF files"),
         (CheckKind::Model, "model", "model"),
+        (CheckKind::ShellBodies, "shell-bodies", "shell bodies"),
+        (CheckKind::Sliding, "sliding", "sliding"),
+        (CheckKind::Stops, "stops", "stops"),
+        (CheckKind::TwistStops, "twist-stops", "twist stops"),
+        (CheckKind::WayBack, "way-back", "way back"),
+        (CheckKind::Motion, "motion", "motion"),
+        (CheckKind::Placements, "placements", "placements"),
+        (CheckKind::Deviation, "deviation", "deviation"),
+        (CheckKind::Sizes, "sizes", "sizes"),
+        (CheckKind::Mass, "mass", "mass"),
+        (CheckKind::Centres, "centres", "centres"),
+        (CheckKind::Toppling, "toppling", "toppling"),
     ];
 
     fn assert_reads_back(kind: &CheckKind, value: &serde_json::Value) {

@@ -59,6 +59,8 @@ mod packages;
 mod seal;
 mod sheet;
 mod strangers;
+// Telescopes.
+mod telescope;
 
 #[cfg(test)]
 mod cleaning_tests;
@@ -128,4 +130,12 @@ pub use change::{Change, FileChange};
 pub use changes::files_check;
 pub use files::{CERTIFICATE_FILE, CHECKLIST_FILE, HOLLOWED_FILE, SHEET_FILE, SUMS_FILE};
 pub use seal::sums;
+// Telescopes.
 pub use sheet::find_misstatements;
+pub use telescope::{
+    BalancePromise, DeviationPromise, JointMotion, JointPromise, MotionKey, ShellMotion,
+    TelescopeEvidence, TelescopeFacts, TelescopeJudgement, TelescopeMotion, TelescopePartPromise,
+    TelescopePromise, TelescopeVerifyError, is_telescope, judge_telescope, telescope_checks,
+    verify_telescope,
+};
+pub use telescope::{CURVE_FILE, MOTION_FILE, asked_points};

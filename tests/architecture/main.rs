@@ -90,8 +90,15 @@ const ARROWS: &[(&str, &[&str])] = &[
             "base", "draw", "geom", "goal", "mass", "mesh", "poses", "repair", "sheet", "verify",
         ],
     ),
-    // Shells are solids of sweeps; what is asked of them comes as plain measures.
-    ("telescope", &["base", "curve", "geom", "mass", "mesh"]),
+    // Telescopes have a line of their own, from a curve to a kit. They share the parts' files, the
+    // papers and the judge with other kits, and see nothing of hollowing.
+    (
+        "telescope",
+        &[
+            "base", "curve", "draw", "error", "geom", "io", "job", "kit", "make", "mass", "mesh",
+            "page", "printer", "repair", "sheet", "verify",
+        ],
+    ),
     ("kit", &["base"]),
     (
         "coupon",
@@ -137,8 +144,27 @@ const ARROWS: &[(&str, &[&str])] = &[
     (
         "cli",
         &[
-            "repair", "advice", "ballast", "coupon", "cut", "error", "geom", "goal", "io", "job",
-            "kit", "mass", "mesh", "page", "prepare", "printer", "base", "run", "sheet", "verify",
+            "repair",
+            "advice",
+            "ballast",
+            "coupon",
+            "cut",
+            "error",
+            "geom",
+            "goal",
+            "io",
+            "job",
+            "kit",
+            "mass",
+            "mesh",
+            "page",
+            "prepare",
+            "printer",
+            "base",
+            "run",
+            "sheet",
+            "telescope",
+            "verify",
         ],
     ),
     ("guide", &[]),

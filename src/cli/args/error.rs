@@ -17,6 +17,15 @@ pub enum ArgsError {
     /// The plan of the cuts cannot be used.
     #[error(transparent)]
     Plan(#[from] PlanError),
+    /// A telescope without a printer.
+    #[error(
+        "a printer is missing; remedy: equipoise telescope {input} --printer prusa-mk4 (equipoise \
+         printers lists them)"
+    )]
+    NoPrinter {
+        /// The curve that was given.
+        input: String,
+    },
     /// Arguments are missing.
     #[error("{0}")]
     Missing(Missing),

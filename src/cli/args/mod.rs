@@ -10,6 +10,7 @@ mod printers;
 mod quote;
 mod read;
 mod scaling;
+mod telescope;
 #[cfg(test)]
 mod tests;
 mod typed;
@@ -27,13 +28,14 @@ pub use printers::{CalibrateArgs, CouponArgs, ImportArgs, NewArgs, PrintersActio
 pub use quote::quoted;
 pub use read::ReadError;
 pub use scaling::ScalingArgs;
+pub use telescope::{TelescopeArgs, TelescopeRequest};
 pub use typed::SplitUnit;
 pub use values::NumberError;
 
 use crate::base::units::Length;
 use values::{EXAMPLES, EXIT_CODES};
 
-/// Hollow a 3D model so that its printed, glued parts spin, stand, float or run true as asked.
+/// Make kits of printed parts that spin, stand, float, run true or slide open
 #[derive(Debug, Parser)]
 #[command(
     name = "equipoise",
@@ -89,6 +91,8 @@ pub enum Command {
     ///
     /// It takes the arguments of prepare, and writes plan1.toml and so on with pictures of each.
     Cuts(Box<PrepareArgs>),
+    /// Turn a curve into a kit of nested shells that slide open into it
+    Telescope(Box<TelescopeArgs>),
     /// Show a model's facts, and which of the five goals it can reach
     Inspect(InspectArgs),
     /// List the known printers, show one, or check a profile of your own

@@ -1,0 +1,197 @@
+//! The arguments of `telescope`, and the job they make.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+
+use super::error::ArgsError;
+use super::scaling::ScalingArgs;
+use super::values::{angle, words};
+use crate::base::units::Length;
+use crate::cli::shop::chosen_printer;
+use crate::job::telescope::{
+    Bends, FootSize, Lock, Opening, ShellCount, Stance, TelescopeJob, Twists,
+};
+
+/// The arguments of `telescope`.
+#[derive(Debug, Clone, Args)]
+pub struct TelescopeArgs {
+    /// The curve: text with one x,y,z a line, OBJ with lines, PLY with edges, arc:R,DEG or
+    /// helix:R,PITCH,TURNS
+    #[arg(required_unless_present = "job")]
+    pub input: Option<String>,
+    /// A known printer's id, or a profile file
+    #[arg(long, value_name = "ID|FILE")]
+    pub printer: Option<String>,
+    /// A material that the printer offers [default: the printer's]
+    #[arg(long, value_name = "ID")]
+    pub material: Option<String>,
+    /// The size of the curve.
+    #[command(flatten, next_help_heading = "Size")]
+    pub scaling: ScalingArgs,
+    /// The shells.
+    #[command(flatten)]
+    pub shells: ShellArgs,
+    /// What the open telescope does.
+    #[command(flatten)]
+    pub stance: StanceArgs,
+    /// The folder of the kit [default: such as hook-telescope]
+    #[arg(long, value_name = "DIR", help_heading = "Kit")]
+    pub out: Option<PathBuf>,
+    /// Overwrite an existing folder
+    #[arg(long, help_heading = "Kit")]
+    pub force: bool,
+    /// Replay the run of this job.toml; INPUT, if given, replaces its curve
+    #[arg(long, value_name = "FILE", help_heading = "Kit", conflicts_with_all = DECIDED_BY_JOB)]
+    pub job: Option<PathBuf>,
+}
+
+/// The arguments of the shells and their joints.
+#[derive(Debug, Clone, Args)]
+#[command(next_help_heading = "Shells")]
+pub struct ShellArgs {
+    /// The number of shells, up to 40, or auto: the fewest that come near enough [default: auto]
+    #[arg(long, value_name = "N|auto", allow_hyphen_values = true)]
+    pub shells: Option<ShellCount>,
+    /// The radius of the tip's body [default: the least that is sound]
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
+    pub tip_radius: Option<Length>,
+    /// The most that the radius of the root may be [default: any]
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
+    pub root_radius: Option<Length>,
+    /// The most that a shell may show [default: what the printer has room for]
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
+    pub shell_length: Option<Length>,
+    /// The deviation from the curve that is near enough [default: a hundredth of its length, at
+    /// least 1mm]
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
+    pub deviation: Option<Length>,
+    /// The minimum wall, rounded up to whole pixels or lines [default: the printer's minimum]
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
+    pub wall: Option<Length>,
+    /// The clearance with which shells slide, on each side [default: the material's or printer's]
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
+    pub clearance: Option<Length>,
+    /// What stays inside of a shell that is all out [default: a fifth of the shell or the root's
+    /// radius, less if shells turn]
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
+    pub overlap: Option<Length>,
+    /// One curvature for all shells, or its own for each [default: each]
+    #[arg(long, value_parser = words::<Bends>(Bends::WORDS))]
+    pub curvature: Option<Bends>,
+    /// One torsion for all shells, its own for each, or none [default: each]
+    #[arg(long, value_parser = words::<Twists>(Twists::WORDS))]
+    pub torsion: Option<Twists>,
+    /// Hold open shells by a ring that is pressed in, or not [default: press]
+    #[arg(long, value_parser = words::<Lock>(Lock::WORDS))]
+    pub lock: Option<Lock>,
+    /// The order in which the joints open [default: auto]
+    #[arg(long, value_parser = words::<Opening>(Opening::WORDS))]
+    pub order: Option<Opening>,
+}
+
+/// The arguments of standing.
+#[derive(Debug, Clone, Args)]
+#[command(next_help_heading = "Goal")]
+pub struct StanceArgs {
+    /// Stand at every state on a foot below the root, or promise nothing [default: none]
+    #[arg(long, value_parser = words::<Stance>(Stance::WORDS))]
+    pub goal: Option<Stance>,
+    /// The lean at which it still stands [default: 5°]
+    #[arg(long, value_name = "DEG", value_parser = angle, allow_hyphen_values = true)]
+    pub least_angle: Option<f64>,
+    /// The radius of the foot, or auto: the least on which it stands [default: auto]
+    #[arg(long, value_name = "LENGTH|auto", allow_hyphen_values = true)]
+    pub foot: Option<FootSize>,
+}
+
+/// The arguments that a replayed job decides.
+const DECIDED_BY_JOB: [&str; 20] = [
+    "printer",
+    "material",
+    "size",
+    "scale",
+    "unit",
+    "shells",
+    "tip_radius",
+    "root_radius",
+    "shell_length",
+    "deviation",
+    "wall",
+    "clearance",
+    "overlap",
+    "curvature",
+    "torsion",
+    "lock",
+    "order",
+    "goal",
+    "least_angle",
+    "foot",
+];
+
+/// The order for `telescope`: the job, and the target of its kit.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TelescopeRequest {
+    /// The job, which decides the bytes of the kit.
+    pub job: TelescopeJob,
+    /// The folder to write the kit to.
+    pub out: PathBuf,
+    /// True if an existing folder is replaced.
+    pub force: bool,
+}
+
+impl TelescopeArgs {
+    /// Returns the job that was ordered, and the target of its kit.
+    ///
+    /// # Errors
+    /// The printer is missing, or a file they name cannot be used.
+    pub fn request(self) -> Result<TelescopeRequest, ArgsError> {
+        let (out, force) = (self.out.clone(), self.force);
+        let job = match &self.job {
+            Some(path) => replay(TelescopeJob::read(path)?, self.input),
+            None => self.new_job()?,
+        };
+        let usual = || PathBuf::from(format!("{}-telescope", job.name()));
+        Ok(TelescopeRequest {
+            out: out.unwrap_or_else(usual),
+            force,
+            job,
+        })
+    }
+
+    fn new_job(self) -> Result<TelescopeJob, ArgsError> {
+        let input = self.input.unwrap_or_default();
+        let chosen = chosen_printer(self.printer.as_deref(), self.material, Path::new(&input))?;
+        let Some(printer) = chosen else {
+            return Err(ArgsError::NoPrinter { input });
+        };
+        let default = TelescopeJob::new(&input, self.scaling.scaling(), printer);
+        let (shells, stance) = (self.shells, self.stance);
+        Ok(TelescopeJob {
+            shells: shells.shells.unwrap_or(default.shells),
+            tip_radius: shells.tip_radius,
+            root_radius: shells.root_radius,
+            shell_length: shells.shell_length,
+            deviation: shells.deviation,
+            wall: shells.wall,
+            clearance: shells.clearance,
+            overlap: shells.overlap,
+            curvature: shells.curvature.unwrap_or(default.curvature),
+            torsion: shells.torsion.unwrap_or(default.torsion),
+            lock: shells.lock.unwrap_or(default.lock),
+            order: shells.order.unwrap_or(default.order),
+            goal: stance.goal.unwrap_or(default.goal),
+            least_angle_deg: stance.least_angle.unwrap_or(default.least_angle_deg),
+            foot: stance.foot.unwrap_or(default.foot),
+            ..default
+        })
+    }
+}
+
+/// Returns the job with another curve, if one is given.
+fn replay(mut job: TelescopeJob, input: Option<String>) -> TelescopeJob {
+    if let Some(input) = input {
+        job.curve.source = input;
+    }
+    job
+}

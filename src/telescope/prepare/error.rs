@@ -1,0 +1,103 @@
+//! The reasons why a run reaches no answer.
+
+use std::path::PathBuf;
+
+use crate::base::watch::Cancelled;
+use crate::curve::{CurveError, NameError};
+use crate::draw::PictureError;
+use crate::error::Error;
+use crate::io::threemf::PackageError;
+use crate::io::{ContentError, LinesError, ReadError, StlError};
+use crate::job::JobError;
+use crate::mesh::ClipError;
+use crate::printer::{MaterialError, ProfileError, WallError};
+use crate::telescope::error::TelescopeError;
+use crate::verify::TelescopeVerifyError;
+
+/// A reason why a run could not reach an answer.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum TelescopeRunError {
+    /// The file of the curve cannot be read.
+    #[error(transparent)]
+    Read(#[from] ReadError),
+    /// The file holds no curve.
+    #[error("{}: {fault}", path.display())]
+    Lines {
+        /// The file.
+        path: PathBuf,
+        /// The fault.
+        fault: LinesError,
+    },
+    /// The points make no curve for a telescope.
+    #[error("{name}: {fault}")]
+    Curve {
+        /// The file, or the measures.
+        name: String,
+        /// The fault.
+        fault: CurveError,
+    },
+    /// The measures name no curve.
+    #[error(transparent)]
+    Name(#[from] NameError),
+    /// The job cannot be read, or its curve has changed.
+    #[error(transparent)]
+    Job(#[from] JobError),
+    /// The printer's profile cannot be used.
+    #[error(transparent)]
+    Profile(#[from] ProfileError),
+    /// The printer has no such material.
+    #[error(transparent)]
+    Material(#[from] MaterialError),
+    /// The wall cannot be printed.
+    #[error(transparent)]
+    Wall(#[from] WallError),
+    /// The measures contradict each other.
+    #[error(transparent)]
+    Measures(#[from] TelescopeError),
+    /// A tip that is thicker than the root may be.
+    #[error(
+        "a tip of {tip_mm:.1} mm in radius is thicker than the root, which may be {root_mm:.1} mm; \
+         remedy: make the tip thinner or the root thicker"
+    )]
+    TipOverRoot {
+        /// Radius of the tip, mm.
+        tip_mm: f64,
+        /// The most that the root may be, mm.
+        root_mm: f64,
+    },
+    /// A boolean failed.
+    #[error(transparent)]
+    Clip(#[from] ClipError),
+    /// A written STL does not read back.
+    #[error(transparent)]
+    Stl(#[from] StlError),
+    /// A written file does not read back.
+    #[error(
+        "a written part does not read back: {0}; this is a fault of the program, please report it"
+    )]
+    ReadBack(#[from] ContentError),
+    /// A package cannot be written.
+    #[error(transparent)]
+    Package(#[from] PackageError),
+    /// A picture cannot be drawn.
+    #[error(transparent)]
+    Picture(#[from] PictureError),
+    /// A stage that all kits share failed.
+    #[error(transparent)]
+    Shared(#[from] Error),
+    /// The kit cannot be judged.
+    #[error(transparent)]
+    Verify(#[from] TelescopeVerifyError),
+    /// A file cannot be put into JSON or TOML.
+    #[error("{file} cannot be written: {why}; this is a fault of the program, please report it")]
+    Unwritable {
+        /// The file.
+        file: &'static str,
+        /// The fault.
+        why: String,
+    },
+    /// The caller stopped the run.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+}

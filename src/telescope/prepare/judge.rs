@@ -1,0 +1,73 @@
+//! The judge of the line: it sees what is written, and nothing of how it was made.
+
+use super::asked::Asked;
+use super::error::TelescopeRunError;
+use super::files::curve_csv;
+use super::made::Made;
+use super::motion_file::motion;
+use super::sheet::checklist;
+use crate::base::watch::{Phase, Watch};
+use crate::io::PointsError;
+use crate::sheet::Verdict;
+use crate::sheet::telescope::TelescopeSheet;
+use crate::verify::{
+    TelescopeEvidence, TelescopePromise, asked_points, judge_telescope, telescope_checks,
+};
+
+/// A telescope that was judged.
+pub struct Draft {
+    pub made: Made,
+    pub sheet: TelescopeSheet,
+    pub motion_json: String,
+    pub curve_csv: String,
+}
+
+/// Judges what is written, from the texts of its files.
+pub fn draft(asked: &Asked, made: Made, watch: &Watch) -> Result<Draft, TelescopeRunError> {
+    watch.enter(Phase::Verify);
+    let mut sheet = checklist(asked, &made);
+    let motion = motion(&made);
+    let motion_json = json("motion.json", &motion)?;
+    let curve_csv = curve_csv(asked, &made);
+    let promise: TelescopePromise = read_back("checklist.json", &json("checklist.json", &sheet)?)?;
+    let points = asked_points(curve_csv.as_bytes());
+    let evidence = TelescopeEvidence {
+        motion: read_back("motion.json", &motion_json)?,
+        parts: made.parts.iter().map(|part| part.in_shell()).collect(),
+        asked: points.map_err(|error: PointsError| unwritable("curve.csv", &error))?,
+        promise,
+    };
+    let facts = judge_telescope(&evidence, watch)?;
+    sheet.checks = telescope_checks(&evidence.promise, &facts);
+    sheet.verdict = Verdict::of(&sheet.checks);
+    Ok(Draft {
+        made,
+        sheet,
+        motion_json,
+        curve_csv,
+    })
+}
+
+/// Returns a value as JSON.
+pub fn json<T: serde::Serialize>(
+    file: &'static str,
+    value: &T,
+) -> Result<String, TelescopeRunError> {
+    let text = serde_json::to_string_pretty(value);
+    text.map(|text| text + "\n")
+        .map_err(|error| unwritable(file, &error))
+}
+
+fn read_back<T: serde::de::DeserializeOwned>(
+    file: &'static str,
+    text: &str,
+) -> Result<T, TelescopeRunError> {
+    serde_json::from_str(text).map_err(|error| unwritable(file, &error))
+}
+
+fn unwritable(file: &'static str, error: &dyn std::error::Error) -> TelescopeRunError {
+    TelescopeRunError::Unwritable {
+        file,
+        why: error.to_string(),
+    }
+}

@@ -1,0 +1,220 @@
+//! The parts of a telescope as files: shells and caps, each in print pose, read back.
+
+use rayon::prelude::*;
+
+use super::asked::Asked;
+use super::balance::choose_foot;
+use super::best::{Best, Reason, Refused};
+use super::error::TelescopeRunError;
+use super::poses::{Laid, Lies, lay_cap, lay_shell};
+use crate::base::verdict::Verdict;
+use crate::base::watch::{Phase, Watch};
+use crate::geom::{Frame, Point, Vector};
+use crate::io::stl;
+use crate::make::write_free_of_folds;
+use crate::mass::{Moments, moments_of_mesh};
+use crate::mesh::{Solid, TriMesh};
+use crate::printer::Quantity;
+use crate::telescope::balance::DiscFoot;
+use crate::telescope::error::TelescopeError;
+use crate::telescope::nest::Telescope;
+use crate::telescope::tube::TubeMass;
+use crate::verify::Pose;
+
+/// A right angle, degrees.
+const UPRIGHT_DEG: f64 = 90.0;
+
+/// The kind of a part.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PartKind {
+    /// A tube.
+    Shell,
+    /// The disc with a spigot that closes a tube's tail.
+    Cap,
+}
+
+/// A part as it was written.
+pub struct WrittenPart {
+    pub id: String,
+    pub kind: PartKind,
+    /// The shell that it is or closes, from 0.
+    pub shell: usize,
+    pub lies: Lies,
+    /// Shell frame to print frame.
+    pub pose: Pose,
+    pub file: String,
+    pub bytes: Vec<u8>,
+    /// The triangles read back, in print pose, in the part's own size.
+    pub read_back: TriMesh,
+}
+
+impl WrittenPart {
+    /// Returns the mesh in its shell's frame, as the file holds it.
+    pub fn in_shell(&self) -> TriMesh {
+        self.read_back.map_vertices(|p| self.pose.to_model(p))
+    }
+}
+
+/// The parts of a telescope.
+pub struct Made {
+    pub best: Best,
+    pub foot: Option<DiscFoot>,
+    /// The shells and caps, a shell before its cap, the root first.
+    pub parts: Vec<WrittenPart>,
+    /// Volume and centre of every shell with its cap as written, in the shell's frame.
+    pub masses: Vec<TubeMass>,
+}
+
+/// Makes and writes every part.
+pub fn make(
+    asked: &Asked,
+    best: Best,
+    watch: &Watch,
+) -> Result<Verdict<Made, Refused>, TelescopeRunError> {
+    watch.enter(Phase::Parts);
+    let telescope = &best.design.telescope;
+    let shells = 0..telescope.shells.len();
+    let solids: Vec<[Solid; 2]> = shells
+        .into_par_iter()
+        .map(|shell| Ok([telescope.shell_solid(shell)?, telescope.cap_solid(shell)?]))
+        .collect::<Result<_, TelescopeError>>()?;
+    watch.check()?;
+    let drawn: Vec<TubeMass> = solids.iter().map(|pair| weigh(pair.each_ref())).collect();
+    let foot = match choose_foot(asked, telescope, &best.design.opening, &drawn) {
+        Verdict::Found(foot) => foot,
+        Verdict::No(reason) => return Ok(refused(best, reason)),
+    };
+    let solids = with_foot(telescope, solids, foot.as_ref())?;
+    let writer = Writer {
+        asked,
+        telescope,
+        watch,
+    };
+    let parts: Vec<WrittenPart> = solids
+        .into_par_iter()
+        .enumerate()
+        .map(|(shell, solids)| writer.write(shell, &solids))
+        .collect::<Result<Vec<[WrittenPart; 2]>, _>>()?
+        .into_iter()
+        .flatten()
+        .collect();
+    if let Some(reason) = too_large(asked, &parts) {
+        return Ok(refused(best, reason));
+    }
+    let masses = parts.chunks(2).map(|pair| {
+        let moments = pair.iter().map(|part| moments_of_mesh(&part.in_shell()));
+        let whole = moments.fold(Moments::default(), |sum, one| sum + one);
+        mass_of(&whole)
+    });
+    Ok(Verdict::Found(Made {
+        masses: masses.collect(),
+        foot,
+        parts,
+        best,
+    }))
+}
+
+fn refused(best: Best, reason: Reason) -> Verdict<Made, Refused> {
+    Verdict::No(Refused {
+        reason,
+        rows: best.rows,
+    })
+}
+
+fn weigh(solids: [&Solid; 2]) -> TubeMass {
+    let [shell, cap] = solids.map(|solid| moments_of_mesh(solid.mesh()));
+    mass_of(&(shell + cap))
+}
+
+fn mass_of(moments: &Moments) -> TubeMass {
+    TubeMass {
+        volume_mm3: moments.volume(),
+        centre: moments.centroid(),
+    }
+}
+
+/// Returns the solids with the foot on the root's cap.
+fn with_foot(
+    telescope: &Telescope,
+    mut solids: Vec<[Solid; 2]>,
+    foot: Option<&DiscFoot>,
+) -> Result<Vec<[Solid; 2]>, TelescopeError> {
+    if let (Some(foot), Some([_, cap])) = (foot, solids.first_mut()) {
+        *cap = telescope.foot_solid(foot)?;
+    }
+    Ok(solids)
+}
+
+struct Writer<'a> {
+    asked: &'a Asked<'a>,
+    telescope: &'a Telescope,
+    watch: &'a Watch,
+}
+
+impl Writer<'_> {
+    /// Writes a shell and its cap.
+    fn write(
+        &self,
+        shell: usize,
+        [tube, cap]: &[Solid; 2],
+    ) -> Result<[WrittenPart; 2], TelescopeRunError> {
+        let overhang = self.asked.number(Quantity::OverhangDeg);
+        let steepest_deg = overhang.map_or(f64::INFINITY, |overhang| UPRIGHT_DEG - overhang);
+        let steepest_rad = steepest_deg.to_radians();
+        let laid = lay_shell(self.telescope, shell, tube.mesh(), steepest_rad);
+        let tube = self.part(PartKind::Shell, shell, laid, tube)?;
+        let laid = lay_cap(self.telescope, shell, cap.mesh());
+        Ok([tube, self.part(PartKind::Cap, shell, laid, cap)?])
+    }
+
+    fn part(
+        &self,
+        kind: PartKind,
+        shell: usize,
+        laid: Laid,
+        solid: &Solid,
+    ) -> Result<WrittenPart, TelescopeRunError> {
+        self.watch.check()?;
+        let letter = match kind {
+            PartKind::Shell => 'S',
+            PartKind::Cap => 'C',
+        };
+        let id = format!("{letter}{:02}", shell + 1);
+        let name = format!("{}_{id}", self.asked.job.name());
+        let scale = Vector::from(self.asked.shop.printer.print_scale_ratio());
+        let at = |p: &Point| laid.pose.to_print(p).coords.component_mul(&scale).into();
+        let bytes = write_free_of_folds(&solid.mesh().map_vertices(at), &name, self.watch)?;
+        let read_back = stl::decode(&bytes)?;
+        Ok(WrittenPart {
+            file: format!("parts/{name}.stl"),
+            id,
+            kind,
+            shell,
+            lies: laid.lies,
+            pose: laid.pose,
+            bytes,
+            read_back: read_back.map_vertices(|p| p.coords.component_div(&scale).into()),
+        })
+    }
+}
+
+/// Returns the first part that does not fit into the printer.
+fn too_large(asked: &Asked, parts: &[WrittenPart]) -> Option<Reason> {
+    parts.iter().find_map(|part| {
+        let size_mm: [f64; 3] = part.read_back.aabb().size().into();
+        let fits = asked.shop.printer.fits(size_mm);
+        (fits == Some(false)).then(|| Reason::TooLarge {
+            part: part.id.clone(),
+            size_mm,
+        })
+    })
+}
+
+/// Returns the motion that lays a part from its file into its shell's frame.
+pub fn from_print(pose: &Pose) -> Frame {
+    let back = pose.rotation().transpose();
+    Frame {
+        origin: Point::from(-(back * pose.translation())),
+        axes: back,
+    }
+}

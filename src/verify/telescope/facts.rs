@@ -1,0 +1,276 @@
+//! The facts about a telescope's parts and motion.
+
+use rayon::prelude::*;
+
+use super::contact::{Body, moved, seen_from};
+use super::deviation::{Deviated, deviation};
+use super::evidence::TelescopeEvidence;
+use super::motion::{TelescopeMotion, frame_of};
+use super::shells::{ShellFacts, measure};
+use super::standing::{Stands, stands};
+use super::stops::{JointFacts, Trial};
+use crate::base::watch::{Cancelled, Watch};
+use crate::geom::{Aabb, Frame};
+use crate::mass::{Moments, moments_of_mesh};
+use crate::mesh::{Crossings, Defects, TriMesh, bodies};
+use crate::repair::weld;
+use crate::verify::Pose;
+
+/// States looked at in each move besides its ends.
+const BETWEEN: [f64; 3] = [0.25, 0.5, 0.75];
+
+/// Share of the clearance that shells must keep that do not slide in each other.
+const APART_SHARE: f64 = 0.9;
+
+/// Two placements are the same up to this, mm: rounding.
+const SAME_MM: f64 = 1e-9;
+
+/// The facts about a telescope.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TelescopeFacts {
+    /// Parts that bound no solid, with the first defect.
+    pub broken: Vec<String>,
+    /// Pairs of triangles of one part that cross.
+    pub crossings: usize,
+    /// Parts that are more than one body.
+    pub in_pieces: Vec<String>,
+    /// The greatest height of a part's lowest point over the plate, mm.
+    pub above_plate_mm: f64,
+    /// Parts that are larger than the printer.
+    pub too_large: Vec<String>,
+    /// The tubes.
+    pub shells: Vec<ShellFacts>,
+    /// The joints.
+    pub joints: Vec<JointFacts>,
+    /// Pairs of shells that come too near at a state, in words.
+    pub too_near: Vec<String>,
+    /// States that were looked at.
+    pub states: usize,
+    /// The greatest difference of a written placement from the judge's own, mm.
+    pub placement_error_mm: f64,
+    /// The deviation from the curve; `None` without points or keys.
+    pub deviation: Option<Deviated>,
+    /// Mass of all parts, g.
+    pub mass_g: f64,
+    /// The balance at every key.
+    pub balance: Vec<Stands>,
+    /// The boxes of all parts when all in and all out, mm.
+    pub boxes_mm: [[f64; 3]; 2],
+}
+
+/// Measures a telescope.
+///
+/// # Errors
+/// The watch was stopped.
+pub fn judge_telescope(
+    evidence: &TelescopeEvidence,
+    watch: &Watch,
+) -> Result<TelescopeFacts, Cancelled> {
+    let motion = &evidence.motion;
+    let promise = &evidence.promise;
+    let bodies = shell_bodies(evidence);
+    let tubes: Vec<Body> = evidence
+        .tubes()
+        .map(|mesh| Body::new(mesh.clone()))
+        .collect();
+    watch.check()?;
+    let joints = promise.joints.par_iter().enumerate().map(|(joint, own)| {
+        watch.check()?;
+        let trial = Trial {
+            motion,
+            joint,
+            outer: &bodies[joint],
+            inner: &bodies[joint + 1],
+        };
+        Ok(trial.facts(own))
+    });
+    let joints = joints.collect::<Result<Vec<_>, Cancelled>>()?;
+    let limit_mm = APART_SHARE * promise.clearance_mm;
+    let (too_near, states) = far_pairs(motion, &bodies, limit_mm, watch)?;
+    let tube_facts = promise.parts.iter().filter(|part| part.is_tube);
+    let shells = tube_facts.zip(&motion.shells).zip(&tubes);
+    let shells = shells.map(|((part, shell), tube)| measure(shell, part.body_mm, tube));
+    let moments: Vec<Moments> = bodies
+        .iter()
+        .map(|body| moments_of_mesh(&body.mesh))
+        .collect();
+    let volume: f64 = moments.iter().map(Moments::volume).sum();
+    let balance = motion
+        .keys
+        .iter()
+        .map(|key| stands(motion, &key.states, &moments, &bodies[0].mesh));
+    let surfaces = Surfaces::of(evidence, watch)?;
+    let ends = [motion.keys.first(), motion.keys.last()];
+    Ok(TelescopeFacts {
+        broken: surfaces.broken,
+        crossings: surfaces.crossings,
+        in_pieces: surfaces.in_pieces,
+        above_plate_mm: surfaces.above_plate_mm,
+        too_large: surfaces.too_large,
+        shells: shells.collect(),
+        joints,
+        too_near,
+        states,
+        placement_error_mm: placement_error_mm(motion),
+        deviation: deviation(motion, &evidence.asked),
+        mass_g: volume * promise.material.density_g_cm3 / crate::base::units::MM3_PER_CM3,
+        balance: balance.collect(),
+        boxes_mm: ends.map(|key| key.map_or([0.0; 3], |key| size_mm(motion, &key.states, &bodies))),
+    })
+}
+
+/// Returns every shell with its cap, in the shell's frame.
+fn shell_bodies(evidence: &TelescopeEvidence) -> Vec<Body> {
+    let shells = 0..evidence.motion.shells.len();
+    let body = |shell: usize| {
+        let parts = evidence.promise.parts.iter().zip(&evidence.parts);
+        let own = parts.filter(|(part, _)| part.shell == shell + 1);
+        Body::new(own.fold(TriMesh::default(), |all, (_, mesh)| all.joined(mesh)))
+    };
+    shells.map(body).collect()
+}
+
+/// Returns the pairs of shells, not neighbours, that come nearer than a limit, and the number of
+/// states that were looked at.
+fn far_pairs(
+    motion: &TelescopeMotion,
+    bodies: &[Body],
+    limit_mm: f64,
+    watch: &Watch,
+) -> Result<(Vec<String>, usize), Cancelled> {
+    let mut looked = Looked::default();
+    let mut states = 0;
+    for (number, pair) in motion.keys.windows(2).enumerate() {
+        let first = (number == 0).then_some(0.0);
+        for share in first.into_iter().chain(BETWEEN).chain([1.0]) {
+            watch.check()?;
+            states += 1;
+            let state = mixed(&pair[0].states, &pair[1].states, share);
+            let frames = motion.frames(&state);
+            looked.look(bodies, &frames, limit_mm, &format!("move {}", number + 1));
+        }
+    }
+    Ok((looked.too_near, states))
+}
+
+/// Two shells, from 0, and the frame of the second in that of the first.
+struct Pair {
+    shells: [usize; 2],
+    placed: Frame,
+}
+
+/// The pairs that were looked at, each where it was last.
+#[derive(Default)]
+struct Looked {
+    last: Vec<Pair>,
+    too_near: Vec<String>,
+}
+
+impl Looked {
+    fn look(&mut self, bodies: &[Body], frames: &[Frame], limit_mm: f64, state: &str) {
+        let count = bodies.len();
+        let pairs = (0..count).flat_map(|i| (i + 2..count).map(move |j| [i, j]));
+        let placed = pairs.map(|[i, j]| Pair {
+            shells: [i, j],
+            placed: seen_from(&frames[i], &frames[j]),
+        });
+        let placed: Vec<Pair> = placed.filter(|pair| !self.is_known(pair)).collect();
+        let near = placed.par_iter().filter(|pair| {
+            let [i, j] = pair.shells;
+            bodies[i].is_nearer(&bodies[j], &pair.placed, limit_mm)
+        });
+        let words = |pair: &Pair| {
+            let [i, j] = pair.shells;
+            format!("S{:02} and S{:02} in {state}", i + 1, j + 1)
+        };
+        let near: Vec<String> = near.map(words).collect();
+        self.too_near.extend(near);
+        for pair in placed {
+            self.last.retain(|last| last.shells != pair.shells);
+            self.last.push(pair);
+        }
+    }
+
+    fn is_known(&self, pair: &Pair) -> bool {
+        self.last.iter().any(|last| {
+            last.shells == pair.shells
+                && (last.placed.origin - pair.placed.origin).norm() < SAME_MM
+                && (last.placed.axes - pair.placed.axes).amax() < SAME_MM
+        })
+    }
+}
+
+fn mixed(from: &[[f64; 2]], to: &[[f64; 2]], share: f64) -> Vec<[f64; 2]> {
+    let ends = from.iter().zip(to);
+    ends.map(|(a, b)| [0, 1].map(|i| a[i] + (b[i] - a[i]) * share))
+        .collect()
+}
+
+/// Returns the greatest difference of the placements of keys from those of the judge's screws.
+fn placement_error_mm(motion: &TelescopeMotion) -> f64 {
+    let errors = motion.keys.iter().flat_map(|key| {
+        let own = motion.frames(&key.states);
+        let written: Vec<Pose> = key.placements.clone();
+        let missing = own.len().abs_diff(written.len());
+        let pairs = own.into_iter().zip(written).map(|(own, written)| {
+            let written = frame_of(&written);
+            let far = (own.origin - written.origin).norm();
+            far.max((own.axes - written.axes).amax())
+        });
+        let pairs: Vec<f64> = pairs.collect();
+        pairs
+            .into_iter()
+            .chain((missing > 0).then_some(f64::INFINITY))
+    });
+    errors.fold(0.0, f64::max)
+}
+
+/// Returns the box of all parts in a state, along the root's axes.
+fn size_mm(motion: &TelescopeMotion, states: &[[f64; 2]], bodies: &[Body]) -> [f64; 3] {
+    let frames = motion.frames(states);
+    let root = &frames[0];
+    let boxes = bodies
+        .iter()
+        .zip(&frames)
+        .map(|(body, frame)| moved(&body.mesh, &seen_from(root, frame)).aabb());
+    let whole = boxes.fold(Aabb::EMPTY, |whole, part| whole.union(&part));
+    whole.size().into()
+}
+
+/// The facts about the surfaces of the parts, and how they lie.
+#[derive(Default)]
+struct Surfaces {
+    broken: Vec<String>,
+    crossings: usize,
+    in_pieces: Vec<String>,
+    above_plate_mm: f64,
+    too_large: Vec<String>,
+}
+
+impl Surfaces {
+    fn of(evidence: &TelescopeEvidence, watch: &Watch) -> Result<Self, Cancelled> {
+        let mut found = Self::default();
+        let room = evidence.promise.printer.build_volume_mm;
+        for (part, mesh) in evidence.promise.parts.iter().zip(&evidence.parts) {
+            watch.check()?;
+            let welded = weld(mesh);
+            let defects = Defects::of(&welded);
+            let broken = defects.map(|defects| format!("{}: {defects}", part.id));
+            found.broken.extend(broken);
+            found.crossings += Crossings::of_watched(&welded, watch)?.pairs;
+            let is_one = bodies(&welded).len() == 1;
+            found.in_pieces.extend((!is_one).then(|| part.id.clone()));
+            let printed = mesh
+                .map_vertices(|p| part.print_from_shell.to_print(p))
+                .aabb();
+            found.above_plate_mm = found.above_plate_mm.max(printed.min.z.abs());
+            let size = printed.size();
+            let fits = room.is_none_or(|[x, y, z]| {
+                let lies = |a: f64, b: f64| a <= x && b <= y;
+                size.z <= z && (lies(size.x, size.y) || lies(size.y, size.x))
+            });
+            found.too_large.extend((!fits).then(|| part.id.clone()));
+        }
+        Ok(found)
+    }
+}

@@ -1,0 +1,30 @@
+//! The judge of telescopes: from the written parts, their poses and the keys of the motion alone.
+//!
+//! [`verify_telescope`] reads a kit from its folder, [`judge_telescope`] measures evidence in
+//! memory. Nothing of the code that makes telescopes is seen here: shells are moved by the judge's
+//! own screws.
+
+mod checks;
+mod contact;
+mod deviation;
+mod evidence;
+mod facts;
+mod motion;
+mod packages;
+mod promise;
+mod reading;
+mod shells;
+mod standing;
+mod stops;
+
+pub use checks::telescope_checks;
+pub use evidence::TelescopeEvidence;
+pub use facts::{TelescopeFacts, judge_telescope};
+pub use motion::{JointMotion, MotionKey, ShellMotion, TelescopeMotion};
+pub use promise::{
+    BalancePromise, DeviationPromise, JointPromise, TelescopePartPromise, TelescopePromise,
+};
+pub use reading::{
+    CURVE_FILE, MOTION_FILE, TelescopeJudgement, TelescopeVerifyError, asked_points, is_telescope,
+    verify_telescope,
+};
