@@ -28,4 +28,6 @@
 //! | Where is a curve met by a chain of tubes? | `fit` in `curve/fit/mod.rs`, from the starts of `curve/fit/starts.rs` down by `descend` in `curve/fit/descent.rs` |
 //! | How thick is a shell of a telescope, and why? | `Telescope::nest` in `telescope/nest.rs` adds clearances and walls from `telescope/sizes.rs` |
 //! | Who says that a telescope opens without a collision? | `Telescope::open_in` in `telescope/motion.rs`, over the gaps of `telescope/clearance.rs` |
+//! | What happens to a curve, in which order? | `prepare` in `telescope/prepare/mod.rs`, a line of six stages |
+//! | Who says that a telescope's kit is right? | `judge_telescope` in `verify/telescope/facts.rs`, with its own screws in `verify/telescope/motion.rs` |
 //! | How does a tube slide along its own axis? | `Helix` in `curve/helix.rs`: frames along a helix compose, so it slides in itself |

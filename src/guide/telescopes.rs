@@ -1,0 +1,37 @@
+//! Telescopes: why shells slide, stop and hold, and what of that is proved.
+//!
+//! # 1. Why shells are helices
+//! A rigid shell that touches its rigid parent all around can move by one constant twist only. Its
+//! wall is then swept along a helix ([`crate::curve::Helix`]). Frames along a helix compose, H(a)
+//! H(b) = H(a + b). So a tube slides in a cavity about its own helix with one gap, at every slide.
+//! That identity is the proof that a joint does not jam. (Yu, Crane and Coros, "Computational
+//! Design of Telescoping Structures", ACM TOG 36(4), 2017.)
+//!
+//! # 2. From a curve to a chain
+//! A chain of helices of one length is fitted to the curve by positions, from many starts
+//! ([`crate::curve::fit()`]). Unlike neighbours cost wall, about hypot(|Δκ| l²/2, κ |Δτ| l³/6), and
+//! pay for it in the fit. A turn about the tangent parts the centre lines at the ends of an overlap
+//! o, by e = κ (o/2)² sin(|θ|/2). It is bound by the clearance, less what a seat needs.
+//!
+//! # 3. The joint
+//! Flange and lip end in cones of 45°, so an error of a radius moves the stop by as much. A turned
+//! flange is out of the middle by e, and the stop leaves room for that. A rib on the bore passes a
+//! gap in the flange, and bounds the turn. A ring closes the clearance over the last millimetres.
+//! It holds the shell. A glued cap with a key and a vent closes every shell from behind.
+//!
+//! # 4. The opening
+//! Bodies are unions of discs across a centre line. A curve of curvature at most K has a reach of
+//! 1/K over an arc of less than π/K ([`crate::telescope::Gap`]). So discs thinner than that cannot
+//! meet there. All other pairs are measured: by balls along chords, and by planes
+//! across their ends. From each state the next is so near that no point moves by more than half of
+//! the least gap. No more than 8 mm come out. So no collision lies between two states.
+//!
+//! # 5. Balance
+//! Mass is constant along the opening, the centre is not. A foot is chosen so that the telescope
+//! stands at every state. All play is taken up: every joint tilts by 2 g/o of its seat, the same
+//! way, and moves the centre by the sum.
+//!
+//! # 6. Limits
+//! Three theorems refuse curves ([`crate::telescope::Limit`]). Walls may not fit into the root,
+//! strands may be nearer than the tubes are thick, arcs too long for the ball that holds them. A
+//! poor deviation alone is no proof, and is told as the best that was found.

@@ -1,0 +1,255 @@
+#!/usr/bin/env python3
+"""An independent judge of a telescope's kit: Python, numpy, trimesh and manifold3d, nothing of the program.
+
+    python3 tests/judge/judge_telescope.py KIT [KIT ...]
+
+Reads the parts (STL), motion.json (helices, joints, keys), curve.csv (the points asked for), and from checklist.json what was promised. Moves
+the shells by matrix exponentials, tries the stops with solid intersections, and prints promise against measurement. Exit code 0: all agree; 1:
+something does not; 2: no kit.
+"""
+
+import csv
+import hashlib
+import json
+import sys
+from pathlib import Path
+
+import manifold3d
+import numpy as np
+import scipy.linalg
+import scipy.spatial
+import trimesh
+
+# A stop is free so much before it and holds so much after it, mm.
+FREE_MM = 0.02
+HELD_MM = 0.05
+# A twist stop holds so much beyond its play, rad.
+BEYOND_RAD = np.radians(2.0)
+# Two solids that share less than this do not touch, mm³: rounding of single precision along a seat.
+SHARED_MM3 = 1e-3
+# A stop that holds shares at least this, mm³.
+HOLDS_MM3 = 5e-3
+GAP_LIMIT_MM = 0.02
+# Gaps are looked for up to so many clearances: farther ones cost minutes.
+SEARCH_RATIO = 1.2
+DEVIATION_LIMIT_MM = 0.05
+MASS_LIMIT_RATIO = 1e-4
+CENTRE_LIMIT_MM = 0.01
+TOPPLING_LIMIT_DEG = 0.05
+BOX_LIMIT_MM = 0.02
+# Slides at which a joint's gap is sampled, as shares of its free stroke, and states of a move.
+STROKE = (0.0, 0.5, 1.0)
+BETWEEN = (0.0, 0.5)
+STEPS = 20
+
+
+def screw(curvature, torsion, arc):
+    """Returns the 4×4 motion along a helix: the exponential of its twist."""
+    twist = np.array([[0, -curvature, 0, 1], [curvature, 0, -torsion, 0], [0, torsion, 0, 0], [0, 0, 0, 0]], float)
+    return scipy.linalg.expm(twist * arc)
+
+
+def roll(angle):
+    matrix = np.eye(4)
+    sine, cosine = np.sin(angle), np.cos(angle)
+    matrix[1:3, 1:3] = [[cosine, -sine], [sine, cosine]]
+    return matrix
+
+
+class Kit:
+    def __init__(self, folder):
+        self.folder = Path(folder)
+        self.sheet = json.loads((self.folder / "checklist.json").read_text())
+        self.motion = json.loads((self.folder / "motion.json").read_text())
+        self.faults = 0
+        self.shells = [[] for _ in self.motion["shells"]]
+        self.tubes = []
+        scale = np.array(self.sheet["printer"].get("print_scale_ratio") or [1.0, 1.0, 1.0])
+        for part in self.sheet["parts"]:
+            mesh = trimesh.load(self.folder / part["file"], process=True)
+            # Single precision makes some slivers to lines, which have no area.
+            faces = mesh.faces
+            mesh.update_faces((faces[:, 0] != faces[:, 1]) & (faces[:, 1] != faces[:, 2]) & (faces[:, 2] != faces[:, 0]))
+            mesh.apply_scale(1.0 / scale)
+            self.say(f"{part['id']} closed", mesh.is_watertight and mesh.is_winding_consistent and mesh.body_count == 1)
+            self.say(f"{part['id']} rests", abs(mesh.bounds[0][2]) < 1e-3)
+            mesh.apply_transform(np.linalg.inv(np.array(part["print_from_shell"])))
+            self.shells[part["shell"] - 1].append(mesh)
+        self.solids = [self.solid(meshes) for meshes in self.shells]
+
+    def say(self, promise, kept, detail=""):
+        if not kept:
+            self.faults += 1
+            print(f"FAIL {promise} {detail}")
+        elif detail:
+            print(f"ok   {promise} {detail}")
+
+    def solid(self, meshes):
+        whole = manifold3d.Manifold()
+        for mesh in meshes:
+            data = manifold3d.Mesh(np.asarray(mesh.vertices, np.float32), np.asarray(mesh.faces, np.uint32))
+            body = manifold3d.Manifold(data)
+            self.say("a part is a manifold", body.status() == manifold3d.Error.NoError)
+            whole += body
+        return whole
+
+    def along(self, shell, arc):
+        own = self.motion["shells"][shell]
+        return screw(own["curvature"], own["torsion"], arc)
+
+    def step(self, joint, slide, turn):
+        length = self.motion["shells"][joint]["length_mm"]
+        inner = self.motion["shells"][joint + 1]["length_mm"]
+        return self.along(joint, length) @ roll(turn) @ self.along(joint + 1, slide - inner)
+
+    def frames(self, states):
+        frames = [np.array(self.motion["root"])]
+        for joint, (slide, turn) in enumerate(states):
+            frames.append(frames[-1] @ self.step(joint, slide, turn))
+        return frames
+
+    def shared(self, a, b, placed):
+        moved = self.solids[b].transform(placed[:3, :])
+        return (self.solids[a] ^ moved).volume()
+
+    def gap(self, joint, slide):
+        placed = self.step(joint, slide, 0.0)
+        moved = self.solids[joint + 1].transform(placed[:3, :])
+        return self.solids[joint].min_gap(moved, SEARCH_RATIO * self.sheet["clearance_mm"])
+
+
+def judge_files(kit):
+    listed = {}
+    for line in (kit.folder / "SHA256SUMS").read_text().splitlines():
+        sha, file = line.split("  ", 1)
+        listed[file] = sha
+    wrong = [file for file, sha in listed.items() if hashlib.sha256((kit.folder / file).read_bytes()).hexdigest() != sha]
+    kit.say("files as they were made", not wrong, f"{len(listed)} files {wrong or ''}")
+    wrong = [file for file, sha in kit.sheet["files"].items() if listed.get(file) != sha]
+    kit.say("checklist and list agree", not wrong, str(wrong or ""))
+
+
+def judge_joints(kit):
+    clearance = kit.sheet["clearance_mm"]
+    for joint, promise in enumerate(kit.sheet["joints"]):
+        own = kit.motion["joints"][joint]
+        name, stop, play = promise["id"], promise["stop_mm"], promise["play_rad"]
+        slides = [own["closed_mm"] + share * (promise["free_to_mm"] - own["closed_mm"]) for share in STROKE]
+        gap = min(kit.gap(joint, slide) for slide in slides)
+        kit.say(f"{name} slides", gap >= clearance - GAP_LIMIT_MM, f"gap {gap:.4f} of {clearance} mm")
+        free = kit.shared(joint, joint + 1, kit.step(joint, stop - FREE_MM, 0.0))
+        held = kit.shared(joint, joint + 1, kit.step(joint, stop + HELD_MM, 0.0))
+        kit.say(f"{name} stops at {stop:.3f} mm", free < SHARED_MM3 and held > HOLDS_MM3, f"shared {free:.5f}, {held:.4f} mm³")
+        turn, sign = own["turn_rad"], -1.0 if own["turn_rad"] < 0 else 1.0
+        out = own["open_mm"] - FREE_MM
+        free = max(kit.shared(joint, joint + 1, kit.step(joint, out, share * turn)) for share in (0.0, 0.5, 1.0))
+        held = [kit.shared(joint, joint + 1, kit.step(joint, out, at)) for at in (turn + sign * (play + BEYOND_RAD), -sign * (play + BEYOND_RAD))]
+        kit.say(f"{name} turns by {np.degrees(turn):.1f}°", free < SHARED_MM3 and min(held) > HOLDS_MM3, f"shared {free:.5f}, {min(held):.4f} mm³")
+        back = kit.shared(joint, joint + 1, kit.step(joint, promise["back_mm"], 0.0))
+        kit.say(f"{name} is closed behind", back > HOLDS_MM3, f"shared {back:.4f} mm³")
+
+
+def judge_motion(kit):
+    keys = kit.motion["keys"]
+    error = 0.0
+    for key in keys:
+        for own, written in zip(kit.frames(key["states"]), key["placements"], strict=True):
+            error = max(error, np.abs(own - np.array(written)).max())
+    kit.say("keys place the shells", error < 1e-6, f"{error:.1e} mm")
+    worst, looked = 0.0, 0
+    known = {}
+    for before, after in zip(keys, keys[1:]):
+        for share in BETWEEN:
+            a, b = np.array(before["states"]), np.array(after["states"])
+            frames = kit.frames(a + (b - a) * share)
+            for i in range(len(frames)):
+                for j in range(i + 2, len(frames)):
+                    placed = np.linalg.inv(frames[i]) @ frames[j]
+                    if (i, j) in known and np.abs(known[i, j] - placed).max() < 1e-9:
+                        continue
+                    known[i, j] = placed
+                    looked += 1
+                    worst = max(worst, kit.shared(i, j, placed))
+    kit.say("no two shells touch on the way", worst < SHARED_MM3, f"shared {worst:.6f} mm³ in {looked} pairs")
+
+
+def judge_curve(kit):
+    rows = list(csv.DictReader((kit.folder / "curve.csv").open()))
+    asked = np.array([[float(row[f"asked_{axis}"]) for axis in "xyz"] for row in rows])
+    states = kit.motion["keys"][-1]["states"]
+    frames = kit.frames(states)
+    made = [frames[0][:3, 3]]
+    for shell, frame in enumerate(frames):
+        length = kit.motion["shells"][shell]["length_mm"]
+        made += [(frame @ kit.along(shell, length * (i + 1) / STEPS))[:3, 3] for i in range(STEPS)]
+    made = np.array(made)
+    arcs = np.concatenate([[0], np.cumsum(np.linalg.norm(np.diff(asked, axis=0), axis=1))])
+    at = np.linspace(0, arcs[-1], len(made))
+    wanted = np.stack([np.interp(at, arcs, asked[:, axis]) for axis in range(3)], axis=1)
+    off = np.linalg.norm(made - wanted, axis=1)
+    promised = kit.sheet["deviation"]
+    kit.say("deviation", off.max() <= promised["max_mm"] + DEVIATION_LIMIT_MM, f"{off.max():.3f} of {promised['max_mm']:.3f} mm, rms {np.sqrt((off**2).mean()):.3f}")
+
+
+def judge_balance(kit):
+    volumes = np.array([sum(mesh.volume for mesh in meshes) for meshes in kit.shells])
+    centres = [sum(mesh.center_mass * mesh.volume for mesh in meshes) / volume for meshes, volume in zip(kit.shells, volumes)]
+    mass = volumes.sum() * kit.sheet["material"]["density_g_cm3"] / 1000.0
+    kit.say("mass", abs(mass / kit.sheet["mass_g"] - 1) < MASS_LIMIT_RATIO, f"{mass:.4f} of {kit.sheet['mass_g']:.4f} g")
+    root = np.array(kit.motion["root"]) @ kit.along(0, kit.motion["shells"][0]["ends_mm"][0])
+    to_ground = np.linalg.inv(root)
+    vertices = np.concatenate([mesh.vertices for mesh in kit.shells[0]])
+    local = (to_ground @ np.array(kit.motion["root"]) @ np.c_[vertices, np.ones(len(vertices))].T).T[:, :3]
+    ground = local[:, 0].min()
+    feet = local[local[:, 0] < ground + 1e-2][:, 1:3]
+    hull = feet[scipy.spatial.ConvexHull(feet).vertices]
+    worst_centre, worst_lean, least = 0.0, 0.0, np.inf
+    for key, promise in zip(kit.motion["keys"], kit.sheet["balance"], strict=True):
+        frames = kit.frames(key["states"])
+        placed = [(frame @ np.append(centre, 1))[:3] for frame, centre in zip(frames, centres)]
+        centre = np.average(placed, axis=0, weights=volumes)
+        worst_centre = max(worst_centre, np.linalg.norm(centre - promise["centre_mm"]))
+        x, *foot = (to_ground @ np.append(centre, 1))[:3]
+        edges = np.roll(hull, -1, axis=0) - hull
+        normals = np.stack([-edges[:, 1], edges[:, 0]], axis=1) / np.linalg.norm(edges, axis=1)[:, None]
+        margin = ((np.array(foot) - hull) * normals).sum(axis=1).min()
+        lean = np.degrees(np.arctan2(margin, x - ground))
+        worst_lean = max(worst_lean, abs(lean - promise["toppling_deg"]))
+        least = min(least, lean)
+    kit.say("centres", worst_centre < CENTRE_LIMIT_MM, f"{worst_centre:.5f} mm off at worst")
+    kit.say("toppling", worst_lean < TOPPLING_LIMIT_DEG, f"{worst_lean:.4f}° off at worst, least {least:.2f}°")
+    if kit.sheet["least_angle_deg"] is not None:
+        kit.say("stands", least >= kit.sheet["least_angle_deg"], f"{least:.2f} of {kit.sheet['least_angle_deg']}°")
+
+
+def judge_boxes(kit):
+    for key, name in ((kit.motion["keys"][0], "collapsed_mm"), (kit.motion["keys"][-1], "extended_mm")):
+        frames = kit.frames(key["states"])
+        back = np.linalg.inv(frames[0])
+        points = np.concatenate([trimesh.transform_points(mesh.vertices, back @ frame) for meshes, frame in zip(kit.shells, frames) for mesh in meshes])
+        error = np.abs(np.ptp(points, axis=0) - kit.sheet[name]).max()
+        kit.say(name, error < BOX_LIMIT_MM, f"{error:.5f} mm off")
+
+
+def judge(folder):
+    kit = Kit(folder)
+    for look in (judge_files, judge_joints, judge_motion, judge_curve, judge_balance, judge_boxes):
+        look(kit)
+    kit.say("the kit's own verdict", kit.sheet["verdict"] == "pass")
+    print(f"{folder}: {'agrees' if kit.faults == 0 else f'{kit.faults} faults'}")
+    return kit.faults
+
+
+def main():
+    if len(sys.argv) < 2:
+        print(__doc__)
+        return 2
+    try:
+        return 1 if sum(judge(folder) for folder in sys.argv[1:]) else 0
+    except FileNotFoundError as error:
+        print(f"no kit: {error}")
+        return 2
+
+
+if __name__ == "__main__":
+    sys.exit(main())
