@@ -78,10 +78,10 @@ pub mod stages {
     pub use crate::{advice, error, make, open, poses, run};
 }
 
-/// Telescopes: the curves that they are to follow, and the shells that do.
+/// Telescopes: the curves and skeletons that they are to follow, and the shells that do.
 pub mod extend {
     #[doc(inline)]
-    pub use crate::{curve, telescope};
+    pub use crate::{curve, skeleton, telescope};
 }
 
 /// Checklists, job sheets, drawings and coupons.
@@ -138,6 +138,8 @@ pub mod run;
 pub mod sheet;
 #[doc(hidden)]
 pub mod shell;
+#[doc(hidden)]
+pub mod skeleton;
 #[doc(hidden)]
 pub mod telescope;
 #[cfg(test)]

@@ -16,6 +16,8 @@ pub mod questions;
 pub mod shop;
 pub mod show;
 pub mod signals;
+pub mod skeleton;
+mod skeleton_picture;
 mod summary;
 pub mod telescope;
 mod values;
@@ -71,6 +73,10 @@ fn dispatch(cli: Cli, manner: Manner) -> Result<Exit, Box<dyn Error + Send + Syn
             Ok(Exit::Kept)
         }
         Command::Coupon(args) => Ok(coupon::coupon(&args, voice, &Stop::on_signals(), out)?),
+        Command::Skeleton(args) => {
+            end_process_on_signal();
+            Ok(skeleton::skeleton(&args, voice, out)?)
+        }
         Command::Verify(args) => {
             end_process_on_signal();
             Ok(verify::verify(

@@ -243,6 +243,20 @@ impl Drawing {
         );
     }
 
+    /// Returns drawings side by side, their upper edges on one line.
+    pub fn row(drawings: &[Self]) -> Self {
+        let mut row = Self::new([0, 0], drawings.first().map_or(0.0, Self::text_px));
+        for drawing in drawings {
+            let [width, height] = drawing.size_px;
+            row.add(&format!(
+                "<g transform=\"translate({} 0)\">\n{}</g>",
+                row.size_px[0], drawing.body
+            ));
+            row.size_px = [row.size_px[0] + width, row.size_px[1].max(height)];
+        }
+        row
+    }
+
     /// Adds an SVG element as it is given.
     pub fn add(&mut self, element: &str) {
         self.body.push_str(element);

@@ -31,5 +31,12 @@
 //! * **Isosurface stuffing** (the graded tetrahedral lattice): F. Labelle, J. R. Shewchuk,
 //!   "Isosurface stuffing: fast tetrahedral meshes with good dihedral angles", ACM Transactions on
 //!   Graphics 26(3), 2007.
+//! * **Skeletons**: A. Tagliasacchi, I. Alhashim, M. Olson, H. Zhang, "Mean Curvature Skeletons",
+//!   Computer Graphics Forum 31(5), 2012; M. Botsch, L. Kobbelt, "A Remeshing Approach to
+//!   Multiresolution Modeling", SGP 2004; J. Ma, S. W. Bae, S. Choi, "3D medial axis point
+//!   approximation using nearest neighbors and the normal field", The Visual Computer 28, 2012.
+//! * **Sparse factors**: A. George, "Nested dissection of a regular finite element mesh", SIAM
+//!   Journal on Numerical Analysis 10, 1973; T. A. Davis, "Algorithm 849: a concise sparse Cholesky
+//!   factorization package", ACM Transactions on Mathematical Software 31, 2005.
 //! * **Closest points**: C. Ericson, "Real-Time Collision Detection", Morgan Kaufmann, 2005,
 //!   chapter 5.

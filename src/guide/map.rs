@@ -31,3 +31,5 @@
 //! | What happens to a curve, in which order? | `prepare` in `telescope/prepare/mod.rs`, a line of six stages |
 //! | Who says that a telescope's kit is right? | `judge_telescope` in `verify/telescope/facts.rs`, with its own screws in `verify/telescope/motion.rs` |
 //! | How does a tube slide along its own axis? | `Helix` in `curve/helix.rs`: frames along a helix compose, so it slides in itself |
+//! | Where does a limb of a model begin and end, and how thick is it? | `Skeleton::of` in `skeleton/tree.rs`, by the contraction of `skeleton/flow.rs` and the pruning of `skeleton/tidy.rs` |
+//! | Which limbs become telescopes, and which stay solid? | `mark_solid` in `skeleton/solid.rs` and `Limbs` in `skeleton/limbs.rs` |

@@ -10,6 +10,7 @@ mod printers;
 mod quote;
 mod read;
 mod scaling;
+mod skeleton;
 mod telescope;
 #[cfg(test)]
 mod tests;
@@ -28,6 +29,7 @@ pub use printers::{CalibrateArgs, CouponArgs, ImportArgs, NewArgs, PrintersActio
 pub use quote::quoted;
 pub use read::ReadError;
 pub use scaling::ScalingArgs;
+pub use skeleton::{Root, RootError, SkeletonArgs};
 pub use telescope::{TelescopeArgs, TelescopeRequest};
 pub use typed::SplitUnit;
 pub use values::NumberError;
@@ -95,6 +97,10 @@ pub enum Command {
     Telescope(Box<TelescopeArgs>),
     /// Show a model's facts, and which of the five goals it can reach
     Inspect(InspectArgs),
+    /// Find the skeleton of a model, for telescopes: its limbs, and how thick they are
+    ///
+    /// It writes a file to edit and a picture. Given such a file, it checks it.
+    Skeleton(SkeletonArgs),
     /// List the known printers, show one, or check a profile of your own
     Printers(PrintersArgs),
     /// Make coupons to weigh and try, to fit a profile to the machine
