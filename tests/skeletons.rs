@@ -4,26 +4,20 @@
     clippy::unwrap_used,
     reason = "a test whose input cannot be had has failed"
 )]
-#![allow(clippy::print_stderr, reason = "a skipped test says so")]
 #![allow(clippy::print_stdout, reason = "a long run reports its figures")]
 
 mod common;
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::time::Instant;
 
-use common::{ELLIPSOID, assert_exit, equipoise_in, json, path, printed};
+use common::{ELLIPSOID, assert_exit, equipoise_in, json, path, printed, shared_model};
 use equipoise::base::watch::Watch;
 use equipoise::io::read_model;
 use equipoise::mesh::{MeshFacts, Solid, scaled};
 use equipoise::repair::repair;
 use equipoise::skeleton::{Limbs, ShellSizes, Skeleton};
-
-/// The models beside the project. They are no part of it.
-const SHARED: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/models");
-/// Another folder of the same content.
-const SHARED_VARIABLE: &str = "EQUIPOISE_SHARED_MODELS";
 
 /// The longest side of every model, mm.
 const SIZE_MM: f64 = 200.0;
@@ -50,15 +44,6 @@ const SIZES: ShellSizes = ShellSizes {
     pitch_mm: 2.0,
 };
 
-fn model(file: &str) -> Option<PathBuf> {
-    let folder = std::env::var_os(SHARED_VARIABLE).map_or_else(|| SHARED.into(), PathBuf::from);
-    let model = folder.join(file);
-    if !model.is_file() {
-        eprintln!("SKIPPED: there is no {}", model.display());
-    }
-    model.is_file().then_some(model)
-}
-
 fn solid(model: &Path) -> Solid {
     let (mesh, _) = repair(read_model(model).unwrap(), &Watch::silent()).unwrap();
     let factor = SIZE_MM / mesh.longest_side_mm();
@@ -68,7 +53,7 @@ fn solid(model: &Path) -> Solid {
 #[test]
 fn figures_have_a_ring_for_every_hole_a_tip_for_every_limb_and_nodes_deep_inside() {
     for (file, tips, depth_ratio) in KNOWN {
-        let Some(model) = model(file) else {
+        let Some(model) = shared_model(file) else {
             continue;
         };
         let solid = solid(&model);
@@ -100,7 +85,7 @@ fn figures_have_a_ring_for_every_hole_a_tip_for_every_limb_and_nodes_deep_inside
 
 #[test]
 fn the_rings_of_fertility_are_cut_by_the_line_that_is_told() {
-    let Some(model) = model("fertility.stl") else {
+    let Some(model) = shared_model("fertility.stl") else {
         return;
     };
     let folder = tempfile::tempdir().unwrap();

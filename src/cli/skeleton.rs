@@ -10,6 +10,7 @@ use serde::Serialize;
 use super::args::{Root, SkeletonArgs};
 use super::exit::Exit;
 use super::show::table;
+use super::skeleton_picture::picture;
 use super::voice::Voice;
 use crate::base::setting::{Key, Setting};
 use crate::base::toml_text::TextFault;
@@ -22,8 +23,6 @@ use crate::io::{ReadError, read_bytes, read_model};
 use crate::mesh::{Defects, MeshFacts, Solid, scaled};
 use crate::repair::{NotOneBody, one_body, repair};
 use crate::skeleton::{Chain, Limbs, ShellSizes, Skeleton, SkeletonError};
-
-use super::skeleton_picture::picture;
 
 /// The ending of a skeleton file.
 const SKELETON_ENDING: &str = "toml";

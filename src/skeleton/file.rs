@@ -93,7 +93,7 @@ impl Skeleton {
         let model = model.replace(char::is_control, " ");
         let mut text = format!(
             "# The skeleton of {model}. Lengths are in mm.\n\
-             # Edit it: move, add or remove nodes and branches, then hand it to equipoise telescope.\n\
+             # Edit it: move, add or remove nodes and branches, then check it with equipoise skeleton.\n\
              kind = \"{KIND}\"\n\
              schema = {SCHEMA}\n\
              # The node from which the telescopes grow.\n\

@@ -11,8 +11,8 @@
 //! 5. `tidy` merges junctures and prunes bumps; `centre` spreads the nodes and centres them.
 //!
 //! [`Skeleton::mark_solid`] marks the branches that carry no two shells. [`Skeleton::rings`] names
-//! the rings that no telescope can have. `file` writes a skeleton for editing and reads it
-//! back. [`Limbs`] is the tree that telescopes grow along.
+//! the rings that no telescope can have. `file` writes a skeleton for editing and reads it back.
+//! [`Limbs`] is the tree that telescopes grow along.
 
 mod centre;
 mod curve;
@@ -26,7 +26,6 @@ mod order;
 mod poles;
 mod remesh;
 mod rings;
-
 mod solid;
 mod surface;
 mod system;

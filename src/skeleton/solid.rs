@@ -47,7 +47,7 @@ impl fmt::Display for StaysSolid {
 impl Skeleton {
     /// Marks the branches that carry fewer than two shells, or are flat; others become free.
     ///
-    /// What the user ordered stays.
+    /// A branch that the user ordered solid stays so.
     pub fn mark_solid(&mut self, solid: &Solid, sizes: &ShellSizes) {
         let degrees = self.degrees();
         let marks: Vec<Option<StaysSolid>> = self
@@ -92,11 +92,7 @@ impl Skeleton {
     fn is_short(&self, run: &[usize]) -> bool {
         let radii = sorted(run.iter().map(|node| self.nodes[*node].radius_mm));
         let middle_mm = radii.get(radii.len() / 2).copied().unwrap_or_default();
-        let steps = run.windows(2);
-        let length_mm: f64 = steps
-            .map(|step| (self.nodes[step[1]].at - self.nodes[step[0]].at).norm())
-            .sum();
-        run.len() < 2 || length_mm < LEAST_LENGTH_RADII * middle_mm
+        run.len() < 2 || self.run_length_mm(run) < LEAST_LENGTH_RADII * middle_mm
     }
 
     /// Returns the longest run of nodes at which the section is about as wide as the ball.

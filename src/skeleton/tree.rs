@@ -178,7 +178,12 @@ impl Skeleton {
 
     /// Returns the length of a branch, mm.
     pub fn length_mm(&self, branch: &Branch) -> f64 {
-        let steps = branch.nodes.windows(2);
+        self.run_length_mm(&branch.nodes)
+    }
+
+    /// Returns the length of the way over these nodes, mm.
+    pub(super) fn run_length_mm(&self, run: &[usize]) -> f64 {
+        let steps = run.windows(2);
         steps
             .map(|step| (self.nodes[step[1]].at - self.nodes[step[0]].at).norm())
             .sum()

@@ -3,6 +3,7 @@
 #![allow(
     dead_code,
     clippy::panic,
+    clippy::print_stderr,
     reason = "every test compiles its own copy of this module and uses a part of it"
 )]
 
@@ -19,6 +20,23 @@ pub const ELLIPSOID: &str = concat!(
     env!("CARGO_MANIFEST_DIR"),
     "/examples/models/tilted-ellipsoid.stl"
 );
+
+/// The models beside the project. They are no part of it.
+const SHARED_MODELS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/models");
+/// The variable that names another folder of the same content.
+const SHARED_VARIABLE: &str = "EQUIPOISE_SHARED_MODELS";
+
+/// Returns a file of the models beside the project; says that the test skips it if it is absent.
+pub fn shared_model(name: &str) -> Option<PathBuf> {
+    let folder = std::env::var_os(SHARED_VARIABLE);
+    let file = folder
+        .map_or_else(|| SHARED_MODELS.into(), PathBuf::from)
+        .join(name);
+    if !file.is_file() {
+        eprintln!("SKIPPED: there is no {}", file.display());
+    }
+    file.is_file().then_some(file)
+}
 
 /// The options of a quick run: a small model, and few columns for the solver.
 pub const QUICK: &str = "--printer objet-connex350 --size 60mm --pitch 0.3mm";

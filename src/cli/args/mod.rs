@@ -35,7 +35,7 @@ pub use typed::SplitUnit;
 pub use values::NumberError;
 
 use crate::base::units::Length;
-use values::{EXAMPLES, EXIT_CODES};
+use values::{ALSO, EXAMPLES, EXIT_CODES};
 
 /// Make kits of printed parts that spin, stand, float, run true or slide open
 #[derive(Debug, Parser)]
@@ -43,7 +43,7 @@ use values::{EXAMPLES, EXIT_CODES};
     name = "equipoise",
     version,
     after_help = EXAMPLES,
-    after_long_help = [EXAMPLES, EXIT_CODES].join("\n\n"),
+    after_long_help = [EXAMPLES, ALSO, EXIT_CODES].join("\n\n"),
     override_usage = USAGE
 )]
 pub struct Cli {
@@ -110,10 +110,12 @@ pub enum Command {
     /// Print the completion script of a shell
     ///
     /// For bash: equipoise completions bash > ~/.local/share/bash-completion/completions/equipoise
+    #[command(hide = true)]
     Completions(CompletionsArgs),
     /// Print the manual page of the program or of a command
     ///
     /// To read one: equipoise man prepare | man -l -
+    #[command(hide = true)]
     Man(ManArgs),
 }
 

@@ -10,6 +10,12 @@ use clap::{Arg, Command};
 use crate::base::words::ChoiceError;
 use crate::goal::GoalKind;
 
+/// The commands that the list leaves out, for the long help.
+pub(super) const ALSO: &str = "\
+Also:
+  equipoise completions SHELL   prints the completion script of a shell
+  equipoise man [COMMAND]       prints the manual page of the program or of a command";
+
 /// The examples in the help.
 pub(super) const EXAMPLES: &str = "\
 Examples:
