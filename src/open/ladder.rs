@@ -2,7 +2,7 @@
 
 use super::aligned::count_unaligned;
 use super::bosses::{Bossed, add_bosses, pay_for_bosses};
-use super::clean::clean;
+use super::drain::clean_and_drain;
 use super::ground::Ground;
 use super::plan::finish_once;
 use super::refused::unless_refused;
@@ -246,7 +246,7 @@ impl<'a> Ladder<'a> {
             solid,
             mut rounds,
         } = ground.clone();
-        let cleaned = clean(&mut resolver, voids, request, is_lost)?;
+        let cleaned = clean_and_drain(&mut resolver, voids, request, is_lost)?;
         rounds.extend(cleaned.rounds);
         let plan = CutPlan {
             solid,
