@@ -208,12 +208,7 @@ pub fn shortfall(sheet: &Checklist) -> Option<String> {
     let (figure, unit) = (sheet.certificate.figure, sheet.certificate.figure.unit());
     let words = |taken: &Taken| {
         let what = match taken.by {
-            Taker::Cleaning => match sheet.printer.process {
-                Process::Sla => {
-                    "voids that stay solid because they could not be drained or cleaned"
-                }
-                _ => "voids that stay solid because they could not be cleaned",
-            },
+            Taker::Cleaning => &format!("voids that stay solid because they {}", fault(sheet)),
             Taker::Plan => "what the plan keeps solid",
             Taker::Bosses => "bosses around pins",
             Taker::Making => "cuts, pins and rounding",
@@ -247,16 +242,21 @@ pub fn wall(wall: &WallRow) -> String {
     format!("{ordered}; thinnest measured {thinnest}")
 }
 
+/// Words what was wrong with voids that stay solid.
+fn fault(sheet: &Checklist) -> &'static str {
+    match sheet.printer.process {
+        Process::Sla => "could not be drained or cleaned",
+        _ => "could not be cleaned",
+    }
+}
+
 /// Words what the proof assumes solid besides the wall; empty if nothing.
 fn solid_places(sheet: &Checklist) -> String {
     let proof = &sheet.certificate;
-    let unclean = match sheet.printer.process {
-        Process::Sla => "where voids could not be drained or cleaned",
-        _ => "where voids could not be cleaned",
-    };
+    let unclean = format!("where voids {}", fault(sheet));
     let by_plan = proof.cleaning_rounds.iter().any(|round| round.by_plan);
     let reasons = [
-        (proof.kept_solid_mm3 > 0.0, unclean),
+        (proof.kept_solid_mm3 > 0.0, &unclean[..]),
         (by_plan, "where the plan keeps it so"),
         (proof.bosses_mm3 > 0.0, "in bosses around pins"),
     ];

@@ -1,5 +1,7 @@
 //! Ends of voids that would enclose resin while their part is printed in a vat.
 
+use std::collections::HashMap;
+
 use crate::{
     cut::{
         error::CutError,
@@ -50,6 +52,7 @@ pub fn find_hollow_cups(
     let pieces = pieces_for_trial(hollowed, plan, &tree, &request.watch)?;
     let search = Search {
         hollowed,
+        void_of: voids_by_vertex(hollowed),
         planes: &tree.planes,
         request,
     };
@@ -63,13 +66,14 @@ pub fn find_hollow_cups(
 /// The search for cups in the pieces of a plan.
 struct Search<'a> {
     hollowed: &'a Hollowed,
+    /// The void of each vertex of the hollowed body, by its bits.
+    void_of: HashMap<[u64; 3], VoidId>,
     planes: &'a [Plane],
     request: &'a PlanRequest,
 }
 
 impl Search<'_> {
     fn cups_of(&self, piece: &Piece) -> Result<Vec<HollowCup>, CutError> {
-        let void_of = voids_by_vertex(self.hollowed);
         let posed = Posed {
             mesh: &piece.mesh,
             piece,
@@ -77,7 +81,7 @@ impl Search<'_> {
             pins: &[],
             pin_cuts: &[],
         };
-        let pose = posed.pose(self.request, |p| void_of.contains_key(&bits(p)))?;
+        let pose = posed.pose(self.request, |p| self.void_of.contains_key(&bits(p)))?;
         let [x, y, z, _] = pose.print_from_model[2];
         let columns = Columns::of(
             &Shape::plain(&piece.mesh),
@@ -87,7 +91,7 @@ impl Search<'_> {
         let cups = find_cups(&columns);
         let void_below = |cup: &Cup| -> Option<VoidId> {
             let corners = piece.mesh.corners(cup.floor? as usize);
-            let void = corners.iter().find_map(|p| void_of.get(&bits(p)))?;
+            let void = corners.iter().find_map(|p| self.void_of.get(&bits(p)))?;
             let holds = self.hollowed.voids[void.index()].holds.is_some();
             (!holds).then_some(*void)
         };

@@ -61,7 +61,8 @@ fn left_solid(facts: &Facts) -> Option<String> {
     let why = match (is_printed_in_vat(facts.placed), by_plan) {
         (false, false) => "because it could not be cleaned",
         (true, false) => "because it could not be drained or cleaned",
-        (_, true) => "because it could not be cleaned or because the plan says so",
+        (false, true) => "because it could not be cleaned or because the plan says so",
+        (true, true) => "because it could not be drained or cleaned or because the plan says so",
     };
     (refused >= LEAST_REPORTED_MM3).then(|| {
         format!(
