@@ -5,11 +5,14 @@ use rayon::prelude::*;
 use super::write::{write, write_jig};
 use crate::base::verdict::Verdict;
 use crate::base::watch::{Phase, Watch};
-use crate::cut::{self, CutError, CutPlan, Obstacle, PlanRequest, jigs, parts_and_faces};
+use crate::cut::{
+    self, Boss, CutError, CutPlan, Obstacle, PlanRequest, find_thin_sockets, jigs, parts_and_faces,
+};
 use crate::error::Error;
 use crate::mass::{Moments, moments_of_mesh};
+use crate::mesh::TriMesh;
 use crate::open::{Candidate, Resolver, defect_ratio, finish, plan_once};
-use crate::run::{Made, Placed, Voids, WrittenPart};
+use crate::run::{BossRound, KeptBoss, Made, Placed, Voids, WrittenPart};
 use crate::verify::{PartEvidence, assembly_moments};
 
 /// Makes the parts of a plan, measures them as they are written, and solves again with the
@@ -29,6 +32,7 @@ pub fn make(placed: &Placed, candidate: Candidate, watch: &Watch) -> Result<Made
         placed,
         resolver: &mut resolver,
         request: &opened.request,
+        bosses: opened.bosses,
         watch,
     };
     let best = corrector.best(opened.voids, opened.plan, more)?;
@@ -57,7 +61,7 @@ pub fn make(placed: &Placed, candidate: Candidate, watch: &Watch) -> Result<Made
         rounds,
         value_before_cleaning,
         cleaning: opened.cleaning,
-        bosses: opened.bosses,
+        bosses: best.bosses,
     })
 }
 
@@ -66,6 +70,8 @@ struct Corrector<'r, 'a> {
     placed: &'r Placed,
     resolver: &'r mut Resolver<'a>,
     request: &'r PlanRequest,
+    /// Rounds in which bosses were kept solid so far.
+    bosses: Vec<BossRound>,
     watch: &'r Watch,
 }
 
@@ -74,6 +80,8 @@ struct Corrector<'r, 'a> {
 struct Attempt {
     voids: Voids,
     plan: CutPlan,
+    /// Rounds in which bosses were kept solid in these voids.
+    bosses: Vec<BossRound>,
     parts: Vec<WrittenPart>,
     /// Moments of the parts beyond those of the uncut body, model frame: pins, sockets, glue, and
     /// the rounding of files.
@@ -103,7 +111,8 @@ impl Corrector<'_, '_> {
     fn attempt(&mut self, voids: Voids, plan: CutPlan, more: Moments) -> Result<Attempt, Error> {
         self.watch.check()?;
         let goal = self.placed.goal();
-        let voids = finish(self.resolver.correct(voids, more)?, self.watch)?;
+        let voids = self.correct(voids, &plan, more)?;
+        let voids = finish(voids, self.watch)?;
         let (parts, plan) = self.write_parts(&voids, plan)?;
         let evidence: Vec<PartEvidence> = parts.iter().map(WrittenPart::evidence).collect();
         let whole = assembly_moments(&evidence) + self.placed.joining_moments(&plan);
@@ -115,8 +124,36 @@ impl Corrector<'_, '_> {
             more: whole - moments_of_mesh(&voids.hollowed.to_mesh()),
             voids,
             plan,
+            bosses: self.bosses.clone(),
             parts,
         })
+    }
+
+    /// Solves again until the voids meet the goal with what is not part of the uncut body.
+    ///
+    /// Voids move meanwhile. Where one came too near to a socket, the room of that socket is kept
+    /// solid, and the rest is solved again; ordered pins stay whatever they break.
+    fn correct(&mut self, voids: Voids, plan: &CutPlan, more: Moments) -> Result<Voids, Error> {
+        let voids = self.resolver.correct(voids, more)?;
+        let thin = find_thin_sockets(&voids.hollowed, plan, self.request)?;
+        if thin.is_empty() || self.placed.has_ordered_pins() {
+            return Ok(voids);
+        }
+        let mut trial = self.resolver.clone();
+        let bodies: Vec<TriMesh> = thin.iter().map(|boss| boss.body.clone()).collect();
+        let kept = trial.with_bosses(&voids, &bodies)?;
+        let kept = trial.correct(kept, more)?;
+        if !kept.solution.is_usable() {
+            return Ok(voids);
+        }
+        self.bosses.push(BossRound {
+            bosses: thin.into_iter().map(keep).collect(),
+            kept_mm3: trial.bosses_mm3(),
+            before: voids.solution.certificate,
+            after: kept.solution.certificate,
+        });
+        *self.resolver = trial;
+        Ok(kept)
     }
 
     /// Cuts the body by the plan and writes its parts, in memory.
@@ -147,5 +184,14 @@ impl Corrector<'_, '_> {
             write(part, &name, scale_ratio, self.watch)
         });
         Ok((parts.collect::<Result<_, _>>()?, plan))
+    }
+}
+
+/// Records a boss.
+fn keep(boss: Boss) -> KeptBoss {
+    KeptBoss {
+        volume_mm3: boss.body.signed_volume_mm3(),
+        pin: boss.pin,
+        parts: boss.parts,
     }
 }

@@ -259,7 +259,7 @@ fn boss_rounds(sheet: &Checklist) -> Markup {
     html! {
         @for row in &sheet.rounds {
             p {
-                "Boss round " (row.round) ": the walls alone left no room for pins, so material was kept solid around "
+                "Boss round " (row.round) ": the walls alone leave pins too little room, so material was kept solid around "
                 (list_bosses(&row.bosses)) ". The " (figure.name()) " went from " (quantity(row.before, figure.unit())) " to "
                 (quantity(row.after, figure.unit())) "; " (quantity(row.kept_solid_mm3, "mm³"))
                 " that could have been emptied stay solid."
