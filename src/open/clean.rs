@@ -4,7 +4,7 @@ use super::plan::draft_once;
 use super::resolve::Resolver;
 use crate::base::verdict::Verdict;
 use crate::cut::{
-    CutError, CutPlan, Obstacle, PlanRequest, SolidEnd, Unclean, VoidId, find_unclean,
+    CutError, CutPlan, Obstacle, PlanRequest, SolidEnd, Unclean, VoidId, draft_again, find_unclean,
 };
 use crate::error::Error;
 use crate::job::CutMode;
@@ -35,6 +35,9 @@ struct Keep {
 /// planned anew. The solid part only grows, so that this ends. A round after which the goal cannot
 /// be met is undone, and the kit's checks say which void stays unclean.
 ///
+/// Cuts that weigh what they leave unclean against their seams are held from the first round on.
+/// Chosen anew each time, they would wander to where more and more stays solid.
+///
 /// It stops, with what is not clean yet, as soon as `is_lost` says that the voids have lost too
 /// much: further rounds only lose more.
 pub fn clean(
@@ -46,9 +49,17 @@ pub fn clean(
     let placed = resolver.placed();
     let mut rounds = Vec::new();
     let mut request = request.clone();
+    let holds_cuts = request.seams.lack_weight.is_some();
+    let mut held: Option<CutPlan> = None;
     loop {
         resolver.watch().check()?;
-        let plan = draft_once(placed, &voids, &request)?;
+        let plan = match &held {
+            Some(first) => draft_again(&voids.hollowed, &request, first)?,
+            None => draft_once(placed, &voids, &request)?,
+        };
+        if let (true, None, Verdict::Found(plan)) = (holds_cuts, &held, &plan) {
+            held = Some(plan.clone());
+        }
         let round = Round {
             placed,
             voids: &voids,
@@ -80,7 +91,7 @@ pub fn clean(
                 rounds.push(round);
             }
             // Rather any further cut, however seen, than a goal that cannot be met.
-            (None, Verdict::Found(_)) if allow_more_cuts(&mut request) => {}
+            (None, Verdict::Found(_)) if held.is_none() && allow_more_cuts(&mut request) => {}
             (None, plan) => {
                 rounds.push(round);
                 let plan = plan.or_error::<CutError>()?;

@@ -20,10 +20,16 @@ use crate::{
 /// corner out of sight, and an extra cut costs a joint. An estimate takes some hundredths of a
 /// second.
 const ESTIMATED_PLANS: usize = 48;
+/// The same where seams are weighed: the plans that hide most come first, and lose most.
+const WEIGHED_PLANS: usize = 96;
 /// Number of plans estimated in parallel before the promising ones are measured.
 const ESTIMATED_AT_ONCE: usize = 8;
 /// Error of an estimate. A plan that seems to lack no more than this is measured.
 const ESTIMATE_ERROR_RATIO: f64 = 0.01;
+/// Distance of two planes at the middle of the body up to which they are much the same, in
+/// diagonals, and the cosine between their normals: 15°. What lies nearer loses and shows the same.
+const SAME_PLACE_RATIO: f64 = 0.03;
+const SAME_LIE_COSINE: f64 = 0.966;
 /// Number of plans measured although they seem to lack more. Extra cuts start from the cleanest of
 /// them.
 const FALLBACK_PLANS: usize = 3;
@@ -156,11 +162,26 @@ fn estimate_lack_ratio(scene: &Scene, void: VoidId, planes: &[Plane]) -> Result<
 /// Returns the first of the plans with which every void can be cleaned, or else the cleanest. If
 /// the request weighs what stays unclean against seams, it returns the best in both together.
 pub(crate) fn cleanest(scene: &Scene, plans: &[RankedPlan]) -> Result<Attempt, CutError> {
-    let plans = &plans[..plans.len().min(ESTIMATED_PLANS)];
     match scene.request.seams.lack_weight {
         Some(weight) => best_seen(scene, plans, weight),
-        None => first_clean(scene, plans),
+        None => first_clean(scene, &plans[..plans.len().min(ESTIMATED_PLANS)]),
     }
+}
+
+/// Returns whether a plan is much the same as one that was tried.
+fn is_tried(scene: &Scene, plan: &RankedPlan) -> bool {
+    let center = scene.hollowed.outer.mesh().aabb().center();
+    let reach_mm = SAME_PLACE_RATIO * scene.diagonal_mm;
+    let is_near = |a: &Plane, b: &Plane| {
+        let turn = a.normal.dot(&b.normal);
+        let apart_mm = a.distance(&center) - turn.signum() * b.distance(&center);
+        turn.abs() > SAME_LIE_COSINE && apart_mm.abs() < reach_mm
+    };
+    let mut tried = scene.request.seams.tried.iter();
+    tried.any(|known| {
+        let has = |plane: &Plane| known.iter().any(|other| is_near(plane, other));
+        known.len() == plan.planes.len() && plan.planes.iter().all(has)
+    })
 }
 
 /// Returns the plan with the least sum of its score and of what it leaves unclean.
@@ -178,16 +199,18 @@ fn best_seen(scene: &Scene, plans: &[RankedPlan], weight: f64) -> Result<Attempt
         })?;
         Ok(plan.penalty + weight * lack_mm2 / whole_mm2)
     };
+    let fresh = plans.iter().filter(|plan| !is_tried(scene, plan));
+    let plans: Vec<&RankedPlan> = fresh.take(WEIGHED_PLANS).collect();
     let mut rated: Vec<(f64, &RankedPlan)> = Vec::new();
     let mut best = f64::INFINITY;
     for some in plans.chunks(ESTIMATED_AT_ONCE) {
         if some[0].penalty >= best {
             break;
         }
-        let sums = some.par_iter().map(estimate);
+        let sums = some.par_iter().map(|plan| estimate(plan));
         let sums = sums.collect::<Result<Vec<f64>, Cancelled>>()?;
         best = sums.iter().copied().fold(best, f64::min);
-        rated.extend(sums.into_iter().zip(some));
+        rated.extend(sums.into_iter().zip(some.iter().copied()));
     }
     rated.sort_by(|a, b| a.0.total_cmp(&b.0));
     let mut measured: Vec<(f64, Attempt)> = Vec::new();
@@ -200,7 +223,7 @@ fn best_seen(scene: &Scene, plans: &[RankedPlan], weight: f64) -> Result<Attempt
 }
 
 /// Returns the area of a ball's wall with the void's volume, but for a factor, mm².
-fn area_mm2(void: &Void) -> f64 {
+pub(crate) fn area_mm2(void: &Void) -> f64 {
     void.mesh().signed_volume_mm3().abs().powf(2.0 / 3.0)
 }
 

@@ -42,6 +42,8 @@ pub struct Seams {
     /// Weight of walls that lack sight against seams: what they hold stays solid. If `None`, a plan
     /// that lets every void be cleaned comes first, whatever its seams.
     pub lack_weight: Option<f64>,
+    /// Plans that were tried already, where seams are weighed: the planner looks for another one.
+    pub tried: Vec<Vec<Plane>>,
     /// True if only level cuts are made.
     pub only_level: bool,
     /// The outside, looked at; `None` if only the length of a seam counts.
@@ -81,6 +83,7 @@ impl Seams {
         Self {
             skin: None,
             lack_weight: None,
+            tried: Vec::new(),
             ..self.clone()
         }
     }
