@@ -1,13 +1,15 @@
 //! The preferences of a person among plans that open every void: hidden seams, and few parts.
 
 use super::Ladder;
-use crate::cut::{Cut, CutError};
+use crate::base::verdict::Verdict;
+use crate::cut::{Cut, CutError, CutPlan};
 use crate::error::Error;
 use crate::geom::Plane;
-use crate::open::plan::are_clean;
+use crate::open::ground::Ground;
+use crate::open::plan::{are_clean, draft_once};
 use crate::open::refused::unless_refused;
 use crate::open::tendency::lean;
-use crate::open::way::Way;
+use crate::open::way::{Way, seam_price};
 use crate::run::{Achieved, Policy, Remark, Rung, Tendency, Voids};
 
 /// A draft whose seams are to be seen less than those of the usual plan.
@@ -93,7 +95,7 @@ impl<'a> Ladder<'a> {
             return Ok(usual);
         }
         let mut weight = self.policy.lack_weight;
-        let mut tried = vec![planes(&usual)?];
+        let mut tried = vec![planes(&usual.bossed.plan)?];
         let mut choice = HiddenChoice {
             policy: self.policy,
             usual,
@@ -102,11 +104,9 @@ impl<'a> Ladder<'a> {
             least_loss_ratio: None,
         };
         for _ in 0..self.policy.hidden_rounds {
-            let other = self.draft_hidden(&choice.usual, weight, &tried)?;
+            let other = self.draft_hidden(&choice, weight, &mut tried)?;
             weight *= self.policy.lack_growth;
-            let Some(other) = other else { continue };
-            tried.push(planes(&other.way)?);
-            if choice.take(other) {
+            if other.is_some_and(|other| choice.take(other)) {
                 break;
             }
         }
@@ -119,21 +119,36 @@ impl<'a> Ladder<'a> {
         Ok(way)
     }
 
-    /// Drafts a plan that weighs what it leaves unclean against its seams; `None` if there is none.
+    /// Drafts a plan that weighs what it leaves unclean against its seams, and notes its planes as
+    /// tried. `None` if there is none, or if its seams cost no less than the usual plan's.
+    ///
     /// It stops at voids that lose too much.
     fn draft_hidden(
         &self,
-        usual: &Way<'a>,
+        choice: &HiddenChoice<'a>,
         weight: f64,
-        tried: &[Vec<Plane>],
+        tried: &mut Vec<Vec<Plane>>,
     ) -> Result<Option<Hidden<'a>>, Error> {
-        let before = Achieved::of(&usual.bossed.voids);
-        let is_lost =
-            |voids: &Voids| before.loss_ratio(&Achieved::of(voids)) > self.policy.seam_loss_ratio;
+        let HiddenChoice { usual, policy, .. } = choice;
         let mut request = self.request.clone();
         request.seams.lack_weight = Some(weight);
-        request.seams.tried = tried.to_vec();
-        let way = self.plan_in_walls(&self.ground, &request, Rung::Walls, &is_lost);
+        request.seams.tried.clone_from(tried);
+        let voids = &self.ground.voids;
+        let Verdict::Found(draft) = draft_once(self.placed, voids, &request)? else {
+            return Ok(None);
+        };
+        tried.push(planes(&draft)?);
+        if seam_price(voids, &draft, &request)? >= choice.usual_price {
+            return Ok(None);
+        }
+        let ground = Ground {
+            draft: Some(draft),
+            ..self.ground.clone()
+        };
+        let before = Achieved::of(&usual.bossed.voids);
+        let is_lost =
+            |voids: &Voids| before.loss_ratio(&Achieved::of(voids)) > policy.seam_loss_ratio;
+        let way = self.plan_in_walls(&ground, &request, Rung::Walls, &is_lost);
         let Some(way) = unless_refused(way)? else {
             return Ok(None);
         };
@@ -222,7 +237,7 @@ impl<'a> Ladder<'a> {
     }
 }
 
-/// Returns the planes of a way's cuts.
-fn planes(way: &Way) -> Result<Vec<Plane>, CutError> {
-    way.bossed.plan.cuts.iter().map(Cut::plane).collect()
+/// Returns the planes of a plan's cuts.
+fn planes(plan: &CutPlan) -> Result<Vec<Plane>, CutError> {
+    plan.cuts.iter().map(Cut::plane).collect()
 }
