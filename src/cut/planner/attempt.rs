@@ -10,7 +10,10 @@ use crate::{
         geometry::tree::CutTree,
         hollowed::Void,
         ids::VoidId,
-        planner::{score::Scene, search::RankedPlan},
+        planner::{
+            score::{Scene, estimate_seam_price},
+            search::RankedPlan,
+        },
     },
     geom::Plane,
     mesh::move_off_vertices,
@@ -184,6 +187,14 @@ fn is_tried(scene: &Scene, plan: &RankedPlan) -> bool {
     })
 }
 
+/// Returns whether a plan's seams seem to cost as much as the request's dearest.
+fn is_dear(scene: &Scene, plan: &RankedPlan) -> bool {
+    let prices = plan.planes.iter();
+    let price: f64 = prices.map(|plane| estimate_seam_price(scene, plane)).sum();
+    let dearest = scene.request.seams.dearest_ratio;
+    dearest.is_some_and(|dearest| price >= dearest)
+}
+
 /// Returns the plan with the least sum of its score and of what it leaves unclean.
 ///
 /// Estimates the plans in their order, until their scores alone are no better. Then it measures the
@@ -199,7 +210,9 @@ fn best_seen(scene: &Scene, plans: &[RankedPlan], weight: f64) -> Result<Attempt
         })?;
         Ok(plan.penalty + weight * lack_mm2 / whole_mm2)
     };
-    let fresh = plans.iter().filter(|plan| !is_tried(scene, plan));
+    let fresh = plans
+        .iter()
+        .filter(|plan| !(is_tried(scene, plan) || is_dear(scene, plan)));
     let plans: Vec<&RankedPlan> = fresh.take(WEIGHED_PLANS).collect();
     let mut rated: Vec<(f64, &RankedPlan)> = Vec::new();
     let mut best = f64::INFINITY;

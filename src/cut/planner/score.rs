@@ -88,9 +88,15 @@ const OVERHANG_COSINE: f64 = std::f64::consts::FRAC_1_SQRT_2;
 /// Estimates the weighted terms of a plane's seam, without cutting anything; 0 if nobody looks at
 /// it. Takes some microseconds.
 pub(crate) fn estimate_seam_penalty(scene: &Scene, plane: &Plane) -> f64 {
+    SEEN_SEAM_WEIGHT * estimate_seam_price(scene, plane)
+}
+
+/// Estimates the price of a plane's seam and of its slant, in circles about the model of average
+/// weight; 0 if nobody looks at it.
+pub(crate) fn estimate_seam_price(scene: &Scene, plane: &Plane) -> f64 {
     let look = scene.request.seams.skin.as_ref();
     look.map_or(0.0, |skin| {
-        SEEN_SEAM_WEIGHT * (skin.estimate_ratio(plane) + skin.slant_price(plane))
+        skin.estimate_ratio(plane) + skin.slant_price(plane)
     })
 }
 

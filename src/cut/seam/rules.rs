@@ -44,6 +44,9 @@ pub struct Seams {
     pub lack_weight: Option<f64>,
     /// Plans that were tried already, where seams are weighed: the planner looks for another one.
     pub tried: Vec<Vec<Plane>>,
+    /// Price of seams that a plan must stay below, where seams are weighed, in circles about the
+    /// model of average weight. `None` if any will do.
+    pub dearest_ratio: Option<f64>,
     /// True if only level cuts are made.
     pub only_level: bool,
     /// The outside, looked at; `None` if only the length of a seam counts.
@@ -84,6 +87,7 @@ impl Seams {
             skin: None,
             lack_weight: None,
             tried: Vec::new(),
+            dearest_ratio: None,
             ..self.clone()
         }
     }

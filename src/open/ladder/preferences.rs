@@ -115,6 +115,7 @@ impl<'a> Ladder<'a> {
             return Ok(choice.usual);
         };
         way.request.seams.tried.clear();
+        way.request.seams.dearest_ratio = None;
         self.request = way.request.clone();
         Ok(way)
     }
@@ -133,12 +134,14 @@ impl<'a> Ladder<'a> {
         let mut request = self.request.clone();
         request.seams.lack_weight = Some(weight);
         request.seams.tried.clone_from(tried);
+        request.seams.dearest_ratio = Some(choice.usual_price);
         let voids = &self.ground.voids;
         let Verdict::Found(draft) = draft_once(self.placed, voids, &request)? else {
             return Ok(None);
         };
         tried.push(planes(&draft)?);
-        if seam_price(voids, &draft, &request)? >= choice.usual_price {
+        let is_seen = seam_price(voids, &draft, &request)? >= choice.usual_price;
+        if is_seen || draft.cuts.is_empty() {
             return Ok(None);
         }
         let ground = Ground {
