@@ -8,12 +8,8 @@ use crate::{
         access::void_access::{VoidAccess, access, accesses, required_sight_ratio},
         error::CutError,
         geometry::tree::CutTree,
-        hollowed::Void,
         ids::VoidId,
-        planner::{
-            score::{Scene, estimate_seam_price},
-            search::RankedPlan,
-        },
+        planner::{score::Scene, search::RankedPlan},
     },
     geom::Plane,
     mesh::move_off_vertices,
@@ -30,8 +26,9 @@ const ESTIMATED_AT_ONCE: usize = 8;
 /// Error of an estimate. A plan that seems to lack no more than this is measured.
 const ESTIMATE_ERROR_RATIO: f64 = 0.01;
 /// Distance of two planes at the middle of the body up to which they are much the same, in
-/// diagonals, and the cosine between their normals: 15°. What lies nearer loses and shows the same.
+/// diagonals. What lies nearer loses and shows the same.
 const SAME_PLACE_RATIO: f64 = 0.03;
+/// Cosine of the angle between two such planes up to which they are much the same: 15°.
 const SAME_LIE_COSINE: f64 = 0.966;
 /// Number of plans measured although they seem to lack more. Extra cuts start from the cleanest of
 /// them.
@@ -190,7 +187,7 @@ fn is_tried(scene: &Scene, plan: &RankedPlan) -> bool {
 /// Returns whether a plan's seams seem to cost as much as the request's dearest.
 fn is_dear(scene: &Scene, plan: &RankedPlan) -> bool {
     let prices = plan.planes.iter();
-    let price: f64 = prices.map(|plane| estimate_seam_price(scene, plane)).sum();
+    let price: f64 = prices.map(|plane| scene.estimate_seam_price(plane)).sum();
     let dearest = scene.request.seams.dearest_ratio;
     dearest.is_some_and(|dearest| price >= dearest)
 }
@@ -200,7 +197,7 @@ fn is_dear(scene: &Scene, plan: &RankedPlan) -> bool {
 /// Estimates the plans in their order, until their scores alone are no better. Then it measures the
 /// best of them.
 fn best_seen(scene: &Scene, plans: &[RankedPlan], weight: f64) -> Result<Attempt, CutError> {
-    let areas_mm2: Vec<f64> = scene.hollowed.voids.iter().map(area_mm2).collect();
+    let areas_mm2 = scene.wall_areas_mm2();
     let whole_mm2: f64 = areas_mm2.iter().sum();
     let estimate = |plan: &RankedPlan| {
         let mut voids = areas_mm2.iter().enumerate();
@@ -233,11 +230,6 @@ fn best_seen(scene: &Scene, plans: &[RankedPlan], weight: f64) -> Result<Attempt
     }
     let best = measured.into_iter().min_by(|a, b| a.0.total_cmp(&b.0));
     best.map_or_else(|| Attempt::new(scene, &[]), |(_, attempt)| Ok(attempt))
-}
-
-/// Returns the area of a ball's wall with the void's volume, but for a factor, mm².
-pub(crate) fn area_mm2(void: &Void) -> f64 {
-    void.mesh().signed_volume_mm3().abs().powf(2.0 / 3.0)
 }
 
 /// Returns the first of the plans with which every void can be cleaned, or else the cleanest.

@@ -52,12 +52,12 @@ const AMPLE_CONTACT_MM: f64 = 3.0;
 
 /// Weight of the narrowest opening. Washing out is the purpose of the cuts.
 const OPENING_WEIGHT: f64 = 1.0;
-/// Weight of the narrowest opening where seams are weighed: what it leaves unclean is weighed anyway.
+/// Weight of the narrowest opening where seams are weighed, as what it leaves unclean is anyway.
 const WEIGHED_OPENING_WEIGHT: f64 = 0.3;
 /// Weight of a joint without room for pins. Parts that cannot be aligned spoil the balance.
 const ROOM_WEIGHT: f64 = 2.0;
-/// The same where seams are weighed against what stays solid: a boss or a jig aligns the joint. With
-/// more, no neck is cut for want of a pin's room.
+/// The same where seams are weighed against what stays solid: a boss or a jig aligns the joint.
+/// With more, no neck is cut for want of a pin's room.
 const WEIGHED_ROOM_WEIGHT: f64 = 0.4;
 /// Weight of crumbs. They get lost or are glued wrongly.
 const SMALL_PART_WEIGHT: f64 = 2.0;
@@ -88,16 +88,7 @@ const OVERHANG_COSINE: f64 = std::f64::consts::FRAC_1_SQRT_2;
 /// Estimates the weighted terms of a plane's seam, without cutting anything; 0 if nobody looks at
 /// it. Takes some microseconds.
 pub(crate) fn estimate_seam_penalty(scene: &Scene, plane: &Plane) -> f64 {
-    SEEN_SEAM_WEIGHT * estimate_seam_price(scene, plane)
-}
-
-/// Estimates the price of a plane's seam and of its slant, in circles about the model of average
-/// weight; 0 if nobody looks at it.
-pub(crate) fn estimate_seam_price(scene: &Scene, plane: &Plane) -> f64 {
-    let look = scene.request.seams.skin.as_ref();
-    look.map_or(0.0, |skin| {
-        skin.estimate_ratio(plane) + skin.slant_price(plane)
-    })
+    SEEN_SEAM_WEIGHT * scene.estimate_seam_price(plane)
 }
 
 /// The effect of a cut on the body, apart from the voids it opens.

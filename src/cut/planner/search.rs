@@ -9,7 +9,6 @@ use crate::{
         geometry::opening::Opening,
         ids::VoidId,
         planner::{
-            attempt::area_mm2,
             cover::{MAX_VOIDS, VoidSet, covers_of_size, smallest_cover},
             family::{Candidate, candidates},
             score::{Burden, Scene, burden, estimate_seam_penalty, opening_penalty},
@@ -24,7 +23,7 @@ use crate::{
 /// met. The first suffices for most models, and the last takes seconds.
 const ROUNDS: [usize; 3] = [64, 512, 4096];
 /// The same where seams are weighed against what stays solid. Level planes are then 2 to 4 mm apart
-/// on a figure of 100 mm; with half as many, a neck between two of them is missed.
+/// on a figure of 100 mm. With half as many, a neck between two of them is missed.
 const WEIGHED_ROUNDS: [usize; 3] = [128, 512, 4096];
 
 /// Number of planes of the smallest covers that get a full score. Each takes two or three
@@ -151,7 +150,7 @@ fn needed_voids(scene: &Scene) -> VoidSet {
     if scene.request.seams.lack_weight.is_none() {
         return all;
     }
-    let areas_mm2: Vec<f64> = voids.iter().map(area_mm2).collect();
+    let areas_mm2 = scene.wall_areas_mm2();
     let largest_mm2 = areas_mm2.iter().copied().fold(0.0, f64::max);
     let is_needed = |void: &usize| {
         voids[*void].holds.is_some() || areas_mm2[*void] >= SMALL_VOID_RATIO * largest_mm2

@@ -19,7 +19,8 @@ const LEAST_TURN_COSINE: f64 = 0.866;
 /// with less, the noise of the samples decides.
 const STRAIGHT_WORTH_RATIO: f64 = 0.01;
 
-/// Turns each slanted cut level or upright about its middle, if the voids open and are seen as well.
+/// Turns each slanted cut level or upright about its middle, if the voids open and are seen as
+/// well.
 ///
 /// The family of planes holds few upright ones. So the best of it often lean a little, for nothing.
 pub(crate) fn straighten(scene: &Scene, attempt: Attempt) -> Result<Attempt, CutError> {
