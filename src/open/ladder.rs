@@ -2,7 +2,7 @@
 
 use super::aligned::count_unaligned;
 use super::bosses::{Bossed, add_bosses, pay_for_bosses};
-use super::clean::clean;
+use super::clean::{Start, clean};
 use super::ground::Ground;
 use super::plan::finish_once;
 use super::refused::unless_refused;
@@ -63,6 +63,7 @@ impl<'a> Ladder<'a> {
         let ground = Ground {
             resolver,
             voids,
+            draft: None,
             solid: Vec::new(),
             rounds: Vec::new(),
         };
@@ -243,10 +244,11 @@ impl<'a> Ladder<'a> {
         let Ground {
             mut resolver,
             voids,
+            draft,
             solid,
             mut rounds,
         } = ground.clone();
-        let cleaned = clean(&mut resolver, voids, request, is_lost)?;
+        let cleaned = clean(&mut resolver, Start { voids, draft }, request, is_lost)?;
         rounds.extend(cleaned.rounds);
         let plan = CutPlan {
             solid,
