@@ -71,6 +71,7 @@ pub use joints::jig::{Jig, PRESSED_MM, WIPING_ROOM_MM, jigs};
 pub use joints::label::Label;
 pub use joints::pin_shape::PinSite;
 pub use joints::rod::{Dowel, Rod, RodSource, rods};
+pub use pieces::cups::{HollowCup, find_hollow_cups};
 pub use pieces::part::{Part, parts, parts_and_faces};
 pub use pieces::pose::{Lie, Pose, apply};
 

@@ -19,6 +19,7 @@
 //! | What happens if no cut opens a void? | `Obstacle::Unopenable` of `cut/planner/search.rs` makes `open/clean.rs` keep the void solid and solve again |
 //! | What happens if a joint has no room for pins? | `climb` in `open/ladder.rs` tries each `Rung` of `run/policy.rs` |
 //! | Who holds the parts while glue sets if pins do not? | `jigs` in `cut/joints/jig.rs`, judged by `measure_jigs` in `verify/jigs.rs` |
+//! | Which ends of voids would catch resin in a vat, and what becomes of them? | `find_hollow_cups` in `cut/pieces/cups.rs` finds them in the best pose, `clean_and_drain` in `open/drain.rs` keeps them solid |
 //! | Where do the files of the parts come from? | `make` in `make/parts.rs` writes, reads back and corrects them |
 //! | Who says that a promise is kept, and within which limit? | `checks` in `verify/checks.rs`; each limit has its reason in `verify/limits.rs` |
 //! | Where does a number on the job sheet come from? | `sheet/from_run/checklist.rs` fills the `Checklist` that `page/job_sheet.rs` prints |

@@ -38,11 +38,13 @@ impl Start {
 }
 
 /// Bodies to be kept solid.
-struct Keep {
-    bodies: Vec<TriMesh>,
-    kept: Vec<KeptSolid>,
+pub struct Keep {
+    /// The bodies.
+    pub bodies: Vec<TriMesh>,
+    /// The voids that they lie in, and why.
+    pub kept: Vec<KeptSolid>,
     /// Margin around them, in minimum openings.
-    margin_openings: f64,
+    pub margin_openings: f64,
 }
 
 /// Drafts cuts with which every void can be cleaned by the printer's rule.
@@ -242,7 +244,7 @@ pub fn without_ends(
 
 /// Keeps bodies solid and solves again. If the goal cannot be met any more there are no voids, and
 /// the resolver is as it was.
-fn keep_solid(
+pub fn keep_solid(
     resolver: &mut Resolver,
     voids: &Voids,
     keep: Keep,

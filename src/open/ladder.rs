@@ -2,7 +2,8 @@
 
 use super::aligned::count_unaligned;
 use super::bosses::{Bossed, add_bosses, pay_for_bosses};
-use super::clean::{Start, clean};
+use super::clean::Start;
+use super::drain::clean_and_drain;
 use super::ground::Ground;
 use super::plan::finish_once;
 use super::refused::unless_refused;
@@ -248,7 +249,8 @@ impl<'a> Ladder<'a> {
             solid,
             mut rounds,
         } = ground.clone();
-        let cleaned = clean(&mut resolver, Start { voids, draft }, request, is_lost)?;
+        let start = Start { voids, draft };
+        let cleaned = clean_and_drain(&mut resolver, start, request, is_lost)?;
         rounds.extend(cleaned.rounds);
         let plan = CutPlan {
             solid,

@@ -1,13 +1,15 @@
 //! Open: the voids of a solution, the cuts and pins that open them, and what stays solid for both.
 //!
 //! [`climb`] tries the rungs of a ladder until every joint has its pins. Each rung draws voids
-//! ([`Resolver`]), plans cuts and keeps solid what cannot be cleaned, and then looks for room for
-//! pins in bosses. Whatever is kept solid is solved for again, so that the rest stays optimal.
+//! ([`Resolver`]), plans cuts and keeps solid what cannot be cleaned or drained. Then it looks for
+//! room for pins in bosses. Whatever is kept solid is solved for again, so that the rest stays
+//! optimal.
 
 mod aligned;
 mod bosses;
 mod clean;
 mod defect;
+mod drain;
 mod failed;
 mod ground;
 mod ladder;

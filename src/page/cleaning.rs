@@ -5,7 +5,7 @@ use maud::{Markup, html};
 use super::fields::residue;
 use crate::base::numbers::{measured, quantity};
 use crate::base::units::MM3_PER_CM3;
-use crate::sheet::{Checklist, VoidRow, checks_of_void};
+use crate::sheet::{Checklist, Process, VoidRow, checks_of_void};
 use crate::verify::{Check, CheckKind};
 
 /// Least volume kept solid that is reported, mm³. Less changes no figure that is shown: other
@@ -64,7 +64,7 @@ pub(super) fn cost(sheet: &Checklist) -> Markup {
     html! {
         @if let Some(before) = proof.value_before_cleaning.filter(|_| is_reported) {
             p {
-                "So that every void can be cleaned" (by_plan(sheet)) ", " (quantity(proof.kept_solid_mm3 / MM3_PER_CM3, "cm³"))
+                (aim(sheet)) (by_plan(sheet)) ", " (quantity(proof.kept_solid_mm3 / MM3_PER_CM3, "cm³"))
                 " that could have been emptied stays solid: the " (name) " is " (quantity(proof.value, unit)) " instead of "
                 (quantity(before, unit)) "."
             }
@@ -98,6 +98,14 @@ pub(super) fn cost(sheet: &Checklist) -> Markup {
                 }
             }
         }
+    }
+}
+
+/// Words what ends of voids are kept solid for.
+fn aim(sheet: &Checklist) -> &'static str {
+    match sheet.printer.process {
+        Process::Sla => "So that every void drains and can be cleaned",
+        _ => "So that every void can be cleaned",
     }
 }
 

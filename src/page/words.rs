@@ -2,7 +2,9 @@
 
 use crate::base::numbers::{coordinates, measured, number, quantity, quantity_or_dash};
 use crate::goal::GoalKind;
-use crate::sheet::{Certificate, Checklist, GoalRow, ObjectiveName, Taken, Taker, WallRow};
+use crate::sheet::{
+    Certificate, Checklist, GoalRow, ObjectiveName, Process, Taken, Taker, WallRow,
+};
 use crate::verify::{CONTACT_LIMIT_MM, Figures, SpinFacts};
 
 /// Relative difference up to which the ordered and the printed wall count as equal.
@@ -173,7 +175,7 @@ pub fn certificate(sheet: &Checklist) -> Vec<String> {
         format!(
             "It is proved that no hollowing of this model with a wall of {}{}{} has a {} {better} than {}.",
             quantity(sheet.wall.required_mm, "mm"),
-            solid_places(proof),
+            solid_places(sheet),
             if is_top {
                 " and its centre of mass at this height"
             } else {
@@ -206,7 +208,12 @@ pub fn shortfall(sheet: &Checklist) -> Option<String> {
     let (figure, unit) = (sheet.certificate.figure, sheet.certificate.figure.unit());
     let words = |taken: &Taken| {
         let what = match taken.by {
-            Taker::Cleaning => "voids that stay solid because they could not be cleaned",
+            Taker::Cleaning => match sheet.printer.process {
+                Process::Sla => {
+                    "voids that stay solid because they could not be drained or cleaned"
+                }
+                _ => "voids that stay solid because they could not be cleaned",
+            },
             Taker::Plan => "what the plan keeps solid",
             Taker::Bosses => "bosses around pins",
             Taker::Making => "cuts, pins and rounding",
@@ -241,13 +248,15 @@ pub fn wall(wall: &WallRow) -> String {
 }
 
 /// Words what the proof assumes solid besides the wall; empty if nothing.
-fn solid_places(proof: &Certificate) -> String {
+fn solid_places(sheet: &Checklist) -> String {
+    let proof = &sheet.certificate;
+    let unclean = match sheet.printer.process {
+        Process::Sla => "where voids could not be drained or cleaned",
+        _ => "where voids could not be cleaned",
+    };
     let by_plan = proof.cleaning_rounds.iter().any(|round| round.by_plan);
     let reasons = [
-        (
-            proof.kept_solid_mm3 > 0.0,
-            "where voids could not be cleaned",
-        ),
+        (proof.kept_solid_mm3 > 0.0, unclean),
         (by_plan, "where the plan keeps it so"),
         (proof.bosses_mm3 > 0.0, "in bosses around pins"),
     ];

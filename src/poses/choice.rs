@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::columns::Columns;
-use super::cups::cup_volume_mm3;
+use super::cups::{LEAST_CUP_MM3, cup_volume_mm3};
 use super::directions::{around, of_cube, on_feet, spread};
 use super::shape::Shape;
 use super::support::{Support, SupportRule};
@@ -60,11 +60,13 @@ const UNSEEN_MM: f64 = 0.05;
 /// Price of a millimetre of height, mm³: it decides between equals only.
 const HEIGHT_MM2: f64 = 0.05;
 
-/// Volume of a cup from which it breaks a rule, mm³. A smaller one, such as a socket or a letter,
-/// drains and causes no suction. The judge allows twice as much, for another grid.
-const LEAST_CUP_MM3: f64 = 75.0;
-/// Price of a small cup, mm² a mm³.
+/// Price of a cup, mm² a mm³.
 const CUP_PER_MM: f64 = 1.0;
+/// Angles by which the best poses are turned if they still make cups, degrees. Often only few
+/// poses make none.
+const CUP_TURNS_DEG: [f64; 4] = [10.0, 5.0, 2.5, 1.0];
+/// The faults of a pose that makes a cup.
+const CUP_FAULTS: u8 = 2;
 /// Angles by which cut faces lean from the platform in a vat, degrees.
 const TILTS_DEG: [f64; 4] = [15.0, 30.0, 45.0, 60.0];
 /// Least angle between a flat face and the platform of a vat, as a cosine: 10°. A flatter one is
@@ -116,7 +118,18 @@ pub fn rank_poses(
     }
     let ranked = judge.rank(&directions, coarse_mm)?;
     let mut best: Vec<Priced> = judge.rank(&ups(&ranked[..ranked.len().min(KEPT)]), fine_mm)?;
-    for turn_deg in TURNS_DEG {
+    let has_cup = |best: &[Priced]| best.first().is_some_and(|pose| pose.faults >= CUP_FAULTS);
+    let is_vat = matches!(rules.want, Want::NoCup(_));
+    let mut turns_deg = TURNS_DEG.to_vec();
+    if is_vat && has_cup(&best) {
+        // A coarse grid does not see every cup, and sees some that are none.
+        best.extend(judge.rank(&ups(&ranked[ranked.len().min(KEPT)..]), fine_mm)?);
+        best.sort_by(order);
+        if has_cup(&best) {
+            turns_deg = CUP_TURNS_DEG.to_vec();
+        }
+    }
+    for turn_deg in turns_deg {
         let turned: Vec<Vector> = best
             .iter()
             .take(KEPT / 2)
@@ -191,7 +204,7 @@ impl Judge<'_> {
                     .any(|face| face.dot(up).abs() > LEVEL_COSINE);
                 let price =
                     by_resin(&support, &columns) + self.hanging_pegs(up) + CUP_PER_MM * cup_mm3;
-                (2 * u8::from(is_cup) + u8::from(is_level), price)
+                (CUP_FAULTS * u8::from(is_cup) + u8::from(is_level), price)
             }
         };
         Priced {

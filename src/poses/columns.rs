@@ -2,6 +2,8 @@
 
 use super::shape::Shape;
 use crate::geom::{Matrix, Point, Vector, orthonormal_basis};
+use crate::mesh::TriMesh;
+use crate::mesh::primitives::cuboid;
 
 /// Share of the pitch by which the grid is shifted against the part's box, in x and y. It keeps
 /// lines off edges that run along the axes.
@@ -33,6 +35,10 @@ pub struct Columns {
     pub(super) pitch_mm: f64,
     /// Height of the part, mm.
     pub(super) height_mm: f64,
+    /// The rotation from the part's frame to the printer's.
+    turn: Matrix,
+    /// The point of the first line on the plate, printer's frame, mm.
+    origin: Point,
     lines: Lines,
 }
 
@@ -97,6 +103,8 @@ impl Columns {
             shape: grid.shape,
             pitch_mm,
             height_mm: size.z,
+            turn,
+            origin: Point::new(grid.low[0], grid.low[1], low.z),
             lines: Lines::between(hits, width * depth),
         }
     }
@@ -145,6 +153,15 @@ impl Columns {
         }
         let most = counts.into_iter().max().unwrap_or(0);
         f64::from(most) * self.pitch_mm * self.pitch_mm
+    }
+
+    /// Returns a closed box around a stretch of a line, as wide as the grid's cells, part's frame.
+    pub(super) fn cell(&self, line: usize, [from_mm, to_mm]: [f64; 2]) -> TriMesh {
+        let [x, y] = [line % self.shape[0], line / self.shape[0]].map(|index| index as f64);
+        let aside = Vector::new(0.5, 0.5, 0.0) * self.pitch_mm;
+        let at = |z_mm: f64| self.origin + Vector::new(x * self.pitch_mm, y * self.pitch_mm, z_mm);
+        let cell = cuboid(&(at(from_mm) - aside), &(at(to_mm) + aside));
+        cell.map_vertices(|p| self.turn.transpose() * p)
     }
 
     /// Returns the number of lines.

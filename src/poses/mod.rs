@@ -6,7 +6,7 @@
 //! | `shape` | a part's surface, as far as it decides the pose |
 //! | `columns` | the gaps and the material along the vertical lines of a grid |
 //! | `support` | the support under overhangs: its volume, its mass and what it touches |
-//! | `cups` | the resin that a part, the platform and the film enclose while it is printed |
+//! | `cups` | the places where a part, the platform and the film enclose resin |
 //! | `directions` | the directions that may point up |
 //! | `choice` | the price of a pose, and the cheapest of all directions |
 
@@ -21,6 +21,6 @@ mod tests;
 
 pub use choice::{PoseRules, Want, rank_poses};
 pub use columns::Columns;
-pub use cups::cup_volume_mm3;
+pub use cups::{Cup, LEAST_CUP_MM3, cup_volume_mm3, find_cups};
 pub use shape::{Peg, Shape, Side};
 pub use support::{Support, SupportRule, find_overhangs};

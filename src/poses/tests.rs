@@ -2,7 +2,7 @@
 
 use super::choice::{PoseRules, Want, rank_poses};
 use super::columns::Columns;
-use super::cups::cup_volume_mm3;
+use super::cups::{cup_volume_mm3, find_cups};
 use super::shape::{Peg, Shape, Side};
 use super::support::{Support, SupportRule, find_overhangs};
 use crate::base::watch::Watch;
@@ -95,6 +95,45 @@ fn a_cup_is_open_toward_the_film_or_flat_on_the_platform_but_not_when_it_leans()
     // On its side, its floor is at the same level as its mouth's lower edge.
     assert!(enclosed(Vector::y()) < 30.0);
     assert!(enclosed(Vector::new(0.0, 0.8, 0.6)) > 300.0);
+}
+
+#[test]
+fn a_cup_is_found_with_its_floor_and_its_inside() {
+    let (mesh, other) = (
+        cup(),
+        cup().map_vertices(|p| p + Vector::new(40.0, 0.0, 3.0)),
+    );
+    let both = mesh.joined(&other);
+    let columns = Columns::of(&Shape::plain(&both), &Vector::z(), 0.5);
+    let cups = find_cups(&columns);
+    assert_eq!(cups.len(), 2, "{cups:?}");
+    let sum: f64 = cups.iter().map(|cup| cup.volume_mm3).sum();
+    assert!((sum - cup_volume_mm3(&columns)).abs() < 1e-6);
+    for cup in &cups {
+        assert!((cup.body.signed_volume_mm3() - cup.volume_mm3).abs() < 1e-6);
+        let floor = both.corners(cup.floor.unwrap() as usize);
+        let inside = cup.body.aabb();
+        assert!(floor.iter().all(|p| (p.z - inside.min.z).abs() < 1e-9));
+        // A line more or less on either side of the 10 by 10 by 12 mm.
+        let size = inside.size();
+        assert!(
+            (size.x - 10.0).abs() < 1.0 && (size.y - 10.0).abs() < 1.0,
+            "{size}"
+        );
+        assert!((size.z - 12.0).abs() < 1e-9, "{size}");
+    }
+}
+
+#[test]
+fn cups_are_found_where_they_are_in_a_leaning_part() {
+    let mesh = cup();
+    let up = Vector::new(0.0, 0.3, 1.0).normalize();
+    let cups = find_cups(&Columns::of(&Shape::plain(&mesh), &up, 0.25));
+    let inside = cups[0].body.aabb();
+    // The hollow is x and y from 5 to 15 and z from 8; a cell's corner may stick out of it.
+    assert!(inside.min.x > 4.7 && inside.max.x < 15.3, "{inside:?}");
+    assert!(inside.min.y > 4.7 && inside.max.y < 15.3, "{inside:?}");
+    assert!(inside.min.z > 7.7, "{inside:?}");
 }
 
 #[test]

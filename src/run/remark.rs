@@ -226,6 +226,11 @@ pub enum KeptCause {
     Unopenable,
     /// It cannot be cleaned.
     Uncleanable(UncleanCause),
+    /// It encloses resin while its part is printed in a vat.
+    Cup {
+        /// Volume of that resin, mm³.
+        volume_mm3: f64,
+    },
 }
 
 impl fmt::Display for KeptCause {
@@ -235,6 +240,10 @@ impl fmt::Display for KeptCause {
             Self::Ordered => f.write_str("the plan keeps it solid"),
             Self::Unopenable => f.write_str("no cut opens it wide enough"),
             Self::Uncleanable(cause) => cause.fmt(f),
+            Self::Cup { volume_mm3 } => write!(
+                f,
+                "an end that would catch {volume_mm3:.0} mm³ of resin while it is printed, a suction cup"
+            ),
         }
     }
 }

@@ -4,7 +4,9 @@
 //! * `rejoin`: pieces that a cut separates needlessly, joined again.
 //! * `pose`: the position of a part in the printer.
 //! * `part`: the finished parts with pins, sockets and labels.
+//! * `cups`: ends of voids that enclose resin in a vat.
 
+pub(crate) mod cups;
 pub(crate) mod part;
 pub(crate) mod pose;
 pub(crate) mod rejoin;

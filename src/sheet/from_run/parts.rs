@@ -7,7 +7,7 @@ use super::promise::{mark, pin, socket};
 use super::support::{Surfaces, support_row};
 use crate::base::digest::sha256_hex;
 use crate::geom::Vector;
-use crate::run::WrittenPart;
+use crate::run::{Placed, WrittenPart};
 use crate::sheet::{PartRow, part_picture_file};
 use crate::verify::{Fingerprint, PartFacts, Peg};
 
@@ -21,7 +21,7 @@ const LEVEL_COSINE: f64 = 0.9999;
 pub fn part_rows(facts: &Facts) -> Vec<PartRow> {
     let halves = halves(facts.placed);
     let surfaces = Surfaces::of(facts.made);
-    let is_vat = facts.placed.shop.printer.process.as_deref() == Some(VAT);
+    let is_vat = is_printed_in_vat(facts.placed);
     let wall_mm = facts.placed.minimum_wall_mm();
     let parts = facts.made.parts.iter().zip(&facts.judgement.parts);
     let row = |(written, measured): (&WrittenPart, &PartFacts)| {
@@ -60,6 +60,11 @@ pub fn part_rows(facts: &Facts) -> Vec<PartRow> {
         }
     };
     parts.map(row).collect()
+}
+
+/// Returns whether parts are printed in a vat, against a film.
+pub fn is_printed_in_vat(placed: &Placed) -> bool {
+    placed.shop.printer.process.as_deref() == Some(VAT)
 }
 
 /// Returns the cuts of a part through which its open hollow drains: those that open a void of it.

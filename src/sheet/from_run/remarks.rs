@@ -4,6 +4,7 @@ use super::facts::Facts;
 use super::foot::flat_foot;
 use super::hardware::shallow_axle;
 use super::joints::{is_shown_at_its_step, warn_of_joints};
+use super::parts::is_printed_in_vat;
 use super::printer::{enlargement, scale_note};
 use crate::base::numbers::measured;
 use crate::base::units::MM3_PER_CM3;
@@ -56,10 +57,11 @@ pub fn warnings(facts: &Facts, foot: Option<&FootRow>) -> Vec<String> {
 /// Words the volume that stays solid for cleaning; `None` if there is next to none.
 fn left_solid(facts: &Facts) -> Option<String> {
     let refused = facts.made.refused_mm3;
-    let why = if facts.made.cleaning.iter().any(|round| round.by_plan) {
-        "because it could not be cleaned or because the plan says so"
-    } else {
-        "because it could not be cleaned"
+    let by_plan = facts.made.cleaning.iter().any(|round| round.by_plan);
+    let why = match (is_printed_in_vat(facts.placed), by_plan) {
+        (false, false) => "because it could not be cleaned",
+        (true, false) => "because it could not be drained or cleaned",
+        (_, true) => "because it could not be cleaned or because the plan says so",
     };
     (refused >= LEAST_REPORTED_MM3).then(|| {
         format!(
