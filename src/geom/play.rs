@@ -7,6 +7,9 @@
 
 use serde::{Deserialize, Serialize};
 
+mod slices;
+
+use self::slices::slices_between;
 use super::hull::convex_hull;
 
 /// A position in the plane, mm.
@@ -175,19 +178,12 @@ impl Seat {
         if ends.iter().any(is_free) {
             return None;
         }
-        let mut motions = Vec::new();
-        for index in 0..=TURNS {
-            let turn = ends[0] + (ends[1] - ends[0]) * index as f64 / TURNS as f64;
-            // Rounding may leave nothing at the very ends.
-            if !body.clipped(turn).is_empty() {
-                let shifts = body.shifts(turn)?;
-                motions.extend(shifts.into_iter().map(|shift| Motion { shift, turn }));
-            }
-        }
+        let motions = body.motions_between(ends)?;
         (!motions.is_empty()).then_some(Self { motions })
     }
 
-    /// Returns the play between two seated bodies about one middle. The step is right to 0.1 %.
+    /// Returns the play between two seated bodies about one middle. The step is right to 0.1 % and a
+    /// micrometre.
     pub fn play_between(&self, other: &Self, middle: Spot, rim: &[Spot]) -> Play {
         let apart = |spot: &Spot| {
             let along = |side: usize| {
@@ -260,8 +256,23 @@ impl Between {
     /// it, or a shift has no end.
     fn shifts(&self, turn: f64) -> Option<Vec<Way>> {
         let shifts = self.clipped(turn);
-        let ends = |shift: &Way| shift.amax() < FARTHEST_MM * (1.0 - f64::EPSILON.sqrt());
-        (!shifts.is_empty() && shifts.iter().all(ends)).then_some(shifts)
+        (!shifts.is_empty() && shifts.iter().all(has_end)).then_some(shifts)
+    }
+
+    /// Returns motions of which every free motion between two turns is a mean, to a micrometre;
+    /// `None` if a shift has no end.
+    fn motions_between(&self, ends: [f64; 2]) -> Option<Vec<Motion>> {
+        let slices = slices_between(ends, TURNS, |turn| self.clipped(turn));
+        let all = slices.iter().flat_map(|slice| {
+            let turn = slice.turn;
+            slice
+                .shifts
+                .iter()
+                .map(move |&shift| Motion { shift, turn })
+        });
+        let motions: Vec<Motion> = all.collect();
+        let has_end = |motion: &Motion| has_end(&motion.shift);
+        motions.iter().all(has_end).then_some(motions)
     }
 
     fn clipped(&self, turn: f64) -> Vec<Way> {
@@ -335,6 +346,11 @@ impl Between {
         }
         Some(found)
     }
+}
+
+/// Returns true if a shift ends before the largest that is looked at.
+fn has_end(shift: &Way) -> bool {
+    shift.amax() < FARTHEST_MM * (1.0 - f64::EPSILON.sqrt())
 }
 
 /// Returns the part of a convex polygon where `excess` is not positive.
@@ -500,6 +516,58 @@ mod tests {
             room_mm: 0.1,
         });
         assert_eq!(Seat::pressed(&floor, &press(0.03), middle), None);
+    }
+
+    #[test]
+    fn no_motion_that_a_cradle_allows_reaches_beyond_those_of_its_seat() {
+        // Walls at odd slopes, near and far: the free motions have corners between any even turns.
+        let stops: Vec<Stop> = (0..23)
+            .map(|index| {
+                let share = |step: f64| (f64::from(index) * step).fract();
+                let turn = std::f64::consts::PI * (1.05 + 0.9 * share(0.754_877_6));
+                Stop {
+                    at: Spot::new(16.0 * turn.cos(), 9.0 * turn.sin()),
+                    normal: Way::new(turn.cos(), turn.sin()),
+                    room_mm: 0.1 + 0.2 * share(0.569_840_2),
+                }
+            })
+            .collect();
+        let press = Stop {
+            at: Spot::new(0.0, 9.0),
+            normal: Way::new(0.0, -1.0),
+            room_mm: 0.03,
+        };
+        let middle = Spot::origin();
+        let seat = Seat::pressed(&stops, &press, middle).unwrap();
+        let free = Between::new(&stops, &[], middle.coords);
+        let depth = |motion: &Motion| press.normal.dot(&motion.of(&press.at));
+        let deepest = seat.motions.iter().map(depth).fold(0.0, f64::max);
+        let all = (-20_000..20_000).flat_map(|index| {
+            let turn = f64::from(index) * 5e-6;
+            let shifts = free.clipped(turn).into_iter();
+            shifts.map(move |shift| Motion { shift, turn })
+        });
+        let all: Vec<Motion> = all
+            .filter(|m| depth(m) >= deepest - press.room_mm)
+            .collect();
+        let mut largest_mm: f64 = 0.0;
+        for spot in rectangle(14.0, 8.0) {
+            for side in 0..WAYS {
+                let (sin, cos) = (std::f64::consts::TAU * side as f64 / WAYS as f64).sin_cos();
+                let reach = |motions: &[Motion]| {
+                    let moved = motions.iter().map(|m| m.of(&spot).dot(&Way::new(cos, sin)));
+                    moved.fold(f64::NEG_INFINITY, f64::max)
+                };
+                largest_mm = largest_mm.max(reach(&all));
+                assert!(
+                    reach(&all) <= reach(&seat.motions) + 2.0 * slices::STRAIGHT_MM,
+                    "{} {}",
+                    reach(&all),
+                    reach(&seat.motions)
+                );
+            }
+        }
+        assert!(largest_mm > 0.05, "{largest_mm}");
     }
 
     #[test]

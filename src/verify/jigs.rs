@@ -13,6 +13,10 @@ use crate::mesh::TriMesh;
 const REACH_MM: f64 = 1.0;
 /// Distance of the points on the outside that a jig may stop, mm.
 const STEP_MM: f64 = 0.15;
+/// Distance of the sections of the outside in which more such points lie, mm. Points along the sides
+/// of triangles alone miss places that a jig meets first: parts then seem to sink deeper into it.
+/// At 0.1 mm a step of 0.33 mm is stated 3 % too small, at 0.25 mm 11 %.
+const SECTION_MM: f64 = 0.1;
 /// Least part of a stop's direction in the plane of the joint: others hold nothing there.
 const IN_PLANE_RATIO: f64 = 0.9;
 /// Distance of the points on the outside from the ends of the ribs that they touch, mm.
@@ -206,7 +210,9 @@ impl<'a> Bench<'a> {
         let mut stops = Vec::new();
         for piece in slab {
             watch.check()?;
-            stops.extend(along(&piece).into_iter().filter_map(|p| self.stop(&p)));
+            let inside = sections(&piece, |p| side * plane.distance(p));
+            let points = along(&piece).into_iter().chain(inside);
+            stops.extend(points.filter_map(|p| self.stop(&p)));
         }
         Ok(stops)
     }
@@ -232,12 +238,39 @@ impl<'a> Bench<'a> {
 /// Returns points along the sides of a polygon, [`STEP_MM`] apart at most.
 fn along(polygon: &[Point]) -> Vec<Point> {
     let next = polygon.iter().cycle().skip(1);
-    let side = |(a, b): (&Point, &Point)| {
-        let (from, way) = (*a, b - a);
-        let count = (way.norm() / STEP_MM).ceil().max(1.0);
-        (0..count as usize).map(move |step| from + way * (step as f64 / count))
+    let sides = polygon.iter().zip(next);
+    sides.flat_map(|(a, b)| spaced([a, b])).collect()
+}
+
+/// Returns points from one to before another, [`STEP_MM`] apart at most.
+fn spaced([from, to]: [&Point; 2]) -> impl Iterator<Item = Point> + use<> {
+    let (from, way) = (*from, to - from);
+    let count = (way.norm() / STEP_MM).ceil().max(1.0);
+    (0..count as usize).map(move |step| from + way * (step as f64 / count))
+}
+
+/// Returns points of a convex polygon in its sections at whole multiples of [`SECTION_MM`] of a
+/// linear height, [`STEP_MM`] apart at most.
+fn sections(polygon: &[Point], height: impl Fn(&Point) -> f64) -> Vec<Point> {
+    let heights = polygon.iter().map(|p| height(p) / SECTION_MM);
+    let ends = heights.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], level| {
+        [low.min(level), high.max(level)]
+    });
+    let levels = ends[0].ceil() as i64..=ends[1].floor() as i64;
+    let section = |level: i64| {
+        let over = |p: &Point| height(p) - level as f64 * SECTION_MM;
+        let next = polygon.iter().cycle().skip(1);
+        let crossings = polygon.iter().zip(next).filter_map(|(a, b)| {
+            let [at_a, at_b] = [over(a), over(b)];
+            ((at_a < 0.0) != (at_b < 0.0)).then(|| a + (b - a) * (at_a / (at_a - at_b)))
+        });
+        let ends: Vec<Point> = crossings.collect();
+        let sides = ends.windows(2);
+        sides
+            .flat_map(|ends| spaced([&ends[0], &ends[1]]))
+            .collect::<Vec<Point>>()
     };
-    polygon.iter().zip(next).flat_map(side).collect()
+    levels.flat_map(section).collect()
 }
 
 /// Returns the part of a convex polygon where `excess` is not positive.

@@ -15,6 +15,11 @@ use crate::{
 
 /// Hidden share of a piece above which the finer test is skipped, because it cannot pass.
 const HIDDEN_RATIO: f64 = 0.15;
+/// Number of viewpoints along the rim of a mouth for each one across it. In a long, narrow mouth few
+/// places of a grid have room for the tool.
+const ALONG_RATIO: usize = 4;
+/// Excess of their distance from the rim, so that rounding drops none of them.
+const ROOM_SLACK_RATIO: f64 = 1e-9;
 /// Share of a line of sight that is tested. The rest would hit the wall at its end.
 const TESTED_LINE_RATIO: f64 = 0.999;
 
@@ -32,6 +37,8 @@ pub(crate) struct SightTest<'a> {
     pub(super) reach_mm: f64,
     /// Hidden share of a piece above which the finer test is skipped.
     pub(super) max_hidden_ratio: f64,
+    /// True if viewpoints follow the rims of the mouths, too.
+    follows_rims: bool,
     pub(super) watch: &'a Watch,
 }
 
@@ -44,15 +51,17 @@ impl<'a> SightTest<'a> {
             tool_radius_mm,
             reach_mm,
             max_hidden_ratio: HIDDEN_RATIO,
+            follows_rims: false,
             watch: &request.watch,
         }
     }
 
-    /// Returns the same test, but with the finer viewpoints for every piece. It is slower, and
-    /// meant for the numbers reported with a plan.
+    /// Returns the same test, but with the finer viewpoints for every piece, and with some along the
+    /// rims. It is slower, and meant for the numbers reported with a plan.
     pub(crate) fn thorough(self) -> Self {
         Self {
             max_hidden_ratio: 1.0,
+            follows_rims: true,
             ..self
         }
     }
@@ -76,12 +85,28 @@ impl<'a> SightTest<'a> {
             .count();
         let mut eyes: Vec<Eye> = middles.take(wide.max(1)).collect();
         for ((cut, outline), _) in &discs[..wide] {
-            let places = grid_over(outline, count)
+            let mut places = grid_over(outline, count);
+            if self.follows_rims {
+                places.extend(self.beside_rim(outline, ALONG_RATIO * count));
+            }
+            let places = places
                 .into_iter()
                 .filter(|at| is_wide(outline.signed_distance(at)));
             eyes.extend(places.map(|at| self.eye(*cut, &at)));
         }
         eyes
+    }
+
+    /// Returns places as far from the rim of a mouth as the tool needs, evenly along it, on either
+    /// side.
+    fn beside_rim(&self, mouth: &Outline, count: usize) -> Vec<Point2> {
+        let room_mm = self.tool_radius_mm * (1.0 + ROOM_SLACK_RATIO);
+        let beside = |[foot, along]: [Point2; 2]| {
+            let way = along - foot;
+            let normal = nalgebra::Vector2::new(-way.y, way.x) * room_mm;
+            [foot + normal, foot - normal]
+        };
+        mouth.walk(count).into_iter().flat_map(beside).collect()
     }
 
     fn eye(&self, cut: usize, at: &Point2) -> Eye {

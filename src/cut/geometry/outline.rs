@@ -36,6 +36,25 @@ impl Outline {
         self.segments.iter().flatten().copied()
     }
 
+    /// Returns evenly spaced points along the boundary, each with the point 1 mm farther along its
+    /// segment.
+    pub(crate) fn walk(&self, count: usize) -> Vec<[Point2; 2]> {
+        let lengths = self.segments.iter().map(|[a, b]| (b - a).norm());
+        let spacing = lengths.sum::<f64>() / count.max(1) as f64;
+        let (mut places, mut walked, mut next) = (Vec::new(), 0.0, 0.0);
+        for [a, b] in &self.segments {
+            let length = (b - a).norm();
+            let along = (b - a) / length.max(f64::MIN_POSITIVE);
+            while next < walked + length {
+                let at = a + along * (next - walked);
+                places.push([at, at + along]);
+                next += spacing;
+            }
+            walked += length;
+        }
+        places
+    }
+
     /// Returns the distance to the boundary, mm; negative outside.
     pub(crate) fn signed_distance(&self, p: &Point2) -> f64 {
         let (mut inside, mut least) = (false, f64::INFINITY);
@@ -212,6 +231,17 @@ mod tests {
         // The disc in a corner touches both outer sides (r from each) and the inner corner. From
         // √2·(1 − r) = r follows r = 2 − √2. That is a little more than half the width.
         assert!((disc.radius_mm - (2.0 - 2f64.sqrt())).abs() < DISC_PRECISION_RATIO * 14.2);
+    }
+
+    #[test]
+    fn a_walk_around_a_square_stops_evenly_on_all_its_sides() {
+        let walk = Outline::new(rectangle([0.0, 4.0], [0.0, 4.0])).walk(16);
+        assert_eq!(walk.len(), 16);
+        assert!(walk.windows(2).all(|pair| {
+            let distance = (pair[1][0] - pair[0][0]).norm();
+            (distance - 1.0).abs() < 1e-9
+        }));
+        assert!(Outline::default().walk(16).is_empty());
     }
 
     #[test]

@@ -101,7 +101,7 @@ pub(crate) fn best_pairs(sites: &[Site], gap_mm: f64, view: &BossView) -> Vec<Pa
     pairs
 }
 
-/// Finds pairs of sites that leave every void open, with few checks. A site that closes a void
+/// Finds sets of sites that leave every void open, with few checks. A site that closes a void
 /// alone does so in every pair; its neighbours most likely do too.
 pub(crate) struct OpenPairs<'a> {
     view: &'a BossView<'a>,
@@ -128,19 +128,21 @@ impl<'a> OpenPairs<'a> {
         self.checks_left == 0
     }
 
-    /// Returns true if bosses at both sites leave every void open. Sites close to one that closes a
-    /// void count as closing.
-    pub(crate) fn leaves_open(&mut self, pair: [usize; 2]) -> Result<bool, CutError> {
-        if pair.iter().any(|&site| self.is_near_closing(site)) {
+    /// Returns true if bosses at all these sites leave every void open. Sites close to one that
+    /// closes a void count as closing.
+    pub(crate) fn leaves_open(&mut self, sites: &[usize]) -> Result<bool, CutError> {
+        if sites.iter().any(|&site| self.is_near_closing(site)) {
             return Ok(false);
         }
-        for site in pair {
+        for &site in sites {
             if self.open_alone[site].is_none() {
                 self.open_alone[site] = Some(self.check_open(&[site])?);
             }
         }
-        Ok(pair.iter().all(|&site| self.open_alone[site] == Some(true))
-            && self.check_open(&pair)?)
+        Ok(sites
+            .iter()
+            .all(|&site| self.open_alone[site] == Some(true))
+            && self.check_open(sites)?)
     }
 
     fn is_near_closing(&self, site: usize) -> bool {
@@ -232,11 +234,11 @@ mod tests {
                 (9.0, 1.0, 0.0, false),
             ]);
             let mut open = OpenPairs::new(view, &sites, 2.0);
-            assert!(!open.leaves_open([0, 2]).unwrap());
+            assert!(!open.leaves_open(&[0, 2]).unwrap());
             let checks_left = open.checks_left;
-            assert!(!open.leaves_open([1, 3]).unwrap(), "beside what closes");
+            assert!(!open.leaves_open(&[1, 3]).unwrap(), "beside what closes");
             assert_eq!(open.checks_left, checks_left);
-            assert!(open.leaves_open([2, 3]).unwrap());
+            assert!(open.leaves_open(&[2, 3]).unwrap());
         });
     }
 }

@@ -15,7 +15,8 @@ use crate::{
         joints::{
             boss::{Boss, BossRequest, JointName},
             boss_maker::{BossMaker, MARGIN_MM, PinAxis},
-            boss_places::{Cost, OpenPairs, Site, best_pairs, grid},
+            boss_places::{Cost, OpenPairs, Site, grid},
+            boss_sets::{SiteSet, held_sets, pattern_at},
             boss_view::BossView,
             face::Face,
             pin_shape::PinSite,
@@ -37,8 +38,8 @@ use rayon::prelude::*;
 /// Largest number of places that are priced.
 const PRICED_PLACES: usize = 300;
 
-/// Places pins with bosses in every joint without two pins that fit one way only. If pins are
-/// ordered, returns those of joints in which one stands in too little material.
+/// Places pins with bosses in every joint without pins that fit one way only and hold it. If pins
+/// are ordered, returns those of joints in which one stands in too little material.
 ///
 /// A joint without a place for them gets none. If no place leaves every void open, one is taken
 /// that closes some; what it closes must be kept solid.
@@ -304,19 +305,15 @@ impl Search<'_> {
             any: None,
             is_confused: false,
         };
-        for pair in best_pairs(&sites, face.gap_mm(&sizes[0]), &self.view) {
-            let [i, j] = pair.sites;
-            let pattern = [(sites[i].at, sizes[0]), (sites[j].at, sizes[1])];
-            if !face.is_held_by(&pattern) {
-                continue;
-            }
+        for SiteSet { sites: set, cost } in held_sets(face, &sites, sizes, &self.view) {
+            let pattern = pattern_at(&sites, &set, sizes);
             if is_confused(&face.end_views(&pattern), others) {
                 found.is_confused = true;
                 continue;
             }
-            let placed = || Some((pair.cost, face.placement(&pattern, true)));
+            let placed = || Some((cost, face.placement(&pattern, true)));
             found.any = found.any.or_else(placed);
-            if open.leaves_open(pair.sites)? {
+            if open.leaves_open(&set)? {
                 found.open = placed();
             }
             if found.open.is_some() || open.is_exhausted() {

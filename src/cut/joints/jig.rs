@@ -36,11 +36,13 @@ pub const WIPING_ROOM_MM: f64 = 4.0;
 /// Distances of the ribs' faces from the joint, mm: the ribs do not bend.
 const RIBS_MM: [f64; 2] = [WIPING_ROOM_MM, WIPING_ROOM_MM + 4.0];
 
-/// More ribs, for joints that the usual ones do not hold: thicker ones, and ones farther away.
-const EXTRA_RIBS_MM: [[f64; 2]; 3] = [
+/// More ribs, for joints that the usual ones do not hold: thicker ones, and ones farther away. Long
+/// ones stop the turn of a round arm that leaves its joint at a slant.
+const EXTRA_RIBS_MM: [[f64; 2]; 4] = [
     RIBS_MM,
     [WIPING_ROOM_MM, WIPING_ROOM_MM + 6.0],
     [2.0 * WIPING_ROOM_MM, 2.0 * WIPING_ROOM_MM + 6.0],
+    [WIPING_ROOM_MM, WIPING_ROOM_MM + 12.0],
 ];
 
 /// Width of a rib beside the body, mm.

@@ -3,6 +3,7 @@
 pub(crate) mod boss;
 pub(crate) mod boss_maker;
 pub(crate) mod boss_places;
+pub(crate) mod boss_sets;
 pub(crate) mod boss_view;
 pub(crate) mod bosses;
 pub(crate) mod contact;
