@@ -182,8 +182,8 @@ impl Seat {
         (!motions.is_empty()).then_some(Self { motions })
     }
 
-    /// Returns the play between two seated bodies about one middle. The step is right to 0.1 % and a
-    /// micrometre.
+    /// Returns the play between two seated bodies about one middle. The step is right to 0.1 % and
+    /// a micrometre.
     pub fn play_between(&self, other: &Self, middle: Spot, rim: &[Spot]) -> Play {
         let apart = |spot: &Spot| {
             let along = |side: usize| {

@@ -87,8 +87,9 @@
 //! changes the value by ∫_B g·m to first order. This price compares the places
 //! ([`crate::cut::bosses()`]). A lip around a thin ring would register it as well. But it takes two
 //! walls and a gap all around, more than the ring has, and it does not fix the turn about the axis.
-//! Even with keys all around it leaves a step of c·R/r or more, with a gap c, its own radius r and
-//! that of the joint R. A boss needs its room in two places only, or in three if the joint is round.
+//! Even with keys all around it leaves a step of c·R/r or more. Here c is the gap, r the lip's
+//! radius and R the joint's. A boss needs its room in two places only, or in three if the joint is
+//! round.
 //!
 //! # 9. From the solution to the print
 //! The print is a triangle mesh with pins, sockets and clearances, not the solver's columns. Its

@@ -16,8 +16,8 @@ pub struct SkeletonArgs {
     /// The size of the model.
     #[command(flatten, next_help_heading = "Size")]
     pub scaling: ScalingArgs,
-    /// The node that the limbs grow from: its number, or a place near it in mm [default: the juncture
-    /// with the largest ball]
+    /// The node that the limbs grow from: its number, or a place near it in mm [default: the
+    /// juncture with the largest ball]
     #[arg(
         long,
         value_name = "NODE|X,Y,Z",

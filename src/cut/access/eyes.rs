@@ -15,8 +15,8 @@ use crate::{
 
 /// Hidden share of a piece above which the finer test is skipped, because it cannot pass.
 const HIDDEN_RATIO: f64 = 0.15;
-/// Number of viewpoints along the rim of a mouth for each one across it. In a long, narrow mouth few
-/// places of a grid have room for the tool.
+/// Number of viewpoints along the rim of a mouth for each one across it. In a long, narrow mouth
+/// few places of a grid have room for the tool.
 const ALONG_RATIO: usize = 4;
 /// Excess of their distance from the rim, so that rounding drops none of them.
 const ROOM_SLACK_RATIO: f64 = 1e-9;
@@ -56,8 +56,8 @@ impl<'a> SightTest<'a> {
         }
     }
 
-    /// Returns the same test, but with the finer viewpoints for every piece, and with some along the
-    /// rims. It is slower, and meant for the numbers reported with a plan.
+    /// Returns the same test, but with the finer viewpoints for every piece, and with some along
+    /// the rims. It is slower, and meant for the numbers reported with a plan.
     pub(crate) fn thorough(self) -> Self {
         Self {
             max_hidden_ratio: 1.0,

@@ -10,8 +10,8 @@ use crate::cut::{
     },
 };
 
-/// Number of sectors about a joint, each with one place for a third pin: 15° are less than pins at
-/// the corners of a triangle may be off. More sectors cost time with the third power.
+/// Number of sectors about a joint, each with one place for a third pin. Pins at the corners of a
+/// triangle may be off by more than 15°. More sectors cost time with the third power.
 const SECTORS: usize = 24;
 
 /// Sites of one pattern by index, with their joint cost.
@@ -37,8 +37,8 @@ pub(crate) fn pattern_at(sites: &[Site], set: &[usize], sizes: &[Size; 2]) -> Ve
         .collect()
 }
 
-/// Returns the pairs of sites that hold a joint, the best first. If none does, returns sets of three
-/// that hold it: around a round joint they leave less play than two across it.
+/// Returns the pairs of sites that hold a joint, the best first. If none does, returns sets of
+/// three that hold it: around a round joint they leave less play than two across it.
 pub(crate) fn held_sets(
     face: &Face,
     sites: &[Site],

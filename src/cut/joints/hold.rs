@@ -112,7 +112,7 @@ mod tests {
             let pins = around(21.0, count).into_iter().map(|at| (at, size));
             rim.is_held_by(&pins.collect::<Vec<_>>())
         };
-        // An independent search over shifts and turns finds 0.469 mm for three and 0.571 mm for two.
+        // An independent search over shifts and turns finds 0.469 mm for three, 0.571 mm for two.
         assert!(!is_held(2) && is_held(3));
     }
 }

@@ -106,8 +106,9 @@ fn a_round_joint_that_two_bosses_do_not_hold_gets_three() {
         let request = PlanRequest { pins, ..usual };
         found_bosses(&order_of(&body, &plan, UNIFORM, &request)).len()
     };
-    // The rim has 25 mm, and pins in bosses about 22 mm: of the room to move, 0.1 mm and up to half a
-    // pixel, two leave 1.5 and three 1.26. What even three do not hold gets one, to find its place.
+    // The rim has 25 mm, and pins in bosses about 22 mm. They have 0.1 mm to move, and up to half a
+    // pixel. Two pins let the rim move 1.5 times as far, three 1.26 times. What even three do not
+    // hold gets one, to find its place.
     assert_eq!([0.3, 0.15, 0.1].map(patterns), [2, 3, 1]);
 }
 
