@@ -4,7 +4,7 @@ use super::plan::draft_once;
 use super::resolve::Resolver;
 use crate::base::verdict::Verdict;
 use crate::cut::{
-    CutError, CutPlan, Obstacle, PlanRequest, SolidEnd, Unclean, VoidId, find_unclean,
+    CutError, CutPlan, Obstacle, PlanRequest, SolidEnd, Unclean, VoidId, draft_again, find_unclean,
 };
 use crate::error::Error;
 use crate::job::CutMode;
@@ -19,6 +19,22 @@ pub struct Cleaned {
     pub plan: CutPlan,
     /// The rounds in which something was kept solid.
     pub rounds: Vec<CleaningRound>,
+}
+
+/// Voids to be cleaned, and a draft whose cuts are held if there is one.
+pub struct Start {
+    /// The voids.
+    pub voids: Voids,
+    /// A draft for them.
+    pub draft: Option<CutPlan>,
+}
+
+#[cfg(test)]
+impl Start {
+    /// Starts without a draft.
+    pub fn of(voids: Voids) -> Self {
+        Self { voids, draft: None }
+    }
 }
 
 /// Bodies to be kept solid.
@@ -37,20 +53,31 @@ pub struct Keep {
 /// planned anew. The solid part only grows, so that this ends. A round after which the goal cannot
 /// be met is undone, and the kit's checks say which void stays unclean.
 ///
+/// The cuts of a draft that it starts from are held. Chosen anew in each round, cuts that weigh
+/// what they leave unclean would wander to where more and more stays solid.
+///
 /// It stops, with what is not clean yet, as soon as `is_lost` says that the voids have lost too
 /// much: further rounds only lose more.
 pub fn clean(
     resolver: &mut Resolver,
-    mut voids: Voids,
+    start: Start,
     request: &PlanRequest,
     is_lost: &dyn Fn(&Voids) -> bool,
 ) -> Result<Cleaned, Error> {
     let placed = resolver.placed();
     let mut rounds = Vec::new();
     let mut request = request.clone();
+    let Start {
+        mut voids,
+        draft: held,
+    } = start;
     loop {
         resolver.watch().check()?;
-        let plan = draft_once(placed, &voids, &request)?;
+        let plan = match &held {
+            Some(first) if rounds.is_empty() => Verdict::Found(first.clone()),
+            Some(first) => draft_again(&voids.hollowed, &request, first)?,
+            None => draft_once(placed, &voids, &request)?,
+        };
         let round = Round {
             placed,
             voids: &voids,
@@ -82,7 +109,7 @@ pub fn clean(
                 rounds.push(round);
             }
             // Rather any further cut, however seen, than a goal that cannot be met.
-            (None, Verdict::Found(_)) if allow_more_cuts(&mut request) => {}
+            (None, Verdict::Found(_)) if held.is_none() && allow_more_cuts(&mut request) => {}
             (None, plan) => {
                 rounds.push(round);
                 let plan = plan.or_error::<CutError>()?;

@@ -1,10 +1,12 @@
 //! Draining in a vat: ends of voids that would catch resin are kept solid, and the rest solved for
 //! again.
 
-use super::clean::{Cleaned, Keep, clean, keep_solid};
+use super::clean::{Cleaned, Keep, Start, clean, keep_solid};
 use super::refused::unless_refused;
 use super::resolve::Resolver;
-use crate::cut::{HollowCup, PlanRequest, Unclean, find_closed, find_hollow_cups};
+use crate::cut::{
+    CutError, CutPlan, HollowCup, PlanRequest, Unclean, draft_again, find_closed, find_hollow_cups,
+};
 use crate::error::Error;
 use crate::run::{CleaningRound, KeptCause, KeptSolid, Voids};
 
@@ -16,11 +18,12 @@ use crate::run::{CleaningRound, KeptCause, KeptSolid, Voids};
 /// which part is a cup.
 pub fn clean_and_drain(
     resolver: &mut Resolver,
-    voids: Voids,
+    start: Start,
     request: &PlanRequest,
     is_lost: &dyn Fn(&Voids) -> bool,
 ) -> Result<Cleaned, Error> {
-    let mut cleaned = clean(resolver, voids, request, is_lost)?;
+    let is_held = start.draft.is_some();
+    let mut cleaned = clean(resolver, start, request, is_lost)?;
     for _ in 0..resolver.placed().policy.shrinking_rounds {
         let cups = find_hollow_cups(&cleaned.voids.hollowed, &cleaned.plan, request)?;
         if cups.is_empty() || is_lost(&cleaned.voids) {
@@ -30,7 +33,9 @@ pub fn clean_and_drain(
         let Some((mut rounds, less)) = fill(resolver, &cleaned, cups)? else {
             break;
         };
-        let Some(next) = unless_refused(clean(resolver, less, request, is_lost))? else {
+        let next = start_again(less, is_held.then_some(&cleaned.plan), request)
+            .and_then(|start| clean(resolver, start, request, is_lost));
+        let Some(next) = unless_refused(next)? else {
             *resolver = before;
             break;
         };
@@ -39,6 +44,18 @@ pub fn clean_and_drain(
         cleaned = Cleaned { rounds, ..next };
     }
     Ok(cleaned)
+}
+
+/// Starts again with smaller voids, from the same cuts if they are held.
+fn start_again(
+    voids: Voids,
+    held: Option<&CutPlan>,
+    request: &PlanRequest,
+) -> Result<Start, Error> {
+    let draft = held
+        .map(|plan| draft_again(&voids.hollowed, request, plan)?.or_error::<CutError>())
+        .transpose()?;
+    Ok(Start { voids, draft })
 }
 
 /// Keeps cups solid, and what the cuts then leave closed. Returns the rounds, and the voids; `None`

@@ -2,7 +2,7 @@
 
 use super::clean::without_ends;
 use super::resolve::Resolver;
-use crate::cut::SolidEnd;
+use crate::cut::{CutPlan, SolidEnd};
 use crate::error::Error;
 use crate::run::{CleaningRound, KeptCause, Voids};
 
@@ -11,6 +11,8 @@ use crate::run::{CleaningRound, KeptCause, Voids};
 pub struct Ground<'a> {
     pub resolver: Resolver<'a>,
     pub voids: Voids,
+    /// A draft for the voids, whose cuts are held.
+    pub draft: Option<CutPlan>,
     /// The parts of the interior that are kept solid.
     pub solid: Vec<SolidEnd>,
     /// The rounds in which that was done.
@@ -25,6 +27,7 @@ impl Ground<'_> {
         Ok(less.map(|(round, voids)| Self {
             resolver,
             voids,
+            draft: None,
             solid: solid.to_vec(),
             rounds: vec![round],
         }))

@@ -2,6 +2,7 @@
 
 use super::aligned::count_unaligned;
 use super::bosses::{Bossed, add_bosses, pay_for_bosses};
+use super::clean::Start;
 use super::drain::clean_and_drain;
 use super::ground::Ground;
 use super::plan::finish_once;
@@ -63,6 +64,7 @@ impl<'a> Ladder<'a> {
         let ground = Ground {
             resolver,
             voids,
+            draft: None,
             solid: Vec::new(),
             rounds: Vec::new(),
         };
@@ -243,10 +245,12 @@ impl<'a> Ladder<'a> {
         let Ground {
             mut resolver,
             voids,
+            draft,
             solid,
             mut rounds,
         } = ground.clone();
-        let cleaned = clean_and_drain(&mut resolver, voids, request, is_lost)?;
+        let start = Start { voids, draft };
+        let cleaned = clean_and_drain(&mut resolver, start, request, is_lost)?;
         rounds.extend(cleaned.rounds);
         let plan = CutPlan {
             solid,

@@ -1,7 +1,7 @@
 //! Small bodies, each with a goal and a printer, for the tests of this folder.
 
 use super::bosses::Bossed;
-use super::clean::clean;
+use super::clean::{Start, clean};
 use super::plan::finish_once;
 use super::request::request;
 use super::resolve::Resolver;
@@ -261,7 +261,7 @@ pub(super) fn unwatched(placed: &Placed) -> PlanRequest {
 pub(super) fn plan_walls(placed: &Placed) -> Way<'_> {
     let (mut resolver, voids) = draw(placed);
     let request = unwatched(placed);
-    let cleaned = clean(&mut resolver, voids, &request, &|_| false).unwrap();
+    let cleaned = clean(&mut resolver, Start::of(voids), &request, &|_| false).unwrap();
     let plan = finish_once(placed, &cleaned.voids, &request, cleaned.plan).unwrap();
     Way {
         rung: Rung::Walls,

@@ -4,9 +4,9 @@ use super::aligned::count_unaligned;
 use super::bosses::Bossed;
 use super::plan::are_clean;
 use super::resolve::Resolver;
-use crate::cut::{self, CutError, PlanRequest};
+use crate::cut::{self, CutError, CutPlan, PlanRequest};
 use crate::error::Error;
-use crate::run::{Achieved, CleaningRound, Opened, Policy, Remark, Rung};
+use crate::run::{Achieved, CleaningRound, Opened, Policy, Remark, Rung, Voids};
 
 /// An opened body that is worth making, and the resolver that corrects it.
 pub struct Candidate<'a> {
@@ -78,12 +78,7 @@ impl<'a> Way<'a> {
     /// Returns the price of its seams with their slants, in circles about the model; 0 if nobody
     /// looked.
     pub fn seam_price(&self) -> Result<f64, Error> {
-        let outer = self.bossed.voids.hollowed.outer.mesh();
-        let seams = cut::seams(outer, &self.bossed.plan, &self.request)?;
-        let prices = seams
-            .iter()
-            .filter_map(|seam| Some(seam.seen_ratio? + seam.slant_price));
-        Ok(prices.sum())
+        seam_price(&self.bossed.voids, &self.bossed.plan, &self.request)
     }
 
     /// Returns whether its seams are worth what they cost against the usual way: a little of the
@@ -131,6 +126,16 @@ impl<'a> Way<'a> {
             resolver: self.resolver,
         }
     }
+}
+
+/// Returns the price of a plan's seams with their slants, in circles about the model; 0 if nobody
+/// looked.
+pub fn seam_price(voids: &Voids, plan: &CutPlan, request: &PlanRequest) -> Result<f64, Error> {
+    let seams = cut::seams(voids.hollowed.outer.mesh(), plan, request)?;
+    let prices = seams
+        .iter()
+        .filter_map(|seam| Some(seam.seen_ratio? + seam.slant_price));
+    Ok(prices.sum())
 }
 
 #[cfg(test)]

@@ -119,6 +119,8 @@ pub struct Policy {
     pub lack_growth: f64,
     /// Number of plans with hidden seams that are tried.
     pub hidden_rounds: usize,
+    /// Price of losing all of the figure, against that of seams, in circles of average weight.
+    pub loss_price: f64,
     /// Greatest loss for a plan whose seams are seen less.
     pub seam_loss_ratio: f64,
     /// Greatest loss for a plan with fewer parts that is taken unasked.
@@ -171,9 +173,10 @@ impl Policy {
         significant_void_ratio: 2e-6,
         cut_worth_ratio: PlanRequest::WORTH_RATIO,
         dear_seam_ratio: 0.12,
-        lack_weight: 7.0,
-        lack_growth: 3.0,
-        hidden_rounds: 2,
+        lack_weight: 4.0,
+        lack_growth: 2.0,
+        hidden_rounds: 5,
+        loss_price: 0.5,
         seam_loss_ratio: 0.1,
         part_loss_ratio: 0.02,
         aligned_loss_ratio: 0.3,

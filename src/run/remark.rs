@@ -156,7 +156,7 @@ fn seam_words(loss_ratio: Option<f64>, is_taken: bool) -> String {
         format!("seams: they run where they are seen less; the goal's figure is {percent} {change}")
     } else {
         format!(
-            "seams: one runs where it is seen; off there the goal's figure would be {at_least}{percent} {change}"
+            "seams: one runs where it is seen; in the plans tried that hide it, the goal's figure is {at_least}{percent} {change}"
         )
     }
 }

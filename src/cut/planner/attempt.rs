@@ -8,7 +8,6 @@ use crate::{
         access::void_access::{VoidAccess, access, accesses, required_sight_ratio},
         error::CutError,
         geometry::tree::CutTree,
-        hollowed::Void,
         ids::VoidId,
         planner::{score::Scene, search::RankedPlan},
     },
@@ -20,10 +19,17 @@ use crate::{
 /// corner out of sight, and an extra cut costs a joint. An estimate takes some hundredths of a
 /// second.
 const ESTIMATED_PLANS: usize = 48;
+/// The same where seams are weighed: the plans that hide most come first, and lose most.
+const WEIGHED_PLANS: usize = 96;
 /// Number of plans estimated in parallel before the promising ones are measured.
 const ESTIMATED_AT_ONCE: usize = 8;
 /// Error of an estimate. A plan that seems to lack no more than this is measured.
 const ESTIMATE_ERROR_RATIO: f64 = 0.01;
+/// Distance of two planes at the middle of the body up to which they are much the same, in
+/// diagonals. What lies nearer loses and shows the same.
+const SAME_PLACE_RATIO: f64 = 0.03;
+/// Cosine of the angle between two such planes up to which they are much the same: 15°.
+const SAME_LIE_COSINE: f64 = 0.966;
 /// Number of plans measured although they seem to lack more. Extra cuts start from the cleanest of
 /// them.
 const FALLBACK_PLANS: usize = 3;
@@ -156,11 +162,34 @@ fn estimate_lack_ratio(scene: &Scene, void: VoidId, planes: &[Plane]) -> Result<
 /// Returns the first of the plans with which every void can be cleaned, or else the cleanest. If
 /// the request weighs what stays unclean against seams, it returns the best in both together.
 pub(crate) fn cleanest(scene: &Scene, plans: &[RankedPlan]) -> Result<Attempt, CutError> {
-    let plans = &plans[..plans.len().min(ESTIMATED_PLANS)];
     match scene.request.seams.lack_weight {
         Some(weight) => best_seen(scene, plans, weight),
-        None => first_clean(scene, plans),
+        None => first_clean(scene, &plans[..plans.len().min(ESTIMATED_PLANS)]),
     }
+}
+
+/// Returns whether a plan is much the same as one that was tried.
+fn is_tried(scene: &Scene, plan: &RankedPlan) -> bool {
+    let center = scene.hollowed.outer.mesh().aabb().center();
+    let reach_mm = SAME_PLACE_RATIO * scene.diagonal_mm;
+    let is_near = |a: &Plane, b: &Plane| {
+        let turn = a.normal.dot(&b.normal);
+        let apart_mm = a.distance(&center) - turn.signum() * b.distance(&center);
+        turn.abs() > SAME_LIE_COSINE && apart_mm.abs() < reach_mm
+    };
+    let mut tried = scene.request.seams.tried.iter();
+    tried.any(|known| {
+        let has = |plane: &Plane| known.iter().any(|other| is_near(plane, other));
+        known.len() == plan.planes.len() && plan.planes.iter().all(has)
+    })
+}
+
+/// Returns whether a plan's seams seem to cost as much as the request's dearest.
+fn is_dear(scene: &Scene, plan: &RankedPlan) -> bool {
+    let prices = plan.planes.iter();
+    let price: f64 = prices.map(|plane| scene.estimate_seam_price(plane)).sum();
+    let dearest = scene.request.seams.dearest_ratio;
+    dearest.is_some_and(|dearest| price >= dearest)
 }
 
 /// Returns the plan with the least sum of its score and of what it leaves unclean.
@@ -168,7 +197,7 @@ pub(crate) fn cleanest(scene: &Scene, plans: &[RankedPlan]) -> Result<Attempt, C
 /// Estimates the plans in their order, until their scores alone are no better. Then it measures the
 /// best of them.
 fn best_seen(scene: &Scene, plans: &[RankedPlan], weight: f64) -> Result<Attempt, CutError> {
-    let areas_mm2: Vec<f64> = scene.hollowed.voids.iter().map(area_mm2).collect();
+    let areas_mm2 = scene.wall_areas_mm2();
     let whole_mm2: f64 = areas_mm2.iter().sum();
     let estimate = |plan: &RankedPlan| {
         let mut voids = areas_mm2.iter().enumerate();
@@ -178,16 +207,20 @@ fn best_seen(scene: &Scene, plans: &[RankedPlan], weight: f64) -> Result<Attempt
         })?;
         Ok(plan.penalty + weight * lack_mm2 / whole_mm2)
     };
+    let fresh = plans
+        .iter()
+        .filter(|plan| !(is_tried(scene, plan) || is_dear(scene, plan)));
+    let plans: Vec<&RankedPlan> = fresh.take(WEIGHED_PLANS).collect();
     let mut rated: Vec<(f64, &RankedPlan)> = Vec::new();
     let mut best = f64::INFINITY;
     for some in plans.chunks(ESTIMATED_AT_ONCE) {
         if some[0].penalty >= best {
             break;
         }
-        let sums = some.par_iter().map(estimate);
+        let sums = some.par_iter().map(|plan| estimate(plan));
         let sums = sums.collect::<Result<Vec<f64>, Cancelled>>()?;
         best = sums.iter().copied().fold(best, f64::min);
-        rated.extend(sums.into_iter().zip(some));
+        rated.extend(sums.into_iter().zip(some.iter().copied()));
     }
     rated.sort_by(|a, b| a.0.total_cmp(&b.0));
     let mut measured: Vec<(f64, Attempt)> = Vec::new();
@@ -197,11 +230,6 @@ fn best_seen(scene: &Scene, plans: &[RankedPlan], weight: f64) -> Result<Attempt
     }
     let best = measured.into_iter().min_by(|a, b| a.0.total_cmp(&b.0));
     best.map_or_else(|| Attempt::new(scene, &[]), |(_, attempt)| Ok(attempt))
-}
-
-/// Returns the area of a ball's wall with the void's volume, but for a factor, mm².
-fn area_mm2(void: &Void) -> f64 {
-    void.mesh().signed_volume_mm3().abs().powf(2.0 / 3.0)
 }
 
 /// Returns the first of the plans with which every void can be cleaned, or else the cleanest.

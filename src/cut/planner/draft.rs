@@ -1,7 +1,7 @@
 //! Drafts: plans with cuts alone, for a search that weighs many of them. The one that is taken gets
 //! its pins in the end.
 
-use super::{check_request, fewest_cuts};
+use super::{check_request, fewest_cuts, limited_cut_remarks, small_part_remarks};
 use crate::{
     base::verdict::Verdict,
     cut::{
@@ -10,15 +10,18 @@ use crate::{
         joints::pins::Pins,
         order::CutOrder,
         pieces::rejoin::rejoin,
-        plan::{CutPlan, bridges_on},
+        plan::{Cut, CutPlan, bridges_on},
         planner::{
+            attempt::Attempt,
             layers::snap_to_layers,
             layout::Layout,
             score::Scene,
             to_plan::{to_draft, to_plan},
         },
+        remark::Remark,
         request::PlanRequest,
     },
+    geom::Plane,
 };
 
 /// Finds the cuts of [`plan`](super::plan) and leaves out pins, labels and the move to whole
@@ -34,7 +37,37 @@ fn draft_fewest(hollowed: &Hollowed, request: &PlanRequest) -> Result<CutPlan, C
     check_request(request)?;
     let scene = Scene::new(hollowed, request)?;
     let (layout, notes) = fewest_cuts(&scene)?;
-    to_draft(&layout, notes)
+    to_draft(&scene, &layout, notes)
+}
+
+/// Returns the draft with the planes of another one's cuts, for a body of which more is solid. Each
+/// cut is made where it is needed now.
+///
+/// # Errors
+/// A cut of the draft is degenerate, or the body cannot be cut.
+pub fn draft_again(
+    hollowed: &Hollowed,
+    request: &PlanRequest,
+    draft: &CutPlan,
+) -> Result<Verdict<CutPlan, Obstacle>, CutError> {
+    verdict(draft_planes(hollowed, request, draft))
+}
+
+fn draft_planes(
+    hollowed: &Hollowed,
+    request: &PlanRequest,
+    draft: &CutPlan,
+) -> Result<CutPlan, CutError> {
+    let scene = Scene::new(hollowed, request)?;
+    let planes = draft.cuts.iter().map(Cut::plane);
+    let planes = planes.collect::<Result<Vec<Plane>, CutError>>()?;
+    let Attempt { planes, voids, .. } = Attempt::new(&scene, &planes)?;
+    let layout = Layout::new(&scene, planes, voids)?;
+    let is_kept = |note: &&Remark| note.is_proof() && !matches!(note, Remark::LimitedCut { .. });
+    let mut notes: Vec<Remark> = draft.notes.iter().filter(is_kept).cloned().collect();
+    notes.extend(limited_cut_remarks(&layout.tree));
+    notes.extend(small_part_remarks(&scene, &layout));
+    to_draft(&scene, &layout, notes)
 }
 
 /// Returns the plan of a [`draft`] of the same body: cuts moved to whole layers, with pins and

@@ -12,6 +12,7 @@ pub(crate) mod mirror;
 pub(crate) mod scene;
 pub(crate) mod score;
 pub(crate) mod search;
+pub(crate) mod straighten;
 pub(crate) mod to_plan;
 pub(crate) mod turns;
 
@@ -37,6 +38,7 @@ use crate::{
             layout::Layout,
             score::{Scene, burden, estimate_seam_penalty},
             search::smallest_plans,
+            straighten::straighten,
             to_plan::{rename_cuts, to_plan},
         },
         remark::Remark,
@@ -245,7 +247,7 @@ fn opening_cuts(scene: &Scene, notes: &mut Vec<Remark>) -> Result<Layout, CutErr
     }
     let found = smallest_plans(scene)?;
     notes.push(Remark::Fewest(found.proof()));
-    let best = cleanest(scene, &found.plans)?;
+    let best = straighten(scene, cleanest(scene, &found.plans)?)?;
     let mut of_extra = Vec::new();
     let full = add_extra_cuts(scene, best.clone(), &mut of_extra)?;
     let has_extra = full.planes.len() > best.planes.len();

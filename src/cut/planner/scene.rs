@@ -8,7 +8,7 @@ use crate::{
             opening::{Opening, measure_opening},
             tree::CutTree,
         },
-        hollowed::Hollowed,
+        hollowed::{Hollowed, Void},
         pieces::split::{Piece, split_for_trial},
         planner::cover::VoidSet,
         request::PlanRequest,
@@ -56,6 +56,21 @@ impl<'a> Scene<'a> {
     /// Returns the pieces of the body between the cuts, to be looked at.
     pub(crate) fn split(&self, tree: &CutTree) -> Result<Vec<Piece>, CutError> {
         split_for_trial(&self.material, tree, &self.request.watch)
+    }
+
+    /// Estimates the price of a plane's seam and of its slant, in circles about the model of
+    /// average weight; 0 if nobody looks at it.
+    pub(crate) fn estimate_seam_price(&self, plane: &Plane) -> f64 {
+        let look = self.request.seams.skin.as_ref();
+        look.map_or(0.0, |skin| {
+            skin.estimate_ratio(plane) + skin.slant_price(plane)
+        })
+    }
+
+    /// Returns the area of a ball's wall with each void's volume, but for a factor, mm².
+    pub(crate) fn wall_areas_mm2(&self) -> Vec<f64> {
+        let area_mm2 = |void: &Void| void.mesh().signed_volume_mm3().abs().powf(2.0 / 3.0);
+        self.hollowed.voids.iter().map(area_mm2).collect()
     }
 
     /// Returns whether a seam may run where the plane cuts the outside.

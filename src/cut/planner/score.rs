@@ -3,8 +3,8 @@
 //!
 //! | term | measured | bad | weight |
 //! |---|---|---|---|
-//! | opening | narrowest opening, mm | nothing; good from three times the least | 1 |
-//! | room for pins | largest disc in the tightest joint, mm | half of what pins need | 2 |
+//! | opening | narrowest opening, mm | nothing; good from three times the least | 1, weighed 0.3 |
+//! | room for pins | largest disc in the tightest joint, mm | half of what pins need | 2, weighed 0.4 |
 //! | smallest part | share of the volume | nothing; good from 2 % | 2 |
 //! | parts | pieces beyond two | each | 0.3 |
 //! | contact | distance of the cut from the contact point, mm | nothing; good from 3 mm | 1 |
@@ -16,6 +16,7 @@
 //! | build volume | halves that do not fit it | each | 0.5 |
 //! | overhang | share of the surface that overhangs by more than 45° | all | 0.3 |
 //!
+//! "Weighed" means: where seams are weighed against what stays solid.
 //! If wide joints are wanted, voids in a joint count as filled and the disc as a quarter. Bad is
 //! no room at all. Overhang is measured with the cut faces down or up, as the request prefers.
 //!
@@ -51,8 +52,13 @@ const AMPLE_CONTACT_MM: f64 = 3.0;
 
 /// Weight of the narrowest opening. Washing out is the purpose of the cuts.
 const OPENING_WEIGHT: f64 = 1.0;
+/// Weight of the narrowest opening where seams are weighed, as what it leaves unclean is anyway.
+const WEIGHED_OPENING_WEIGHT: f64 = 0.3;
 /// Weight of a joint without room for pins. Parts that cannot be aligned spoil the balance.
 const ROOM_WEIGHT: f64 = 2.0;
+/// The same where seams are weighed against what stays solid: a boss or a jig aligns the joint.
+/// With more, no neck is cut for want of a pin's room.
+const WEIGHED_ROOM_WEIGHT: f64 = 0.4;
 /// Weight of crumbs. They get lost or are glued wrongly.
 const SMALL_PART_WEIGHT: f64 = 2.0;
 /// Weight of a cut through the contact point. The tip wears along a seam.
@@ -82,10 +88,7 @@ const OVERHANG_COSINE: f64 = std::f64::consts::FRAC_1_SQRT_2;
 /// Estimates the weighted terms of a plane's seam, without cutting anything; 0 if nobody looks at
 /// it. Takes some microseconds.
 pub(crate) fn estimate_seam_penalty(scene: &Scene, plane: &Plane) -> f64 {
-    let look = scene.request.seams.skin.as_ref();
-    look.map_or(0.0, |skin| {
-        SEEN_SEAM_WEIGHT * (skin.estimate_ratio(plane) + skin.slant_price(plane))
-    })
+    SEEN_SEAM_WEIGHT * scene.estimate_seam_price(plane)
 }
 
 /// The effect of a cut on the body, apart from the voids it opens.
@@ -331,6 +334,11 @@ impl Burden {
         let ample_glue_mm2 = AMPLE_GLUE_DISCS * std::f64::consts::FRAC_PI_4 * needed_mm * needed_mm;
         let circle_mm = std::f64::consts::PI * scene.diagonal_mm;
         let ample_part_ratio = AMPLE_PART_RATIO.max(scene.request.least_part.mass_ratio());
+        let room_weight = if scene.request.seams.lack_weight.is_some() {
+            WEIGHED_ROOM_WEIGHT
+        } else {
+            ROOM_WEIGHT
+        };
         let (seam, detail) = match self.seen_ratio {
             Some(seen_ratio) => (SEEN_SEAM_WEIGHT * seen_ratio, 0.0),
             None => (
@@ -341,7 +349,7 @@ impl Burden {
         [
             (
                 Term::RoomForPins,
-                ROOM_WEIGHT * shortfall(self.room_mm, needed_mm),
+                room_weight * shortfall(self.room_mm, needed_mm),
             ),
             (
                 Term::SmallestPart,
@@ -374,7 +382,12 @@ impl Burden {
 /// Returns the weighted term of the narrowest of the voids' openings (mm), 0 at best.
 pub(crate) fn opening_penalty(scene: &Scene, openings_mm: impl Iterator<Item = f64>) -> f64 {
     let ample_mm = AMPLE_OPENING_RATIO * scene.request.min_opening_mm;
-    OPENING_WEIGHT
+    let weight = if scene.request.seams.lack_weight.is_some() {
+        WEIGHED_OPENING_WEIGHT
+    } else {
+        OPENING_WEIGHT
+    };
+    weight
         * openings_mm
             .map(|mm| shortfall(mm, ample_mm))
             .fold(0.0, f64::max)

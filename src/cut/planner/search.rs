@@ -22,14 +22,24 @@ use crate::{
 /// Numbers of candidates measured after each round; the rounds end as soon as the lower bound is
 /// met. The first suffices for most models, and the last takes seconds.
 const ROUNDS: [usize; 3] = [64, 512, 4096];
+/// The same where seams are weighed against what stays solid. Level planes are then 2 to 4 mm apart
+/// on a figure of 100 mm. With half as many, a neck between two of them is missed.
+const WEIGHED_ROUNDS: [usize; 3] = [128, 512, 4096];
 
 /// Number of planes of the smallest covers that get a full score. Each takes two or three
 /// milliseconds on 100k triangles.
 const SCORED_PLANES: usize = 48;
+/// The same where seams are weighed: all planes of the first round, as far as covers name them.
+const WEIGHED_SCORED_PLANES: usize = 128;
 
 /// Weight of a void that two planes meet. It falls into more pieces, and a pocket may remain
 /// between the planes.
 const CROSSED_WEIGHT: f64 = 0.5;
+
+/// Wall of a void over that of the largest, below which it may stay closed for a hidden seam: an
+/// eighth of its volume. With more, halves of a figure stay solid; with less, a face is cut for an
+/// ear.
+const SMALL_VOID_RATIO: f64 = 0.25;
 
 /// Number of smallest covers that are compared.
 const COMPARED_COVERS: usize = 20_000;
@@ -91,7 +101,7 @@ pub(crate) fn smallest_plans(scene: &Scene) -> Result<Found, CutError> {
             limit: MAX_VOIDS,
         });
     }
-    let all = VoidSet::MAX >> (MAX_VOIDS - voids);
+    let all = needed_voids(scene);
     let watch = &scene.request.watch;
     let mut family = candidates(scene.hollowed, scene.request)?;
     let tried = family.len();
@@ -103,7 +113,12 @@ pub(crate) fn smallest_plans(scene: &Scene) -> Result<Found, CutError> {
     let (least, bound_nodes) = bound.map_or((usize::MAX, 0), |cover| (cover.at_least, cover.nodes));
     let mut measured: Vec<MeasuredPlane> = Vec::new();
     let mut best = None;
-    for round in ROUNDS.map(|round| round.min(family.len())) {
+    let rounds = if scene.request.seams.lack_weight.is_some() {
+        WEIGHED_ROUNDS
+    } else {
+        ROUNDS
+    };
+    for round in rounds.map(|round| round.min(family.len())) {
         let fresh = &family[measured.len().min(round)..round];
         let fresh = fresh.par_iter().map(|candidate| measure(scene, candidate));
         measured.extend(fresh.collect::<Result<Vec<MeasuredPlane>, Cancelled>>()?);
@@ -116,14 +131,32 @@ pub(crate) fn smallest_plans(scene: &Scene) -> Result<Found, CutError> {
             break;
         }
     }
-    let cover = best.ok_or_else(|| unopenable(scene, &measured, is_free))?;
+    let cover = best.ok_or_else(|| unopenable(scene, &measured, all, is_free))?;
     Ok(Found {
-        plans: rank_covers(scene, &measured, &cover.chosen)?,
+        plans: rank_covers(scene, &measured, all, &cover.chosen)?,
         family: family.len(),
         nodes: cover.nodes + bound_nodes,
         is_proved: cover.chosen.len() == least
             || (measured.len() == family.len() && cover.chosen.len() == cover.at_least),
     })
+}
+
+/// Returns the voids that every plan opens: all of them, but where seams are weighed against what
+/// stays solid. Small voids may then stay closed, to be kept solid. Else one that only a plane
+/// through a face opens, in an ear, would order that face cut.
+fn needed_voids(scene: &Scene) -> VoidSet {
+    let voids = &scene.hollowed.voids;
+    let all = VoidSet::MAX >> (MAX_VOIDS - voids.len());
+    if scene.request.seams.lack_weight.is_none() {
+        return all;
+    }
+    let areas_mm2 = scene.wall_areas_mm2();
+    let largest_mm2 = areas_mm2.iter().copied().fold(0.0, f64::max);
+    let is_needed = |void: &usize| {
+        voids[*void].holds.is_some() || areas_mm2[*void] >= SMALL_VOID_RATIO * largest_mm2
+    };
+    let needed = (0..voids.len()).filter(is_needed);
+    needed.fold(0, |set, void| set | 1 << void)
 }
 
 /// Measures the candidate's openings on its sections.
@@ -151,10 +184,10 @@ fn measure(scene: &Scene, candidate: &Candidate) -> Result<MeasuredPlane, Cancel
 fn rank_covers(
     scene: &Scene,
     measured: &[MeasuredPlane],
+    all: VoidSet,
     known: &[usize],
 ) -> Result<Vec<RankedPlan>, Cancelled> {
     let voids = scene.hollowed.voids.len();
-    let all = VoidSet::MAX >> (MAX_VOIDS - voids);
     let opened: Vec<VoidSet> = measured.iter().map(|e| e.opened).collect();
     let size = [known.len(), COMPARED_COVERS];
     let mut covers = covers_of_size(&opened, all, size, &scene.request.watch)?;
@@ -163,7 +196,8 @@ fn rank_covers(
     }
     // A seat's opening is wide enough or not; more width is of no use.
     let holds_nothing = |&void: &usize| scene.hollowed.voids[void].holds.is_none();
-    let empty: Vec<usize> = (0..voids).filter(holds_nothing).collect();
+    let needed = (0..voids).filter(|void| all >> void & 1 == 1);
+    let empty: Vec<usize> = needed.filter(holds_nothing).collect();
     let opening_score = |cover: &Vec<usize>| {
         opening_penalty(scene, openings_mm(measured, cover, &empty))
             + CROSSED_WEIGHT * count_crossed(measured, cover, voids)
@@ -204,12 +238,18 @@ fn count_crossed(measured: &[MeasuredPlane], cover: &[usize], voids: usize) -> f
     (0..voids).filter(|&void| meeting(void) > 1).count() as f64
 }
 
-/// Scores the first [`SCORED_PLANES`] planes that the covers name, in the covers' order.
+/// Scores the first [`SCORED_PLANES`] planes that the covers name, in the covers' order; more where
+/// seams are weighed.
 fn burdens_of(
     scene: &Scene,
     measured: &[MeasuredPlane],
     covers: &[(f64, Vec<usize>)],
 ) -> Result<Vec<Option<Burden>>, Cancelled> {
+    let limit = if scene.request.seams.lack_weight.is_some() {
+        WEIGHED_SCORED_PLANES
+    } else {
+        SCORED_PLANES
+    };
     let mut named: Vec<usize> = Vec::new();
     for (_, cover) in covers {
         let fresh: Vec<usize> = cover
@@ -217,7 +257,7 @@ fn burdens_of(
             .copied()
             .filter(|i| !named.contains(i))
             .collect();
-        if named.len() + fresh.len() > SCORED_PLANES && !named.is_empty() {
+        if named.len() + fresh.len() > limit && !named.is_empty() {
             break;
         }
         named.extend(fresh);
@@ -254,9 +294,9 @@ fn widest_mm<'a>(planes: impl Iterator<Item = &'a MeasuredPlane>, void: usize) -
 }
 
 /// Returns the obstacle with the voids that none of the planes opens wide enough.
-fn unopenable(scene: &Scene, measured: &[MeasuredPlane], is_free: bool) -> Obstacle {
+fn unopenable(scene: &Scene, measured: &[MeasuredPlane], all: VoidSet, is_free: bool) -> Obstacle {
     let widest = |&void: &usize| widest_mm(measured.iter(), void);
-    let is_closed = |&void: &usize| widest(&void) < needed_mm(scene, void);
+    let is_closed = |&void: &usize| all >> void & 1 == 1 && widest(&void) < needed_mm(scene, void);
     let voids: Vec<usize> = (0..scene.hollowed.voids.len()).filter(is_closed).collect();
     let needed_mm = voids
         .first()

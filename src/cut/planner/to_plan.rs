@@ -73,15 +73,22 @@ pub(crate) fn to_plan(
     })
 }
 
-/// Builds a plan with these cuts alone: no joint has pins, and no part a label.
-pub(crate) fn to_draft(layout: &Layout, notes: Vec<Remark>) -> Result<CutPlan, CutError> {
+/// Builds a plan with these cuts alone: no joint has pins, and no part a label. Voids may be closed
+/// where seams are weighed against what stays solid.
+pub(crate) fn to_draft(
+    scene: &Scene,
+    layout: &Layout,
+    notes: Vec<Remark>,
+) -> Result<CutPlan, CutError> {
     let Layout {
         tree,
         voids,
         pieces,
         bridges,
     } = layout;
-    check_no_cavity(pieces)?;
+    if scene.request.seams.lack_weight.is_none() {
+        check_no_cavity(pieces)?;
+    }
     let bare = |joint: &Joint| joint_note(tree, joint, &Placement::default());
     Ok(CutPlan {
         cuts: cuts(tree),

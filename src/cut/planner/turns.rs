@@ -65,11 +65,41 @@ pub(crate) fn promising_first(
     if scene.request.seams.skin.is_some() {
         hidden.sort_by(by_promise);
     }
+    let level = level_turns(scene, &wide);
     let mut is_taken = vec![false; wide.len()];
-    let turns = hidden.into_iter().enumerate();
-    let turns = turns.flat_map(|(turn, hidden)| [hidden, turn]);
+    let turns = (0..wide.len()).flat_map(|turn| {
+        let level = level.get(turn).copied();
+        [Some(hidden[turn]), level, Some(turn)]
+    });
+    let turns = turns.flatten();
     let fresh = turns.filter(|&index| !std::mem::replace(&mut is_taken[index], true));
     Ok(fresh.map(|index| wide[index].candidate).collect())
+}
+
+/// Returns the places of the level planes, spread over the height at any moment: each next one lies
+/// in the widest gap so far. Empty if nobody looks at seams.
+///
+/// The best hidden planes crowd about ear tips and feet, where seams are short and most of a void
+/// stays unseen. A level cut at the waist is what a person would try.
+fn level_turns(scene: &Scene, wide: &[Turn]) -> Vec<usize> {
+    let Some(up) = scene.request.seams.up() else {
+        return Vec::new();
+    };
+    let is_level = |&place: &usize| {
+        let turn = &wide[place];
+        !turn.is_late && turn.candidate.plane.normal == up
+    };
+    let mut level: Vec<usize> = (0..wide.len()).filter(is_level).collect();
+    let offset_mm = |place: &usize| wide[*place].candidate.plane.offset_mm;
+    level.sort_by(|a, b| offset_mm(a).total_cmp(&offset_mm(b)));
+    if level.is_empty() {
+        return level;
+    }
+    let bits = usize::BITS - level.len().leading_zeros();
+    let places = (0..1_usize << bits).map(|index| index.reverse_bits() >> (usize::BITS - bits));
+    places
+        .filter_map(|place| level.get(place).copied())
+        .collect()
 }
 
 /// Sorts the family by its openings. Planes that can be part of a smallest cover come first, one

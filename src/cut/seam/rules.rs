@@ -42,6 +42,11 @@ pub struct Seams {
     /// Weight of walls that lack sight against seams: what they hold stays solid. If `None`, a plan
     /// that lets every void be cleaned comes first, whatever its seams.
     pub lack_weight: Option<f64>,
+    /// Plans that were tried already, where seams are weighed: the planner looks for another one.
+    pub tried: Vec<Vec<Plane>>,
+    /// Price of seams that a plan must stay below, where seams are weighed, in circles about the
+    /// model of average weight. `None` if any will do.
+    pub dearest_ratio: Option<f64>,
     /// True if only level cuts are made.
     pub only_level: bool,
     /// The outside, looked at; `None` if only the length of a seam counts.
@@ -81,6 +86,8 @@ impl Seams {
         Self {
             skin: None,
             lack_weight: None,
+            tried: Vec::new(),
+            dearest_ratio: None,
             ..self.clone()
         }
     }

@@ -30,7 +30,10 @@ fn deep_box() -> Placed {
 
 fn clean_up(placed: &Placed) -> Cleaned {
     let (mut resolver, voids) = draw(placed);
-    clean(&mut resolver, voids, &unwatched(placed), &|_| false).unwrap()
+    clean(&mut resolver, Start::of(voids), &unwatched(placed), &|_| {
+        false
+    })
+    .unwrap()
 }
 
 /// Returns the request for openings that the narrow tower is too narrow for.
@@ -64,7 +67,13 @@ fn a_void_that_no_cut_opens_wide_enough_is_kept_solid() {
     let placed = unequal_towers();
     let (mut resolver, voids) = draw(&placed);
     assert_eq!(voids.hollowed.voids.len(), 2);
-    let cleaned = clean(&mut resolver, voids, &wide_request(&placed), &|_| false).unwrap();
+    let cleaned = clean(
+        &mut resolver,
+        Start::of(voids),
+        &wide_request(&placed),
+        &|_| false,
+    )
+    .unwrap();
     let [round] = &cleaned.rounds[..] else {
         panic!("{:?}", cleaned.rounds)
     };
@@ -87,7 +96,7 @@ fn a_void_that_the_goal_needs_is_not_kept_solid_and_its_obstacle_is_told() {
         ..unwatched(&placed)
     };
     let Err(Error::Cut(CutError::Obstacle(obstacle))) =
-        clean(&mut resolver, voids, &request, &|_| false)
+        clean(&mut resolver, Start::of(voids), &request, &|_| false)
     else {
         panic!("no cut opens a tower of 14 mm by 20 mm")
     };
@@ -168,9 +177,12 @@ fn without_cuts_a_void_stays_closed_and_nothing_is_kept_solid() {
     let mut placed = towers(LEAN);
     placed.job.cut = CutMode::Never;
     let (mut resolver, voids) = draw(&placed);
-    let Err(Error::Cut(CutError::Obstacle(obstacle))) =
-        clean(&mut resolver, voids, &unwatched(&placed), &|_| false)
-    else {
+    let Err(Error::Cut(CutError::Obstacle(obstacle))) = clean(
+        &mut resolver,
+        Start::of(voids),
+        &unwatched(&placed),
+        &|_| false,
+    ) else {
         panic!("a closed void has no plan")
     };
     assert!(

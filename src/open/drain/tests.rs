@@ -30,8 +30,14 @@ fn ends_that_catch_resin_in_a_vat_are_kept_solid_until_none_does() {
         ..unwatched(&placed)
     };
     let (mut resolver, voids) = draw(&placed);
-    let before = clean(&mut resolver.clone(), voids.clone(), &request, &|_| false).unwrap();
-    let cleaned = clean_and_drain(&mut resolver, voids, &request, &|_| false).unwrap();
+    let before = clean(
+        &mut resolver.clone(),
+        Start::of(voids.clone()),
+        &request,
+        &|_| false,
+    )
+    .unwrap();
+    let cleaned = clean_and_drain(&mut resolver, Start::of(voids), &request, &|_| false).unwrap();
     let mut causes = cleaned.rounds.iter().flat_map(|round| &round.kept);
     let is_cup = |kept: &KeptSolid| matches!(kept.cause, KeptCause::Cup { .. });
     assert!(causes.any(is_cup), "{:?}", cleaned.rounds);
@@ -45,6 +51,6 @@ fn nothing_is_filled_for_a_printer_without_a_vat() {
     let placed = hooked();
     let (mut resolver, voids) = draw(&placed);
     let request = unwatched(&placed);
-    let cleaned = clean_and_drain(&mut resolver, voids, &request, &|_| false).unwrap();
+    let cleaned = clean_and_drain(&mut resolver, Start::of(voids), &request, &|_| false).unwrap();
     assert_eq!(cleaned.rounds, vec![]);
 }

@@ -1,54 +1,165 @@
 //! The preferences of a person among plans that open every void: hidden seams, and few parts.
 
 use super::Ladder;
+use crate::base::verdict::Verdict;
+use crate::cut::{Cut, CutError, CutPlan};
 use crate::error::Error;
-use crate::open::plan::are_clean;
+use crate::geom::Plane;
+use crate::open::ground::Ground;
+use crate::open::plan::{are_clean, draft_once};
 use crate::open::refused::unless_refused;
 use crate::open::tendency::lean;
-use crate::open::way::Way;
-use crate::run::{Achieved, Remark, Rung, Tendency, Voids};
+use crate::open::way::{Way, seam_price};
+use crate::run::{Achieved, Policy, Remark, Rung, Tendency, Voids};
+
+/// A draft whose seams are to be seen less than those of the usual plan.
+struct Hidden<'a> {
+    way: Way<'a>,
+    /// The share of the goal's figure that it loses against the usual plan.
+    loss_ratio: f64,
+    /// The price of its seams, in circles about the model of average weight.
+    price: f64,
+}
+
+impl Hidden<'_> {
+    /// Returns the price of its seams and of its loss.
+    fn cost(&self, policy: &Policy) -> f64 {
+        self.price + policy.loss_price * self.loss_ratio
+    }
+
+    /// Returns whether no void is closed.
+    fn opens_all(&self) -> bool {
+        let mut voids = self.way.bossed.plan.voids.iter();
+        voids.all(|void| !void.opened_by.is_empty())
+    }
+}
+
+/// The choice among drafts with hidden seams.
+struct HiddenChoice<'a> {
+    policy: Policy,
+    usual: Way<'a>,
+    /// The price of the usual plan's seams.
+    usual_price: f64,
+    /// The best draft that is worth taking.
+    best: Option<Hidden<'a>>,
+    /// The least loss of the drafts that are not.
+    least_loss_ratio: Option<f64>,
+}
+
+impl<'a> HiddenChoice<'a> {
+    /// Keeps the draft if it is the best so far. Returns whether a better one need not be sought.
+    fn take(&mut self, other: Hidden<'a>) -> bool {
+        let policy = &self.policy;
+        let cost = other.cost(policy);
+        let is_dear = other.loss_ratio > policy.seam_loss_ratio;
+        if other.way.bossed.plan.cuts.is_empty() || !is_dear && cost >= self.usual_price {
+            return false;
+        }
+        if !(other.opens_all() && other.way.hides_worth(&self.usual, policy)) {
+            let least = self.least_loss_ratio.unwrap_or(f64::INFINITY);
+            self.least_loss_ratio = Some(least.min(other.loss_ratio));
+            return false;
+        }
+        let is_hidden = other.price <= policy.dear_seam_ratio;
+        if self
+            .best
+            .as_ref()
+            .is_none_or(|best| cost < best.cost(policy))
+        {
+            self.best = Some(other);
+        }
+        is_hidden
+    }
+
+    /// Returns the remark on what was chosen.
+    fn remark(&self) -> Remark {
+        let taken = self.best.as_ref().map(|best| best.loss_ratio);
+        Remark::Seams {
+            loss_ratio: taken.or(self.least_loss_ratio),
+            is_taken: taken.is_some(),
+        }
+    }
+}
 
 impl<'a> Ladder<'a> {
     /// Returns a plan whose seams are seen less, if those of the usual plan are dear and the other
     /// costs little of the goal's figure. The rungs beyond then keep to it.
+    ///
+    /// Plans are sought from those that hide most, and lose most of the figure, to those that lose
+    /// next to nothing. Of those worth taking it takes the one with the least price of its seams
+    /// and of its loss together.
     pub(super) fn hide_seams(&mut self, usual: Way<'a>) -> Result<Way<'a>, Error> {
-        let price = usual.seam_price()?;
-        if !(self.is_free() && self.hides_seams) || price <= self.policy.dear_seam_ratio {
+        let usual_price = usual.seam_price()?;
+        let is_hidden = usual_price <= self.policy.dear_seam_ratio;
+        if !(self.is_free() && self.hides_seams) || is_hidden {
             return Ok(usual);
         }
+        let mut weight = self.policy.lack_weight;
+        let mut tried = vec![planes(&usual.bossed.plan)?];
+        let mut choice = HiddenChoice {
+            policy: self.policy,
+            usual,
+            usual_price,
+            best: None,
+            least_loss_ratio: None,
+        };
+        for _ in 0..self.policy.hidden_rounds {
+            let other = self.draft_hidden(&choice, weight, &mut tried)?;
+            weight *= self.policy.lack_growth;
+            if other.is_some_and(|other| choice.take(other)) {
+                break;
+            }
+        }
+        self.notes.push(choice.remark());
+        let Some(Hidden { mut way, .. }) = choice.best else {
+            return Ok(choice.usual);
+        };
+        way.request.seams.tried.clear();
+        way.request.seams.dearest_ratio = None;
+        self.request = way.request.clone();
+        Ok(way)
+    }
+
+    /// Drafts a plan that weighs what it leaves unclean against its seams, and notes its planes as
+    /// tried. `None` if there is none, or if its seams cost no less than the usual plan's.
+    ///
+    /// It stops at voids that lose too much.
+    fn draft_hidden(
+        &self,
+        choice: &HiddenChoice<'a>,
+        weight: f64,
+        tried: &mut Vec<Vec<Plane>>,
+    ) -> Result<Option<Hidden<'a>>, Error> {
+        let HiddenChoice { usual, policy, .. } = choice;
+        let mut request = self.request.clone();
+        request.seams.lack_weight = Some(weight);
+        request.seams.tried.clone_from(tried);
+        request.seams.dearest_ratio = Some(choice.usual_price);
+        let voids = &self.ground.voids;
+        let Verdict::Found(draft) = draft_once(self.placed, voids, &request)? else {
+            return Ok(None);
+        };
+        tried.push(planes(&draft)?);
+        let is_seen = seam_price(voids, &draft, &request)? >= choice.usual_price;
+        if is_seen || draft.cuts.is_empty() {
+            return Ok(None);
+        }
+        let ground = Ground {
+            draft: Some(draft),
+            ..self.ground.clone()
+        };
         let before = Achieved::of(&usual.bossed.voids);
         let is_lost =
-            |voids: &Voids| before.loss_ratio(&Achieved::of(voids)) > self.policy.seam_loss_ratio;
-        let mut least_loss: Option<f64> = None;
-        let mut weight = self.policy.lack_weight;
-        for _ in 0..self.policy.hidden_rounds {
-            let mut request = self.request.clone();
-            request.seams.lack_weight = Some(weight);
-            weight *= self.policy.lack_growth;
-            let other = self.plan_in_walls(&self.ground, &request, Rung::Walls, &is_lost);
-            let Some(other) = unless_refused(other)? else {
-                continue;
-            };
-            let loss_ratio = other.loss_ratio(&usual);
-            let is_dear = loss_ratio > self.policy.seam_loss_ratio;
-            if other.bossed.plan.cuts.is_empty() || !is_dear && other.seam_price()? >= price {
-                continue;
-            }
-            if other.hides_worth(&usual, &self.policy) {
-                self.request = request;
-                self.notes.push(Remark::Seams {
-                    loss_ratio: Some(loss_ratio),
-                    is_taken: true,
-                });
-                return Ok(other);
-            }
-            least_loss = Some(least_loss.map_or(loss_ratio, |least| least.min(loss_ratio)));
-        }
-        self.notes.push(Remark::Seams {
-            loss_ratio: least_loss,
-            is_taken: false,
-        });
-        Ok(usual)
+            |voids: &Voids| before.loss_ratio(&Achieved::of(voids)) > policy.seam_loss_ratio;
+        let way = self.plan_in_walls(&ground, &request, Rung::Walls, &is_lost);
+        let Some(way) = unless_refused(way)? else {
+            return Ok(None);
+        };
+        Ok(Some(Hidden {
+            loss_ratio: way.loss_ratio(usual),
+            price: way.seam_price()?,
+            way,
+        }))
     }
 
     /// Places the pins of a draft, or of one with fewer parts in its place.
@@ -127,4 +238,9 @@ impl<'a> Ladder<'a> {
             && seen.count_unaligned()? == 0;
         Ok(is_aligned.then_some(seen))
     }
+}
+
+/// Returns the planes of a plan's cuts.
+fn planes(plan: &CutPlan) -> Result<Vec<Plane>, CutError> {
+    plan.cuts.iter().map(Cut::plane).collect()
 }
