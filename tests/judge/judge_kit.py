@@ -1247,6 +1247,8 @@ class Boxes:
             lower, upper = self.levels[-1]
             self.levels.append((lower.reshape(-1, 2, 3).min(axis=1), upper.reshape(-1, 2, 3).max(axis=1)))
         self.levels.reverse()
+        # One axis after the other is much quicker than rows of three.
+        self.levels = [(low.T.copy(), high.T.copy()) for low, high in self.levels]
 
     def near(self, points, reach):
         """Pairs of a point and a triangle no farther from it than the reach, and their distances."""
@@ -1254,10 +1256,12 @@ class Boxes:
         return tuple(np.concatenate(column) for column in zip(*found))
 
     def _near(self, points, who, reach):
-        node = np.zeros(len(who), int)
+        node, axes = np.zeros(len(who), int), points.T.copy()
         for level, (low, high) in enumerate(self.levels):
-            hit = ((points[who] >= low[node] - reach) & (points[who] <= high[node] + reach)).all(axis=1)
-            who, node = who[hit], node[hit]
+            for of, lower, upper in zip(axes, low - reach, high + reach):
+                at = of[who]
+                hit = (at >= lower[node]) & (at <= upper[node])
+                who, node = who[hit], node[hit]
             if level < self.depth:
                 who, node = np.repeat(who, 2), (2 * node[:, None] + [0, 1]).ravel()
         who, place = np.repeat(who, self.LEAF), self.order[(self.LEAF * node[:, None] + np.arange(self.LEAF)).ravel()]
@@ -1281,16 +1285,26 @@ def farthest_off(corners, sheets):
     sliver = np.linalg.norm(normals, axis=1) < 2 * ON_SURFACE_MM * longest
     points, owner = spread_over(corners)
     boxes, off, nearest_of = Boxes(sheets), np.full(len(points), FAR_OFF_MM), np.full(len(points), -1)
-    # Few points are looked for twice: most of them are on a surface.
+    # Many triangles share a corner, which is looked for once.
+    places, copy_of = np.unique(points, axis=0, return_inverse=True)
+    copies, ends = np.argsort(copy_of.ravel(), kind="stable"), np.bincount(copy_of.ravel()).cumsum()
+    starts, sought = np.concatenate([[0], ends[:-1]]), np.arange(len(places))
+    # Few places are looked for twice: most of them are on a surface.
     for reach in (ON_SURFACE_MM, FAR_OFF_MM):
-        left = np.flatnonzero(nearest_of < 0)
-        who, place, gaps = boxes.near(points[left], reach)
-        who = left[who]
+        at, place, gaps = boxes.near(places[sought], reach)
+        at = sought[at]
+        count = ends[at] - starts[at]
+        pair = np.repeat(np.arange(len(at)), count)
+        who = copies[starts[at][pair] + np.arange(len(pair)) - np.repeat(count.cumsum() - count, count)]
+        place, gaps = place[pair], gaps[pair]
+        fresh = nearest_of[who] < 0
+        who, place, gaps = who[fresh], place[fresh], gaps[fresh]
         turned = np.einsum("ij,ij->i", normals[owner[who]], facing[place]) < 0
         counts = ~turned | sliver[owner[who]]
         # The nearest is written last.
         by_gap = np.flatnonzero(counts)[np.argsort(-gaps[counts], kind="stable")]
         off[who[by_gap]], nearest_of[who[by_gap]] = gaps[by_gap], place[by_gap]
+        sought = np.unique(copy_of.ravel()[nearest_of < 0])
     worst, nearest = np.zeros(len(corners)), np.full(len(corners), -1)
     np.maximum.at(worst, owner, off)
     # The middles come last, one of them for each triangle at least.
