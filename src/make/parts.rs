@@ -131,8 +131,8 @@ impl Corrector<'_, '_> {
 
     /// Solves again until the voids meet the goal with what is not part of the uncut body.
     ///
-    /// Voids move meanwhile. Where one came too near to a socket, the room of that socket is kept
-    /// solid, and the rest is solved again; ordered pins stay whatever they break.
+    /// Voids move meanwhile. Where one comes too near to a socket, the room of that socket is kept
+    /// solid, and the rest is solved again. Ordered pins stay whatever they break.
     fn correct(&mut self, voids: Voids, plan: &CutPlan, more: Moments) -> Result<Voids, Error> {
         let voids = self.resolver.correct(voids, more)?;
         let thin = find_thin_sockets(&voids.hollowed, plan, self.request)?;
