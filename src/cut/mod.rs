@@ -65,9 +65,10 @@ pub use remark::{PinLack, Proof, Remark, SightGain, Term, UncleanCause};
 pub use side::{CutSide, Side};
 
 // The parts and their joints.
+pub use joints::bench::{PRESSED_MM, WIPING_ROOM_MM};
 pub use joints::boss::{Boss, BossRequest, JointName, MaterialPrice};
 pub use joints::bosses::bosses;
-pub use joints::jig::{Jig, PRESSED_MM, WIPING_ROOM_MM, jigs};
+pub use joints::jig::{Jig, jigs};
 pub use joints::label::Label;
 pub use joints::pin_shape::PinSite;
 pub use joints::rod::{Dowel, Rod, RodSource, rods};

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 
 mod slices;
 
-use self::slices::slices_between;
+use self::slices::{Slice, slices_between};
 use super::hull::convex_hull;
 
 /// A position in the plane, mm.
@@ -133,21 +133,7 @@ pub fn extent_mm(corners: &[Spot]) -> f64 {
 /// A body pressed into a cradle: all motions in which it touches the cradle, about a middle.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Seat {
-    motions: Vec<Motion>,
-}
-
-/// A small motion.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Motion {
-    shift: Way,
-    /// In radians.
-    turn: f64,
-}
-
-impl Motion {
-    fn of(&self, spot: &Spot) -> Way {
-        self.shift + Way::new(-spot.y, spot.x) * self.turn
-    }
+    slices: Vec<Slice>,
 }
 
 impl Seat {
@@ -178,27 +164,19 @@ impl Seat {
         if ends.iter().any(is_free) {
             return None;
         }
-        let motions = body.motions_between(ends)?;
-        (!motions.is_empty()).then_some(Self { motions })
+        let slices = body.slices_between(ends)?;
+        (!slices.is_empty()).then_some(Self { slices })
     }
 
     /// Returns the play between two seated bodies about one middle. The step is right to 0.1 % and
     /// a micrometre.
     pub fn play_between(&self, other: &Self, middle: Spot, rim: &[Spot]) -> Play {
-        let apart = |spot: &Spot| {
-            let along = |side: usize| {
-                let (sin, cos) = (std::f64::consts::TAU * side as f64 / WAYS as f64).sin_cos();
-                let way = Way::new(cos, sin);
-                let most = |seat: &Self, way: Way| {
-                    let moved = seat.motions.iter().map(|motion| motion.of(spot).dot(&way));
-                    moved.fold(f64::NEG_INFINITY, f64::max)
-                };
-                most(self, way) + most(other, -way)
-            };
-            largest((0..WAYS).map(along))
-        };
+        let ways: Vec<Apart> = (0..WAYS)
+            .map(|side| Apart::along(side, [self, other]))
+            .collect();
+        let apart = |spot: &Spot| largest(ways.iter().map(|way| way.at(spot)));
         let turns = |seat: &Self| {
-            let turns = seat.motions.iter().map(|motion| motion.turn);
+            let turns = seat.slices.iter().map(|slice| slice.turn);
             turns.fold([0.0; 2], |[low, high]: [f64; 2], turn| {
                 [low.min(turn), high.max(turn)]
             })
@@ -210,6 +188,42 @@ impl Seat {
             turn_deg: (high - other_low).max(other_high - low).to_degrees(),
             step_mm: largest(rim.iter().map(apart)),
         }
+    }
+}
+
+/// Two seated bodies that move apart along a direction.
+struct Apart {
+    way: Way,
+    /// Turns of each body, with its greatest shift along the direction or against it.
+    reaches: [Vec<(f64, f64)>; 2],
+}
+
+impl Apart {
+    /// Looks along one of [`WAYS`] directions; the second body moves against it.
+    fn along(side: usize, seats: [&Seat; 2]) -> Self {
+        let (sin, cos) = (std::f64::consts::TAU * side as f64 / WAYS as f64).sin_cos();
+        let way = Way::new(cos, sin);
+        let reaches = |seat: &Seat, way: Way| {
+            let slices = seat.slices.iter();
+            slices
+                .map(|slice| (slice.turn, slice.reach_mm(&way)))
+                .collect()
+        };
+        let [one, other] = seats;
+        Self {
+            way,
+            reaches: [reaches(one, way), reaches(other, -way)],
+        }
+    }
+
+    /// Returns how far a point of both moves apart along the direction, mm.
+    fn at(&self, spot: &Spot) -> f64 {
+        let lever = self.way.dot(&Way::new(-spot.y, spot.x));
+        let most = |reaches: &[(f64, f64)], lever: f64| {
+            let moved = reaches.iter().map(|(turn, shift)| shift + turn * lever);
+            moved.fold(f64::NEG_INFINITY, f64::max)
+        };
+        most(&self.reaches[0], lever) + most(&self.reaches[1], -lever)
     }
 }
 
@@ -259,20 +273,12 @@ impl Between {
         (!shifts.is_empty() && shifts.iter().all(has_end)).then_some(shifts)
     }
 
-    /// Returns motions of which every free motion between two turns is a mean, to a micrometre;
+    /// Returns slices of which every free motion between two turns is a mean, to a micrometre;
     /// `None` if a shift has no end.
-    fn motions_between(&self, ends: [f64; 2]) -> Option<Vec<Motion>> {
+    fn slices_between(&self, ends: [f64; 2]) -> Option<Vec<Slice>> {
         let slices = slices_between(ends, TURNS, |turn| self.clipped(turn));
-        let all = slices.iter().flat_map(|slice| {
-            let turn = slice.turn;
-            slice
-                .shifts
-                .iter()
-                .map(move |&shift| Motion { shift, turn })
-        });
-        let motions: Vec<Motion> = all.collect();
-        let has_end = |motion: &Motion| has_end(&motion.shift);
-        motions.iter().all(has_end).then_some(motions)
+        let has_ends = |slice: &Slice| slice.shifts.iter().all(has_end);
+        slices.iter().all(has_ends).then_some(slices)
     }
 
     fn clipped(&self, turn: f64) -> Vec<Way> {
@@ -283,7 +289,11 @@ impl Between {
         for stop in &self.stops {
             let moved = Way::new(-stop.at.y, stop.at.x) * turn;
             let room_mm = stop.room_mm - stop.normal.dot(&moved);
-            shifts = clip(&shifts, |shift| stop.normal.dot(shift) - room_mm);
+            let excess = |shift: &Way| stop.normal.dot(shift) - room_mm;
+            // Most stops are behind others.
+            if shifts.iter().any(|shift| excess(shift) > 0.0) {
+                shifts = clip(&shifts, excess);
+            }
         }
         shifts
     }
@@ -376,6 +386,25 @@ fn largest(values: impl Iterator<Item = f64>) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// A small motion, about the middle.
+    struct Motion {
+        shift: Way,
+        /// In radians.
+        turn: f64,
+    }
+
+    impl Motion {
+        fn of(&self, spot: &Spot) -> Way {
+            self.shift + Way::new(-spot.y, spot.x) * self.turn
+        }
+
+        fn all_of(slice: &Slice) -> Vec<Self> {
+            let turn = slice.turn;
+            let shifts = slice.shifts.iter();
+            shifts.map(|&shift| Self { shift, turn }).collect()
+        }
+    }
 
     /// The greatest share by which the polygon of a pin's stops lies outside the circle.
     const OUTSIDE_RATIO: f64 = 0.003;
@@ -540,12 +569,13 @@ mod tests {
         let middle = Spot::origin();
         let seat = Seat::pressed(&stops, &press, middle).unwrap();
         let free = Between::new(&stops, &[], middle.coords);
+        let of_seat: Vec<Motion> = seat.slices.iter().flat_map(Motion::all_of).collect();
         let depth = |motion: &Motion| press.normal.dot(&motion.of(&press.at));
-        let deepest = seat.motions.iter().map(depth).fold(0.0, f64::max);
+        let deepest = of_seat.iter().map(depth).fold(0.0, f64::max);
         let all = (-20_000..20_000).flat_map(|index| {
             let turn = f64::from(index) * 5e-6;
-            let shifts = free.clipped(turn).into_iter();
-            shifts.map(move |shift| Motion { shift, turn })
+            let shifts = free.clipped(turn);
+            Motion::all_of(&Slice { turn, shifts })
         });
         let all: Vec<Motion> = all
             .filter(|m| depth(m) >= deepest - press.room_mm)
@@ -560,10 +590,10 @@ mod tests {
                 };
                 largest_mm = largest_mm.max(reach(&all));
                 assert!(
-                    reach(&all) <= reach(&seat.motions) + 2.0 * slices::STRAIGHT_MM,
+                    reach(&all) <= reach(&of_seat) + 2.0 * slices::STRAIGHT_MM,
                     "{} {}",
                     reach(&all),
-                    reach(&seat.motions)
+                    reach(&of_seat)
                 );
             }
         }

@@ -1,9 +1,10 @@
 //! The outline of a cradle: what is left of a slab when a body is lifted out of it.
 
+use super::stops::Sides;
 use crate::{
     geom::{
         Plane, Point, Vector,
-        play::{Spot, Stop, Way},
+        play::{Spot, Stop},
     },
     mesh::{MeshError, TriMesh},
 };
@@ -26,10 +27,6 @@ const SLOPE_MM: f64 = 0.25;
 
 /// Least width of a groove, and of a strip between two, mm: any printer prints it.
 const STRIP_MM: f64 = 1.0;
-
-/// Least part of the way to the outline that is normal to it, if it is to stop a point. A judge
-/// allows 0.99: what stops a point here then does so for the judge, too.
-const FACING_RATIO: f64 = 0.999;
 
 /// Sectors of direction and of place in each of which only the nearest stop counts.
 const SECTORS: f64 = 36.0;
@@ -161,7 +158,8 @@ impl Slab {
             return Vec::new();
         };
         let width = (last.x - first.x).max(f64::MIN_POSITIVE);
-        for stop in self.points().flat_map(|at| touches(&at, outline, reach_mm)) {
+        let sides = Sides::of(outline, reach_mm);
+        for stop in self.points().flat_map(|at| sides.touched_by(&at)) {
             let turn = stop.normal.y.atan2(stop.normal.x) / std::f64::consts::TAU;
             let place = (stop.at.x - first.x) / width;
             let sector = [turn, place].map(|share| (share * SECTORS).floor() as i64);
@@ -218,38 +216,6 @@ fn drop_short_runs(flags: &mut [bool], kind: bool, least: usize) {
             run.fill(!kind);
         }
     }
-}
-
-/// Returns the stops of one point of a body: at the nearest floor and walls of an outline.
-fn touches(at: &Spot, outline: &[Spot], reach_mm: f64) -> Vec<Stop> {
-    let from = outline
-        .partition_point(|corner| corner.x < at.x - reach_mm)
-        .saturating_sub(1);
-    let to = outline.partition_point(|corner| corner.x <= at.x + reach_mm);
-    let near = &outline[from..(to + 1).min(outline.len())];
-    let mut found: [Option<Stop>; 3] = [None; 3];
-    for side in near.windows(2) {
-        let along = side[1] - side[0];
-        let kind = match along.y / along.x {
-            slope if slope.abs() <= 1.0 => 0,
-            slope if slope < 0.0 => 1,
-            _ => 2,
-        };
-        let share = (at - side[0]).dot(&along) / along.norm_squared();
-        let way = side[0] + along * share.clamp(0.0, 1.0) - at;
-        let room_mm = way.norm();
-        // Beside a corner there is room to pass it.
-        let is_ahead = way.perp(&along).abs() >= FACING_RATIO * room_mm * along.norm();
-        if is_ahead && room_mm > 0.0 && room_mm <= found[kind].map_or(reach_mm, |stop| stop.room_mm)
-        {
-            found[kind] = Some(Stop {
-                at: *at,
-                normal: Way::from(way / room_mm),
-                room_mm,
-            });
-        }
-    }
-    found.into_iter().flatten().collect()
 }
 
 /// A row of equal steps across a view.
@@ -427,17 +393,5 @@ mod tests {
         let inmost = near.map(|stop| stop.at.x.abs());
         let inmost_mm = inmost.fold(f64::INFINITY, f64::min);
         assert!((5.0..6.6).contains(&inmost_mm), "{inmost_mm}");
-    }
-
-    #[test]
-    fn a_point_beside_a_corner_is_not_stopped_by_it() {
-        let outline = [(-4.0, 0.0), (-1.0, 0.0), (-1.0 + 1e-6, -2.0), (4.0, -2.0)];
-        let outline = outline.map(|(x, y)| Spot::new(x, y));
-        let above = touches(&Spot::new(-2.0, 0.1), &outline, 1.0);
-        assert!(matches!(above[..], [stop] if (stop.room_mm - 0.1).abs() < 1e-9));
-        // It lies 0.1 mm higher than the corner, and 0.3 mm beside it.
-        assert_eq!(touches(&Spot::new(-0.7, 0.1), &outline, 1.0), vec![]);
-        // Hardly past the corner, at an angle of 5°.
-        assert_eq!(touches(&Spot::new(-0.99, 0.115), &outline, 1.0), vec![]);
     }
 }

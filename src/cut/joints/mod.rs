@@ -1,5 +1,6 @@
 //! Pins, dowels, bosses and labels of the joints between parts.
 
+pub(crate) mod bench;
 pub(crate) mod boss;
 pub(crate) mod boss_maker;
 pub(crate) mod boss_places;
@@ -20,6 +21,7 @@ pub(crate) mod placement;
 pub(crate) mod rod;
 pub(crate) mod sketch;
 pub(crate) mod socket_wall;
+mod stops;
 
 #[cfg(test)]
 mod tests;

@@ -1,4 +1,4 @@
-//! Sketches of jigs: their outlines and the play of what lies in them, before any surface is made.
+//! Sketches of jigs: their outlines, before any surface is made, and the play of what they hold.
 
 use std::cmp::Ordering;
 
@@ -6,6 +6,7 @@ use super::cradle::View;
 use crate::geom::play::{Play, Spot};
 
 /// The outlines of a jig in the view along its joint.
+#[derive(Clone)]
 pub(super) struct Sketch {
     pub(super) view: View,
     /// The outlines of the ribs below and above the joint.
@@ -14,19 +15,16 @@ pub(super) struct Sketch {
     pub(super) ribs_mm: [f64; 2],
     /// The heights of the plate's two faces, mm.
     pub(super) plate: [f64; 2],
+}
+
+/// A sketch that holds its parts.
+#[derive(Clone)]
+pub(super) struct Held {
+    pub(super) sketch: Sketch,
     pub(super) play: Play,
 }
 
 impl Sketch {
-    /// Returns true if it is smaller than another, or tighter if either is not tight.
-    pub(super) fn is_better(&self, other: &Self, tight_mm: f64) -> bool {
-        let [step_mm, other_mm] = [self, other].map(|sketch| sketch.play.step_mm.max(tight_mm));
-        match step_mm.total_cmp(&other_mm) {
-            Ordering::Equal => self.volume_mm3() < other.volume_mm3(),
-            order => order == Ordering::Less,
-        }
-    }
-
     /// Returns an upper bound of its volume, mm³.
     pub(super) fn volume_mm3(&self) -> f64 {
         let [low, _] = self.plate;
@@ -36,5 +34,16 @@ impl Sketch {
             areas.sum::<f64>()
         };
         self.ribs.iter().map(area).sum::<f64>() * (self.ribs_mm[1] - self.ribs_mm[0])
+    }
+}
+
+impl Held {
+    /// Returns true if it is smaller than another, or tighter if either is not tight.
+    pub(super) fn is_better(&self, other: &Self, tight_mm: f64) -> bool {
+        let [step_mm, other_mm] = [self, other].map(|held| held.play.step_mm.max(tight_mm));
+        match step_mm.total_cmp(&other_mm) {
+            Ordering::Equal => self.sketch.volume_mm3() < other.sketch.volume_mm3(),
+            order => order == Ordering::Less,
+        }
     }
 }

@@ -17,7 +17,7 @@ const HALVINGS: usize = 8;
 const BEND_WAYS: usize = 24;
 
 /// The corners of the polygon of all shifts with one turn.
-#[derive(Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub(super) struct Slice {
     /// The turn, radians.
     pub(super) turn: f64,
@@ -75,7 +75,8 @@ impl Slice {
         })
     }
 
-    fn reach_mm(&self, way: &Way) -> f64 {
+    /// Returns the greatest shift along a direction, mm.
+    pub(super) fn reach_mm(&self, way: &Way) -> f64 {
         let reaches = self.shifts.iter().map(|shift| shift.dot(way));
         reaches.fold(f64::NEG_INFINITY, f64::max)
     }
