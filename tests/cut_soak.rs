@@ -20,8 +20,9 @@ use std::time::Instant;
 use equipoise::base::verdict::Verdict;
 use equipoise::base::watch::Watch;
 use equipoise::cut::{
-    Cut, CutId, CutOrder, CutPlan, CutSide, GoalAxis, Hollowed, LabelStyle, LeastPart, Obstacle,
-    Part, PinSettings, PinSite, PlanRequest, PosePreference, Seams, Side, parts, plan_by, rods,
+    Cut, CutId, CutOrder, CutPlan, CutSide, GoalAxis, Hollowed, JigShelf, LabelStyle, LeastPart,
+    Obstacle, Part, PinSettings, PinSite, PlanRequest, PosePreference, Seams, Side, parts, plan_by,
+    rods,
 };
 use equipoise::geom::{Bvh, Point, Vector};
 use equipoise::io::read_model;
@@ -157,6 +158,7 @@ fn request(dice: &mut Dice) -> PlanRequest {
         }),
         seams: Seams::default(),
         least_part: LeastPart::NONE,
+        jigs: JigShelf::default(),
         watch: Watch::silent(),
     }
 }

@@ -13,7 +13,7 @@
 
 use equipoise::base::watch::Watch;
 use equipoise::cut::{
-    GoalAxis, Hollowed, LeastPart, PinSettings, PlanRequest, PosePreference, Seams, plan,
+    GoalAxis, Hollowed, JigShelf, LeastPart, PinSettings, PlanRequest, PosePreference, Seams, plan,
 };
 use equipoise::geom::{Point, Vector};
 use equipoise::mesh::{Csg, Solid, TriMesh, primitives};
@@ -53,6 +53,7 @@ fn request() -> PlanRequest {
         labels: None,
         seams: Seams::default(),
         least_part: LeastPart::NONE,
+        jigs: JigShelf::default(),
         watch: Watch::silent(),
     }
 }

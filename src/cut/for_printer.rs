@@ -1,6 +1,7 @@
 //! Requests for cuts that a printer can make.
 
 use crate::base::watch::Watch;
+use crate::cut::joints::shelf::JigShelf;
 use crate::cut::least_part::LeastPart;
 use crate::cut::request::{GoalAxis, LabelStyle, PinSettings, PlanRequest, PosePreference};
 use crate::cut::seam::rules::Seams;
@@ -61,6 +62,7 @@ impl PlanRequest {
             labels: Some(LabelStyle::for_printer(printer)),
             seams: Seams::default(),
             least_part: LeastPart::USUAL,
+            jigs: JigShelf::default(),
             watch: Watch::silent(),
         }
     }

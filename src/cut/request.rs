@@ -4,7 +4,11 @@ use serde::{Deserialize, Serialize};
 
 use crate::{
     base::watch::Watch,
-    cut::{joints::rod::Rod, least_part::LeastPart, seam::rules::Seams},
+    cut::{
+        joints::{rod::Rod, shelf::JigShelf},
+        least_part::LeastPart,
+        seam::rules::Seams,
+    },
     geom::{Point, Vector},
     printer::Cleaning,
 };
@@ -51,6 +55,8 @@ pub struct PlanRequest {
     pub seams: Seams,
     /// The least part that is worth its joint.
     pub least_part: LeastPart,
+    /// The jigs that were found before.
+    pub jigs: JigShelf,
     /// The watch over the run: it hears that planning and cutting go on, and may stop them.
     pub watch: Watch,
 }

@@ -3,8 +3,8 @@
 use crate::{
     base::watch::Watch,
     cut::{
-        self, CutError, CutOrder, CutPlan, GoalAxis, LeastPart, Part, PinSettings, PlanRequest,
-        PosePreference, Seams, hollowed::Hollowed,
+        self, CutError, CutOrder, CutPlan, GoalAxis, JigShelf, LeastPart, Part, PinSettings,
+        PlanRequest, PosePreference, Seams, hollowed::Hollowed,
     },
     geom::{Point, Vector},
     mesh::{Solid, TriMesh},
@@ -116,6 +116,7 @@ pub(crate) fn request() -> PlanRequest {
         labels: None,
         seams: Seams::default(),
         least_part: LeastPart::NONE,
+        jigs: JigShelf::default(),
         watch: Watch::silent(),
     }
 }

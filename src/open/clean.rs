@@ -1,7 +1,7 @@
 //! Cleaning: what no cut lets be cleaned is kept solid, and the rest solved for again.
 
 use super::plan::draft_once;
-use super::resolve::Resolver;
+use super::resolve::{Refused, Resolver};
 use crate::base::verdict::Verdict;
 use crate::cut::{
     CutError, CutPlan, Obstacle, PlanRequest, SolidEnd, Unclean, VoidId, draft_again, find_unclean,
@@ -93,7 +93,7 @@ pub fn clean(
                 rounds,
             });
         }
-        let (round, less) = keep_solid(resolver, &voids, dirty)?;
+        let (round, less) = keep_solid(resolver, &voids, dirty, is_lost)?;
         match (less, plan) {
             (Some(less), plan) if is_lost(&less) => {
                 rounds.push(round);
@@ -237,20 +237,26 @@ pub fn without_ends(
         bodies,
         margin_openings: resolver.placed().policy.cleaning_margin_openings,
     };
-    let (mut round, less) = keep_solid(resolver, voids, keep)?;
+    let (mut round, less) = keep_solid(resolver, voids, keep, &|_| false)?;
     round.by_plan = true;
     Ok(less.map(|less| (round, less)))
 }
 
 /// Keeps bodies solid and solves again. If the goal cannot be met any more there are no voids, and
-/// the resolver is as it was.
+/// the resolver is as it was. Voids that `is_lost` refuses are not corrected.
 pub fn keep_solid(
     resolver: &mut Resolver,
     voids: &Voids,
     keep: Keep,
+    is_lost: &dyn Fn(&Voids) -> bool,
 ) -> Result<(CleaningRound, Option<Voids>), Error> {
     let before = resolver.clone();
-    let less = resolver.without(voids, &keep.bodies, keep.margin_openings)?;
+    let refused = Refused {
+        bodies: &keep.bodies,
+        margin_openings: keep.margin_openings,
+        is_lost,
+    };
+    let less = resolver.without(voids, &refused)?;
     let less = less.solution.is_usable().then_some(less);
     if less.is_none() {
         *resolver = before;

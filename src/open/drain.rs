@@ -71,7 +71,7 @@ fn fill(
     let mut rounds = Vec::new();
     let mut solid = keep(cups, policy.cleaning_margin_openings);
     for _ in 0..policy.cleaning_rounds {
-        let (round, less) = keep_solid(resolver, &voids, solid)?;
+        let (round, less) = keep_solid(resolver, &voids, solid, &|_| false)?;
         let Some(less) = less else { break };
         rounds.push(round);
         voids = less;

@@ -32,6 +32,17 @@ pub struct Resolver<'a> {
     watch: Watch,
 }
 
+/// Closed bodies that are to be kept solid.
+pub struct Refused<'b> {
+    /// The bodies.
+    pub bodies: &'b [TriMesh],
+    /// Margin around them, in minimum openings.
+    pub margin_openings: f64,
+    /// Tells from voids without them if too much is lost. It may be asked before these are
+    /// corrected.
+    pub is_lost: &'b dyn Fn(&Voids) -> bool,
+}
+
 impl<'a> Resolver<'a> {
     /// Draws the region that may be emptied.
     pub fn new(placed: &'a Placed, solved: Solved, watch: &Watch) -> Result<Self, Error> {
@@ -95,14 +106,15 @@ impl<'a> Resolver<'a> {
     /// constraints; the nearest round if none does.
     ///
     /// Each surface is drawn anew, with an error that no other foretells. If a body's moments are
-    /// nearly equal, its principal axis wanders between rounds by more than the tolerance.
+    /// nearly equal, its principal axis wanders between rounds by more than the tolerance. A goal
+    /// that cannot be met any more is not solved for again.
     pub fn correct(&mut self, mut voids: Voids, more: Moments) -> Result<Voids, Error> {
         let goal = self.placed.goal();
         let mut measured = self.measure(&voids, more);
         let mut least = defect_ratio(goal, &voids.solution.moments, &measured);
         let mut best = voids.clone();
         for _ in 0..self.placed.policy.correction_rounds {
-            if least <= 1.0 {
+            if least <= 1.0 || !voids.solution.is_usable() {
                 break;
             }
             voids = self.solve_again(&voids, measured)?;
@@ -125,17 +137,18 @@ impl<'a> Resolver<'a> {
         (printed + inside).in_frame(&self.placed.goal().frame)
     }
 
-    /// Keeps closed bodies solid, with a margin in minimum openings around them, and solves again.
-    pub fn without(
-        &mut self,
-        voids: &Voids,
-        bodies: &[TriMesh],
-        margin_openings: f64,
-    ) -> Result<Voids, Error> {
-        self.refuse(bodies, margin_openings)?;
+    /// Keeps bodies solid, and solves again.
+    ///
+    /// The figure is known before the voids are corrected. If they are lost by it, they stay
+    /// uncorrected, which saves most of the time.
+    pub fn without(&mut self, voids: &Voids, refused: &Refused) -> Result<Voids, Error> {
+        self.refuse(refused.bodies, refused.margin_openings)?;
         let less = self.voids(voids.solution.clone(), voids.fixed, voids.rounds)?;
         let measured = self.measure(&less, Moments::default());
         let less = self.solve_again(&less, measured)?;
+        if (refused.is_lost)(&less) {
+            return Ok(less);
+        }
         self.correct(less, Moments::default())
     }
 

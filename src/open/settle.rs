@@ -1,7 +1,7 @@
 //! Settling: what bosses close or hide is kept solid too, and solved for again, until nothing is.
 
 use super::plan::are_clean;
-use super::resolve::Resolver;
+use super::resolve::{Refused, Resolver};
 use crate::base::verdict::Verdict;
 use crate::cut::{
     CutError, CutOrder, CutPlan, Obstacle, PlanRequest, Unclean, find_closed, find_unclean,
@@ -9,7 +9,7 @@ use crate::cut::{
 };
 use crate::error::Error;
 use crate::mesh::TriMesh;
-use crate::run::{Achieved, Refusal, Voids};
+use crate::run::{Achieved, Policy, Refusal, Voids};
 
 /// The terms on which bosses are taken.
 #[derive(Clone, Copy)]
@@ -32,6 +32,28 @@ pub struct Terms<'a> {
     pub start: Achieved,
     /// Greatest loss of the figure from that.
     pub max_price_ratio: f64,
+}
+
+impl Terms<'_> {
+    /// Returns why voids with bosses are refused by their figures; `None` if they are not.
+    fn refuse(&self, voids: &Voids, kept_more: bool, policy: &Policy) -> Option<Refusal> {
+        if !voids.solution.is_usable() {
+            return Some(Refusal::MakeGoalImpossible);
+        }
+        let now = Achieved::of(voids);
+        let ratio = self.before.filled_ratio(&now);
+        if ratio > policy.max_void_loss_ratio {
+            return Some(Refusal::FillVoids { ratio });
+        }
+        let price_ratio = self.start.loss_ratio(&now);
+        let loss_ratio = self.before.loss_ratio(&now);
+        let too_much = if price_ratio > self.max_price_ratio {
+            Some(price_ratio)
+        } else {
+            (kept_more && loss_ratio > self.max_loss_ratio).then_some(loss_ratio)
+        };
+        too_much.map(|loss_ratio| Refusal::CostTooMuch { loss_ratio })
+    }
 }
 
 /// Voids with bosses in them, and the plan that opens them.
@@ -58,22 +80,9 @@ pub fn settle(
     let policy = resolver.placed().policy;
     for round in 0..=terms.rounds {
         resolver.watch().check()?;
-        if !voids.solution.is_usable() {
-            return Ok(Verdict::No(Refusal::MakeGoalImpossible));
-        }
-        let now = Achieved::of(&voids);
-        let ratio = terms.before.filled_ratio(&now);
-        if ratio > policy.max_void_loss_ratio {
-            return Ok(Verdict::No(Refusal::FillVoids { ratio }));
-        }
-        let price_ratio = terms.start.loss_ratio(&now);
-        if price_ratio > terms.max_price_ratio {
-            let loss_ratio = price_ratio;
-            return Ok(Verdict::No(Refusal::CostTooMuch { loss_ratio }));
-        }
-        let loss_ratio = terms.before.loss_ratio(&now);
-        if round > 0 && loss_ratio > terms.max_loss_ratio {
-            return Ok(Verdict::No(Refusal::CostTooMuch { loss_ratio }));
+        let kept_more = round > 0;
+        if let Some(refusal) = terms.refuse(&voids, kept_more, &policy) {
+            return Ok(Verdict::No(refusal));
         }
         let unclean = match replan(&voids, terms)? {
             Verdict::Found(Step::Done(plan)) => {
@@ -84,7 +93,12 @@ pub fn settle(
         };
         let bodies = unclean.into_iter().flat_map(|unclean| unclean.bodies);
         let bodies: Vec<TriMesh> = bodies.collect();
-        voids = resolver.without(&voids, &bodies, policy.settle_margin_openings)?;
+        let refused = Refused {
+            bodies: &bodies,
+            margin_openings: policy.settle_margin_openings,
+            is_lost: &|voids| terms.refuse(voids, true, &policy).is_some(),
+        };
+        voids = resolver.without(&voids, &refused)?;
     }
     Ok(Verdict::No(Refusal::LeaveUncleanVoid))
 }

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::rim::rim_of;
-use super::{Evidence, PartEvidence, PartFacts, PromisedJig, PromisedJoint};
+use super::{Evidence, PartEvidence, PartFacts, PromisedJig};
 use crate::base::watch::{Cancelled, Watch};
 use crate::geom::play::{Play, Seat, Spot, Stop, Way};
 use crate::geom::{Bvh, Plane, Point, Vector};
@@ -53,10 +53,9 @@ pub(super) fn measure_jigs(
     let jigs = promise.jigs.iter().zip(&evidence.jigs);
     let facts = jigs.map(|(jig, read)| {
         let part = PartFacts::of_part(read, watch)?;
-        let joint = promise.joints.iter().find(|joint| joint.id == jig.joint);
         let bench = Bench::new(jig, read, outer);
         watch.check()?;
-        let rim = joint.map_or(Vec::new(), |joint| bench.rim(joint, &evidence.parts));
+        let rim = bench.rim(evidence);
         Ok(JigFacts {
             joint: jig.joint.clone(),
             part,
@@ -79,10 +78,15 @@ pub fn loose_jigs(
 ) -> Result<Vec<String>, Cancelled> {
     let max_mm = evidence.promise.printer.seam_step_mm;
     let max_mm = max_mm.unwrap_or(f64::INFINITY);
-    let holds = |jig: &JigFacts| jig.play.is_some_and(|play| play.step_mm <= max_mm);
-    let found = measure_jigs(evidence, outer, watch)?;
-    let loose = found.into_iter().filter(|jig| !holds(jig));
-    Ok(loose.map(|jig| jig.part.id).collect())
+    let mut loose = Vec::new();
+    for (jig, read) in evidence.promise.jigs.iter().zip(&evidence.jigs) {
+        let bench = Bench::new(jig, read, outer);
+        let play = bench.play(&bench.rim(evidence), watch)?;
+        if play.is_none_or(|play| play.step_mm > max_mm) {
+            loose.push(read.id.clone());
+        }
+    }
+    Ok(loose)
 }
 
 /// A jig beside the outside of the object, model frame.
@@ -117,8 +121,12 @@ impl<'a> Bench<'a> {
         Vector::from(self.jig.out)
     }
 
-    fn rim(&self, joint: &PromisedJoint, parts: &[PartEvidence]) -> Vec<Point> {
-        rim_of(joint, &self.plane(), parts).unwrap_or_default()
+    /// Returns points of the rim of its joint; none if there is no such joint.
+    fn rim(&self, evidence: &Evidence) -> Vec<Point> {
+        let mut joints = evidence.promise.joints.iter();
+        let joint = joints.find(|joint| joint.id == self.jig.joint);
+        let rim = joint.and_then(|joint| rim_of(joint, &self.plane(), &evidence.parts));
+        rim.unwrap_or_default()
     }
 
     fn gap_mm(&self, watch: &Watch) -> Result<f64, Cancelled> {
@@ -207,14 +215,15 @@ impl<'a> Bench<'a> {
             let within = clip(&beyond, |p| side * plane.distance(p) - far);
             (!within.is_empty()).then_some(within)
         });
-        let mut stops = Vec::new();
-        for piece in slab {
+        let slab: Vec<Vec<Point>> = slab.collect();
+        let stops = slab.par_iter().map(|piece| {
             watch.check()?;
-            let inside = sections(&piece, |p| side * plane.distance(p));
-            let points = along(&piece).into_iter().chain(inside);
-            stops.extend(points.filter_map(|p| self.stop(&p)));
-        }
-        Ok(stops)
+            let inside = sections(piece, |p| side * plane.distance(p));
+            let points = along(piece).into_iter().chain(inside);
+            Ok(points.filter_map(|p| self.stop(&p)).collect())
+        });
+        let stops = stops.collect::<Result<Vec<Vec<Stop>>, Cancelled>>()?;
+        Ok(stops.concat())
     }
 
     /// Returns the stop of a point of the outside; `None` if the jig is far from it, or beside it.

@@ -134,9 +134,25 @@ impl<'a> Bench<'a> {
         }
     }
 
+    /// Returns the numbers that its jigs depend on.
+    fn numbers(&self) -> impl Iterator<Item = f64> + '_ {
+        let corners = self.outside.iter().flatten().chain(&self.rim);
+        let corners = corners.flat_map(|p| p.coords.iter().copied().collect::<Vec<f64>>());
+        let Plane { normal, offset_mm } = self.plane;
+        let plane = [normal.x, normal.y, normal.z, *offset_mm];
+        let room = self.request.build_volume_mm;
+        let room = room.map_or([f64::INFINITY; 3], |room| room);
+        let rules = [self.request.pins.snug_gap_mm, self.max_step_mm()];
+        plane.into_iter().chain(room).chain(rules).chain(corners)
+    }
+
     /// Returns the smallest jig that holds the parts tightly, else the tightest that holds them as
     /// well as is asked for; `None` if none does.
     pub(super) fn best(&self) -> Result<Option<Held>, Cancelled> {
+        self.request.jigs.keep(self.numbers(), || self.find_best())
+    }
+
+    fn find_best(&self) -> Result<Option<Held>, Cancelled> {
         let ways: Vec<f64> = (0..WAYS_OUT).map(|way| way as f64).collect();
         let usual = self.try_along(&ways, &[RIBS_MM], CHEEKS)?;
         let mut tightest: Vec<(f64, f64)> = (ways.iter().zip(&usual))

@@ -19,6 +19,7 @@ pub(crate) mod pin_size;
 pub(crate) mod pins;
 pub(crate) mod placement;
 pub(crate) mod rod;
+pub(crate) mod shelf;
 pub(crate) mod sketch;
 pub(crate) mod socket_wall;
 mod stops;

@@ -200,11 +200,11 @@ fn best_seen(scene: &Scene, plans: &[RankedPlan], weight: f64) -> Result<Attempt
     let areas_mm2 = scene.wall_areas_mm2();
     let whole_mm2: f64 = areas_mm2.iter().sum();
     let estimate = |plan: &RankedPlan| {
-        let mut voids = areas_mm2.iter().enumerate();
-        let lack_mm2 = voids.try_fold(0.0, |sum, (void, area_mm2)| {
-            let lack_ratio = estimate_lack_ratio(scene, VoidId::of(void), &plan.planes)?;
-            Ok(sum + area_mm2 * lack_ratio)
-        })?;
+        let lack_mm2 = match plan.lack_mm2.get() {
+            Some(known) => *known,
+            None => estimate_plan_lack_mm2(scene, &plan.planes, &areas_mm2)?,
+        };
+        let lack_mm2 = plan.lack_mm2.get_or_init(|| lack_mm2);
         Ok(plan.penalty + weight * lack_mm2 / whole_mm2)
     };
     let fresh = plans
@@ -230,6 +230,19 @@ fn best_seen(scene: &Scene, plans: &[RankedPlan], weight: f64) -> Result<Attempt
     }
     let best = measured.into_iter().min_by(|a, b| a.0.total_cmp(&b.0));
     best.map_or_else(|| Attempt::new(scene, &[]), |(_, attempt)| Ok(attempt))
+}
+
+/// Estimates the walls that some cuts leave unclean, mm². `areas_mm2` are those of the voids.
+fn estimate_plan_lack_mm2(
+    scene: &Scene,
+    planes: &[Plane],
+    areas_mm2: &[f64],
+) -> Result<f64, Cancelled> {
+    let mut voids = areas_mm2.iter().enumerate();
+    voids.try_fold(0.0, |sum, (void, area_mm2)| {
+        let lack_ratio = estimate_lack_ratio(scene, VoidId::of(void), planes)?;
+        Ok(sum + area_mm2 * lack_ratio)
+    })
 }
 
 /// Returns the first of the plans with which every void can be cleaned, or else the cleanest.

@@ -1,7 +1,7 @@
 //! Drafts: plans with cuts alone, for a search that weighs many of them. The one that is taken gets
 //! its pins in the end.
 
-use super::{check_request, fewest_cuts, limited_cut_remarks, small_part_remarks};
+use super::{check_request, fewest_cuts, find_plans, limited_cut_remarks, small_part_remarks};
 use crate::{
     base::verdict::Verdict,
     cut::{
@@ -16,6 +16,7 @@ use crate::{
             layers::snap_to_layers,
             layout::Layout,
             score::Scene,
+            search::Found,
             to_plan::{to_draft, to_plan},
         },
         remark::Remark,
@@ -36,8 +37,65 @@ pub fn draft(
 fn draft_fewest(hollowed: &Hollowed, request: &PlanRequest) -> Result<CutPlan, CutError> {
     check_request(request)?;
     let scene = Scene::new(hollowed, request)?;
-    let (layout, notes) = fewest_cuts(&scene)?;
+    let (layout, notes) = fewest_cuts(&scene, find_plans(&scene)?.as_ref())?;
     to_draft(&scene, &layout, notes)
+}
+
+/// A body that is drafted several times, while seams weigh more or less against what stays
+/// unclean. What its plans open and cost is found once.
+pub struct Drafts<'a> {
+    scene: Scene<'a>,
+    found: Option<Found>,
+}
+
+/// The weight of seams in one of several drafts.
+#[derive(Debug, Clone)]
+pub struct SeamWeight {
+    /// Weight of walls that lack sight, against seams.
+    pub lack_weight: f64,
+    /// The plans that were tried already.
+    pub tried: Vec<Vec<Plane>>,
+    /// Price of seams that a plan must stay below, in circles about the model of average weight.
+    pub dearest_ratio: f64,
+}
+
+impl SeamWeight {
+    /// Returns the request with this weight.
+    pub fn weigh(&self, request: &PlanRequest) -> PlanRequest {
+        let mut request = request.clone();
+        request.seams.lack_weight = Some(self.lack_weight);
+        request.seams.tried.clone_from(&self.tried);
+        request.seams.dearest_ratio = Some(self.dearest_ratio);
+        request
+    }
+}
+
+impl<'a> Drafts<'a> {
+    /// Finds the plans for a body, to be drafted by requests of this weighing of seams. The answer
+    /// is no if some void cannot be opened.
+    ///
+    /// # Errors
+    /// As for [`draft`]. The request must weigh seams.
+    pub fn new(
+        hollowed: &'a Hollowed,
+        request: &'a PlanRequest,
+    ) -> Result<Verdict<Self, Obstacle>, CutError> {
+        let prepare = || {
+            check_request(request)?;
+            let scene = Scene::new(hollowed, request)?;
+            let found = find_plans(&scene)?;
+            Ok(Self { scene, found })
+        };
+        verdict(prepare())
+    }
+
+    /// Drafts as [`draft`] does, with another weight of seams.
+    pub fn draft(&self, weight: &SeamWeight) -> Result<Verdict<CutPlan, Obstacle>, CutError> {
+        let request = weight.weigh(self.scene.request);
+        let scene = self.scene.weighed(&request);
+        let layout = fewest_cuts(&scene, self.found.as_ref());
+        verdict(layout.and_then(|(layout, notes)| to_draft(&scene, &layout, notes)))
+    }
 }
 
 /// Returns the draft with the planes of another one's cuts, for a body of which more is solid. Each

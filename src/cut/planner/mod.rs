@@ -37,7 +37,7 @@ use crate::{
             layers::snap_to_layers,
             layout::Layout,
             score::{Scene, burden, estimate_seam_penalty},
-            search::smallest_plans,
+            search::{Found, smallest_plans},
             straighten::straighten,
             to_plan::{rename_cuts, to_plan},
         },
@@ -78,16 +78,25 @@ pub fn plan(
 fn plan_fewest(hollowed: &Hollowed, request: &PlanRequest) -> Result<CutPlan, CutError> {
     check_request(request)?;
     let scene = Scene::new(hollowed, request)?;
-    let (layout, notes) = fewest_cuts(&scene)?;
+    let (layout, notes) = fewest_cuts(&scene, find_plans(&scene)?.as_ref())?;
     let plan = to_plan(&scene, &layout, Pins::Placed, notes.clone())?;
     snap_to_layers(&scene, &layout, plan, notes)
 }
 
-/// Returns the fewest cuts that open every void, with those that make parts fit, and the remarks on
-/// them.
-fn fewest_cuts(scene: &Scene) -> Result<(Layout, Vec<Remark>), CutError> {
+/// Finds the smallest plans for a body; `None` if it has no voids.
+fn find_plans(scene: &Scene) -> Result<Option<Found>, CutError> {
+    let has_voids = !scene.hollowed.voids.is_empty();
+    has_voids.then(|| smallest_plans(scene)).transpose()
+}
+
+/// Returns the fewest cuts that open every void, of the plans found, with those that make parts
+/// fit, and the remarks on them.
+fn fewest_cuts(scene: &Scene, found: Option<&Found>) -> Result<(Layout, Vec<Remark>), CutError> {
     let mut notes = Vec::new();
-    let mut layout = opening_cuts(scene, &mut notes)?;
+    let mut layout = match found {
+        Some(found) => opening_cuts(scene, found, &mut notes)?,
+        None => Layout::new(scene, Vec::new(), Vec::new())?,
+    };
     fit_build_volume(scene, &mut layout, &mut notes)?;
     notes.extend(limited_cut_remarks(&layout.tree));
     notes.extend(small_part_remarks(scene, &layout));
@@ -241,11 +250,7 @@ fn check_request(request: &PlanRequest) -> Result<(), CutError> {
 }
 
 /// Returns the layout of the best of the smallest plans.
-fn opening_cuts(scene: &Scene, notes: &mut Vec<Remark>) -> Result<Layout, CutError> {
-    if scene.hollowed.voids.is_empty() {
-        return Layout::new(scene, Vec::new(), Vec::new());
-    }
-    let found = smallest_plans(scene)?;
+fn opening_cuts(scene: &Scene, found: &Found, notes: &mut Vec<Remark>) -> Result<Layout, CutError> {
     notes.push(Remark::Fewest(found.proof()));
     let best = straighten(scene, cleanest(scene, &found.plans)?)?;
     let mut of_extra = Vec::new();

@@ -1,5 +1,7 @@
 //! The body to cut, prepared for the planner.
 
+use std::sync::Arc;
+
 use crate::{
     cut::{
         access::chamber::Chamber,
@@ -24,11 +26,11 @@ pub(crate) struct Scene<'a> {
     pub(crate) hollowed: &'a Hollowed,
     pub(crate) request: &'a PlanRequest,
     /// Surface of the material: the outside and the inverted voids.
-    pub(crate) material: TriMesh,
+    pub(crate) material: Arc<TriMesh>,
     /// The voids, prepared for cutting and line-of-sight tests.
-    pub(crate) chambers: Vec<Chamber<'a>>,
+    pub(crate) chambers: Arc<[Chamber<'a>]>,
     /// The balls that no seam enters.
-    pub(crate) clear: ClearBalls,
+    pub(crate) clear: Arc<ClearBalls>,
     pub(crate) volume_mm3: f64,
     pub(crate) diagonal_mm: f64,
 }
@@ -41,16 +43,34 @@ impl<'a> Scene<'a> {
         let diagonal_mm = hollowed.outer.mesh().aabb().size().norm();
         // A cut may still move by half a layer.
         let clear = &request.seams.keep_clear;
-        let clear = ClearBalls::new(clear, hollowed.outer.mesh(), request.layer_mm);
+        let clear = Arc::new(ClearBalls::new(
+            clear,
+            hollowed.outer.mesh(),
+            request.layer_mm,
+        ));
         Ok(Self {
             hollowed,
             request,
-            material,
-            chambers,
+            material: Arc::new(material),
+            chambers: chambers.into(),
             clear,
             volume_mm3,
             diagonal_mm,
         })
+    }
+
+    /// Returns the same body for a request that weighs seams differently and is else the same.
+    pub(crate) fn weighed<'b>(&self, request: &'b PlanRequest) -> Scene<'b>
+    where
+        'a: 'b,
+    {
+        Scene {
+            request,
+            material: Arc::clone(&self.material),
+            chambers: Arc::clone(&self.chambers),
+            clear: Arc::clone(&self.clear),
+            ..*self
+        }
     }
 
     /// Returns the pieces of the body between the cuts, to be looked at.

@@ -1,5 +1,7 @@
 //! The search for the fewest cuts that open every void, and for the best among them.
 
+use std::sync::OnceLock;
+
 use rayon::prelude::*;
 
 use crate::{
@@ -61,6 +63,8 @@ pub(crate) struct RankedPlan {
     pub(crate) planes: Vec<Plane>,
     /// The sum of the weighted terms, 0 at best.
     pub(crate) penalty: f64,
+    /// The walls that it seems to leave unclean, mm², once estimated.
+    pub(crate) lack_mm2: OnceLock<f64>,
 }
 
 /// The ranked plans, and the proof that no fewer cuts suffice.
@@ -223,6 +227,7 @@ fn rank_covers(
     let plan = |(penalty, cover): &(f64, Vec<usize>)| RankedPlan {
         planes: cover.iter().map(|&i| measured[i].plane).collect(),
         penalty: *penalty,
+        lack_mm2: OnceLock::new(),
     };
     Ok(scored.iter().map(plan).collect())
 }

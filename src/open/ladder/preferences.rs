@@ -2,11 +2,11 @@
 
 use super::Ladder;
 use crate::base::verdict::Verdict;
-use crate::cut::{Cut, CutError, CutPlan};
+use crate::cut::{Cut, CutError, CutPlan, Drafts, PlanRequest, SeamWeight};
 use crate::error::Error;
 use crate::geom::Plane;
 use crate::open::ground::Ground;
-use crate::open::plan::{are_clean, draft_once};
+use crate::open::plan::are_clean;
 use crate::open::refused::unless_refused;
 use crate::open::tendency::lean;
 use crate::open::way::{Way, seam_price};
@@ -94,8 +94,6 @@ impl<'a> Ladder<'a> {
         if !(self.is_free() && self.hides_seams) || is_hidden {
             return Ok(usual);
         }
-        let mut weight = self.policy.lack_weight;
-        let mut tried = vec![planes(&usual.bossed.plan)?];
         let mut choice = HiddenChoice {
             policy: self.policy,
             usual,
@@ -103,13 +101,7 @@ impl<'a> Ladder<'a> {
             best: None,
             least_loss_ratio: None,
         };
-        for _ in 0..self.policy.hidden_rounds {
-            let other = self.draft_hidden(&choice, weight, &mut tried)?;
-            weight *= self.policy.lack_growth;
-            if other.is_some_and(|other| choice.take(other)) {
-                break;
-            }
-        }
+        self.try_hidden(&mut choice)?;
         self.notes.push(choice.remark());
         let Some(Hidden { mut way, .. }) = choice.best else {
             return Ok(choice.usual);
@@ -120,27 +112,50 @@ impl<'a> Ladder<'a> {
         Ok(way)
     }
 
-    /// Drafts a plan that weighs what it leaves unclean against its seams, and notes its planes as
-    /// tried. `None` if there is none, or if its seams cost no less than the usual plan's.
+    /// Tries drafts that weigh what they leave unclean against their seams, each unlike the others.
+    fn try_hidden(&self, choice: &mut HiddenChoice<'a>) -> Result<(), Error> {
+        let mut tried = vec![planes(&choice.usual.bossed.plan)?];
+        let mut lack_weight = self.policy.lack_weight;
+        let dearest_ratio = choice.usual_price;
+        let weight = |lack_weight: f64, tried: &[Vec<Plane>]| {
+            let tried = tried.to_vec();
+            SeamWeight {
+                lack_weight,
+                tried,
+                dearest_ratio,
+            }
+        };
+        let first = weight(lack_weight, &tried).weigh(&self.request);
+        let Verdict::Found(drafts) = Drafts::new(&self.ground.voids.hollowed, &first)? else {
+            return Ok(());
+        };
+        for _ in 0..self.policy.hidden_rounds {
+            let weight = weight(lack_weight, &tried);
+            lack_weight *= self.policy.lack_growth;
+            let Verdict::Found(draft) = drafts.draft(&weight)? else {
+                continue;
+            };
+            tried.push(planes(&draft)?);
+            let other = self.clean_hidden(choice, draft, &weight.weigh(&self.request))?;
+            if other.is_some_and(|other| choice.take(other)) {
+                break;
+            }
+        }
+        Ok(())
+    }
+
+    /// Cleans a draft with hidden seams. `None` if its seams cost no less than the usual plan's, or
+    /// if it fails.
     ///
     /// It stops at voids that lose too much.
-    fn draft_hidden(
+    fn clean_hidden(
         &self,
         choice: &HiddenChoice<'a>,
-        weight: f64,
-        tried: &mut Vec<Vec<Plane>>,
+        draft: CutPlan,
+        request: &PlanRequest,
     ) -> Result<Option<Hidden<'a>>, Error> {
         let HiddenChoice { usual, policy, .. } = choice;
-        let mut request = self.request.clone();
-        request.seams.lack_weight = Some(weight);
-        request.seams.tried.clone_from(tried);
-        request.seams.dearest_ratio = Some(choice.usual_price);
-        let voids = &self.ground.voids;
-        let Verdict::Found(draft) = draft_once(self.placed, voids, &request)? else {
-            return Ok(None);
-        };
-        tried.push(planes(&draft)?);
-        let is_seen = seam_price(voids, &draft, &request)? >= choice.usual_price;
+        let is_seen = seam_price(&self.ground.voids, &draft, request)? >= choice.usual_price;
         if is_seen || draft.cuts.is_empty() {
             return Ok(None);
         }
@@ -151,7 +166,7 @@ impl<'a> Ladder<'a> {
         let before = Achieved::of(&usual.bossed.voids);
         let is_lost =
             |voids: &Voids| before.loss_ratio(&Achieved::of(voids)) > policy.seam_loss_ratio;
-        let way = self.plan_in_walls(&ground, &request, Rung::Walls, &is_lost);
+        let way = self.plan_in_walls(&ground, request, Rung::Walls, &is_lost);
         let Some(way) = unless_refused(way)? else {
             return Ok(None);
         };

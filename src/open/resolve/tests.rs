@@ -15,6 +15,15 @@ fn slab() -> TriMesh {
     cuboid([-1.0, -1.0, 14.0], [41.0, 15.0, 16.0])
 }
 
+/// Returns bodies that are kept solid whatever is lost.
+fn refuse(bodies: &[TriMesh], margin_openings: f64) -> Refused<'_> {
+    Refused {
+        bodies,
+        margin_openings,
+        is_lost: &|_| false,
+    }
+}
+
 /// Returns whether all voids keep off the slab by a margin, mm, up to the drawing's accuracy.
 fn keep_off_slab(voids: &Voids, margin_mm: f64) -> bool {
     let off_mm = |p: &Point| (p.z - 15.0).abs() - 1.0;
@@ -47,7 +56,7 @@ fn drawn_voids_meet_the_goal_and_uncorrected_ones_do_not() {
 fn what_is_kept_solid_costs_volume_and_figure() {
     let placed = towers(LOW);
     let (mut resolver, voids) = draw(&placed);
-    let less = resolver.without(&voids, &[slab()], 0.5).unwrap();
+    let less = resolver.without(&voids, &refuse(&[slab()], 0.5)).unwrap();
     let [before, after] = [&voids, &less].map(Achieved::of);
     assert!(before.filled_ratio(&after) > 0.1);
     // No choice of voids beats the first optimum, up to its certified gap.
@@ -58,12 +67,32 @@ fn what_is_kept_solid_costs_volume_and_figure() {
 }
 
 #[test]
+fn voids_that_are_lost_are_not_corrected() {
+    let placed = lopsided();
+    let (resolver, voids) = draw(&placed);
+    let bit = cuboid([20.0, 6.0, 18.0], [22.0, 8.0, 20.0]);
+    let without = |is_lost: &dyn Fn(&Voids) -> bool| {
+        let refused = Refused {
+            is_lost,
+            ..refuse(std::slice::from_ref(&bit), 0.0)
+        };
+        resolver.clone().without(&voids, &refused).unwrap()
+    };
+    let [kept, lost] = [without(&|_| false), without(&|_| true)];
+    assert_eq!(lost.rounds, voids.rounds + 1);
+    assert!(aside_mm(&placed, &lost) > 0.0005 && aside_mm(&placed, &kept) <= 0.0005);
+    // The figure that it was refused by is that of the columns: corrections hardly move it.
+    let loss_ratio = Achieved::of(&kept).loss_ratio(&Achieved::of(&lost));
+    assert!(loss_ratio.abs() < 0.01, "{loss_ratio}");
+}
+
+#[test]
 fn what_is_left_is_optimal_again() {
     // The goal to lean has no constraint that could ask for another round.
     for objective in [LOW, LEAN] {
         let placed = towers(objective);
         let (mut resolver, voids) = draw(&placed);
-        let less = resolver.without(&voids, &[slab()], 0.5).unwrap();
+        let less = resolver.without(&voids, &refuse(&[slab()], 0.5)).unwrap();
         let [before, after] = [&voids, &less].map(|voids| voids.solution.certificate);
         assert!(less.solution.is_usable() && less.rounds > voids.rounds);
         assert!(after.value != before.value, "{after:?}");
@@ -77,7 +106,7 @@ fn what_is_kept_solid_stays_so_when_all_is_solved_again() {
     let placed = towers(LEAN);
     let (mut resolver, voids) = draw(&placed);
     assert!(!keep_off_slab(&voids, 0.0));
-    let less = resolver.without(&voids, &[slab()], 0.5).unwrap();
+    let less = resolver.without(&voids, &refuse(&[slab()], 0.5)).unwrap();
     // Half of an opening of 3 mm.
     assert!(keep_off_slab(&less, 1.5));
     let post = cuboid([6.0, 6.0, 0.0], [8.0, 8.0, 10.0]);
@@ -91,7 +120,9 @@ fn what_is_kept_solid_gets_the_margin_in_openings() {
     let placed = towers(LEAN);
     let (resolver, voids) = draw(&placed);
     for margin_openings in [0.5, 1.0] {
-        let less = resolver.clone().without(&voids, &[slab()], margin_openings);
+        let less = resolver
+            .clone()
+            .without(&voids, &refuse(&[slab()], margin_openings));
         let less = less.unwrap();
         let corners = less
             .hollowed
@@ -167,6 +198,6 @@ fn a_cancelled_run_draws_nothing() {
     let (mut resolver, voids) = draw(&placed);
     resolver.watch().cancel();
     assert!(matches!(resolver.draw(), Err(Error::Cancelled)));
-    let less = resolver.without(&voids, &[slab()], 0.5);
+    let less = resolver.without(&voids, &refuse(&[slab()], 0.5));
     assert!(matches!(less, Err(Error::Cancelled)));
 }
