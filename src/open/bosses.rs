@@ -280,7 +280,11 @@ impl<'r, 'a> Search<'r, 'a> {
         };
         let mut trial = self.resolver.clone();
         let bodies: Vec<TriMesh> = found.iter().map(|boss| boss.body.clone()).collect();
-        let voids = trial.with_bosses(&state.voids, &bodies)?;
+        let solved = trial.solve_with_bosses(&state.voids, &bodies)?;
+        if let Some(refusal) = terms.refuse(&solved, false, &self.policy) {
+            return Ok(Verdict::No(refusal));
+        }
+        let voids = trial.draw_solved(solved)?;
         let kept_mm3 = trial.bosses_mm3();
         let settled = match settle(&mut trial, voids, &terms)? {
             Verdict::Found(settled) => settled,

@@ -8,6 +8,7 @@ use crate::cut::{
 };
 use crate::error::Error;
 use crate::job::CutMode;
+use crate::mass::Moments;
 use crate::mesh::{MeshDistance, TriMesh};
 use crate::run::{CleaningRound, KeptCause, KeptSolid, Placed, Voids};
 
@@ -53,11 +54,15 @@ pub struct Keep {
 /// planned anew. The solid part only grows, so that this ends. A round after which the goal cannot
 /// be met is undone, and the kit's checks say which void stays unclean.
 ///
+/// Voids are corrected in the end alone: corrections move surfaces by micrometres, which changes
+/// nothing of what is seen.
+///
 /// The cuts of a draft that it starts from are held. Chosen anew in each round, cuts that weigh
 /// what they leave unclean would wander to where more and more stays solid.
 ///
 /// It stops, with what is not clean yet, as soon as `is_lost` says that the voids have lost too
-/// much: further rounds only lose more.
+/// much: further rounds only lose more. The voids then have their last solution, and the surfaces
+/// of the one before.
 pub fn clean(
     resolver: &mut Resolver,
     start: Start,
@@ -88,7 +93,7 @@ pub fn clean(
         if dirty.bodies.is_empty() || rounds.len() == placed.policy.cleaning_rounds {
             let plan = plan.or_error::<CutError>()?;
             return Ok(Cleaned {
-                voids,
+                voids: resolver.correct(voids, Moments::default())?,
                 plan,
                 rounds,
             });
@@ -114,7 +119,7 @@ pub fn clean(
                 rounds.push(round);
                 let plan = plan.or_error::<CutError>()?;
                 return Ok(Cleaned {
-                    voids,
+                    voids: resolver.correct(voids, Moments::default())?,
                     plan,
                     rounds,
                 });
@@ -242,8 +247,8 @@ pub fn without_ends(
     Ok(less.map(|less| (round, less)))
 }
 
-/// Keeps bodies solid and solves again. If the goal cannot be met any more there are no voids, and
-/// the resolver is as it was. Voids that `is_lost` refuses are not corrected.
+/// Keeps bodies solid, solves again and draws once. If the goal cannot be met any more there are no voids, and
+/// the resolver is as it was. Voids that `is_lost` refuses keep their old surfaces.
 pub fn keep_solid(
     resolver: &mut Resolver,
     voids: &Voids,

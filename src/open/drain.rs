@@ -25,8 +25,11 @@ pub fn clean_and_drain(
     let is_held = start.draft.is_some();
     let mut cleaned = clean(resolver, start, request, is_lost)?;
     for _ in 0..resolver.placed().policy.shrinking_rounds {
+        if is_lost(&cleaned.voids) {
+            break;
+        }
         let cups = find_hollow_cups(&cleaned.voids.hollowed, &cleaned.plan, request)?;
-        if cups.is_empty() || is_lost(&cleaned.voids) {
+        if cups.is_empty() {
             break;
         }
         let before = resolver.clone();

@@ -137,19 +137,23 @@ impl<'a> Resolver<'a> {
         (printed + inside).in_frame(&self.placed.goal().frame)
     }
 
-    /// Keeps bodies solid, and solves again.
+    /// Keeps bodies solid, solves again and draws once. A search that keeps more and more solid
+    /// needs to [`correct`](Self::correct) the last voids only.
     ///
-    /// The figure is known before the voids are corrected. If they are lost by it, they stay
-    /// uncorrected, which saves most of the time.
+    /// The figure is known before the voids are drawn. If they are lost by it, or if the goal cannot
+    /// be met any more, they keep their old surfaces, which saves most of the time.
     pub fn without(&mut self, voids: &Voids, refused: &Refused) -> Result<Voids, Error> {
         self.refuse(refused.bodies, refused.margin_openings)?;
-        let less = self.voids(voids.solution.clone(), voids.fixed, voids.rounds)?;
-        let measured = self.measure(&less, Moments::default());
-        let less = self.solve_again(&less, measured)?;
-        if (refused.is_lost)(&less) {
+        let less = self.solve_undrawn(voids, voids.fixed)?;
+        if !less.solution.is_usable() || (refused.is_lost)(&less) {
             return Ok(less);
         }
-        self.correct(less, Moments::default())
+        self.draw_solved(less)
+    }
+
+    /// Draws voids that were solved for, once. [`Self::correct`] makes up for the drawing's error.
+    pub fn draw_solved(&mut self, voids: Voids) -> Result<Voids, Error> {
+        self.voids(voids.solution, voids.fixed, voids.rounds)
     }
 
     /// Returns what may be emptied in these parts of the interior, as one mesh or none.
@@ -161,21 +165,21 @@ impl<'a> Resolver<'a> {
         Ok(if is_empty { Vec::new() } else { vec![parts] })
     }
 
-    /// Keeps the bodies of bosses solid and solves again.
+    /// Keeps the bodies of bosses solid, solves again and draws once, as [`Self::without`] does.
     pub fn with_bosses(&mut self, voids: &Voids, bodies: &[TriMesh]) -> Result<Voids, Error> {
+        let less = self.solve_with_bosses(voids, bodies)?;
+        self.draw_solved(less)
+    }
+
+    /// Keeps the bodies of bosses solid and solves again. The voids have their old surfaces until
+    /// [`Self::draw_solved`] draws them: if the figure is too low, nobody needs to.
+    pub fn solve_with_bosses(&mut self, voids: &Voids, bodies: &[TriMesh]) -> Result<Voids, Error> {
         let before_mm3 = self.cavity.mesh().signed_volume_mm3();
         for body in bodies {
             self.exclude(body)?;
         }
         self.bosses_mm3 += before_mm3 - self.cavity.mesh().signed_volume_mm3();
-        let less = self.voids(voids.solution.clone(), voids.fixed, voids.rounds)?;
-        let measured = moments_of_mesh(&less.hollowed.to_mesh())
-            + self
-                .placed
-                .moments_inside(&self.solved.load, &less.hollowed);
-        let measured = measured.in_frame(&self.placed.goal().frame);
-        let best = self.solve_again(&less, measured)?;
-        self.correct(best, Moments::default())
+        self.solve_undrawn(voids, voids.fixed)
     }
 
     /// Returns the volume of all bosses that could have been emptied, mm³.
@@ -191,8 +195,22 @@ impl<'a> Resolver<'a> {
         let (fill, columns) = (self.placed.fill, &self.solved.columns);
         let planned = fill.filled(voids.fixed, columns, &voids.solution.quadric);
         let fixed = voids.fixed + (measured - planned);
+        let again = self.solve_undrawn(voids, fixed)?;
+        self.voids(again.solution, fixed, again.rounds)
+    }
+
+    /// Solves once more, with these moments of the solid without any void. The voids keep their old
+    /// surfaces.
+    fn solve_undrawn(&mut self, voids: &Voids, fixed: Moments) -> Result<Voids, Error> {
+        self.watch.check()?;
         self.solved.solution = self.solved.solve_again(self.placed, fixed, &self.watch);
-        self.voids(self.solved.solution.clone(), fixed, voids.rounds + 1)
+        Ok(Voids {
+            solution: self.solved.solution.clone(),
+            fixed,
+            hollowed: voids.hollowed.clone(),
+            refused_mm3: self.refused_mm3,
+            rounds: voids.rounds + 1,
+        })
     }
 
     /// Draws the voids of a solution. Voids that are too small stay solid for good, or they would

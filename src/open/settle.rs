@@ -8,6 +8,7 @@ use crate::cut::{
     plan_around, plan_by,
 };
 use crate::error::Error;
+use crate::mass::Moments;
 use crate::mesh::TriMesh;
 use crate::run::{Achieved, Policy, Refusal, Voids};
 
@@ -36,7 +37,7 @@ pub struct Terms<'a> {
 
 impl Terms<'_> {
     /// Returns why voids with bosses are refused by their figures; `None` if they are not.
-    fn refuse(&self, voids: &Voids, kept_more: bool, policy: &Policy) -> Option<Refusal> {
+    pub fn refuse(&self, voids: &Voids, kept_more: bool, policy: &Policy) -> Option<Refusal> {
         if !voids.solution.is_usable() {
             return Some(Refusal::MakeGoalImpossible);
         }
@@ -86,6 +87,7 @@ pub fn settle(
         }
         let unclean = match replan(&voids, terms)? {
             Verdict::Found(Step::Done(plan)) => {
+                let voids = resolver.correct(voids, Moments::default())?;
                 return Ok(Verdict::Found(Settled { voids, plan }));
             }
             Verdict::Found(Step::Keep(unclean)) => unclean,

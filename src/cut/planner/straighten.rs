@@ -62,11 +62,13 @@ fn turn_straight(scene: &Scene, plane: &Plane) -> Option<Plane> {
     (is_near && scene.allows(&straight)).then_some(straight)
 }
 
-/// Returns whether an attempt opens what another one opens, and leaves hardly more out of sight.
+/// Returns whether an attempt opens and cleans what another one does, and leaves hardly more out of
+/// sight.
 fn opens_as_well(scene: &Scene, before: &Attempt, after: &Attempt) -> bool {
     let is_open = |void: &VoidAccess| void.opening_mm >= scene.request.min_opening_mm;
     let mut pairs = before.voids.iter().zip(&after.voids);
     let spare_mm2 = STRAIGHT_WORTH_RATIO * before.area_mm2();
     pairs.all(|(old, new)| is_open(new) || !is_open(old))
+        && (after.is_nearly_clean(scene) || !before.is_nearly_clean(scene))
         && after.lack_mm2 <= before.lack_mm2 + spare_mm2
 }

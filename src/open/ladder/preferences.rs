@@ -27,6 +27,20 @@ impl Hidden<'_> {
         self.price + policy.loss_price * self.loss_ratio
     }
 
+    /// Returns whether every void can be cleaned.
+    fn is_clean(&self) -> bool {
+        are_clean(&self.way.bossed.plan, &self.way.request)
+    }
+
+    /// Returns whether it is better than another: clean, or with the lower cost.
+    fn is_better(&self, than: &Self, policy: &Policy) -> bool {
+        match (self.is_clean(), than.is_clean()) {
+            (true, false) => true,
+            (false, true) => false,
+            _ => self.cost(policy) < than.cost(policy),
+        }
+    }
+
     /// Returns whether no void is closed.
     fn opens_all(&self) -> bool {
         let mut voids = self.way.bossed.plan.voids.iter();
@@ -60,12 +74,9 @@ impl<'a> HiddenChoice<'a> {
             self.least_loss_ratio = Some(least.min(other.loss_ratio));
             return false;
         }
-        let is_hidden = other.price <= policy.dear_seam_ratio;
-        if self
-            .best
-            .as_ref()
-            .is_none_or(|best| cost < best.cost(policy))
-        {
+        let is_hidden = other.price <= policy.dear_seam_ratio && other.is_clean();
+        let best = self.best.as_ref();
+        if best.is_none_or(|best| other.is_better(best, policy)) {
             self.best = Some(other);
         }
         is_hidden
