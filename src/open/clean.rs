@@ -247,8 +247,8 @@ pub fn without_ends(
     Ok(less.map(|less| (round, less)))
 }
 
-/// Keeps bodies solid, solves again and draws once. If the goal cannot be met any more there are no voids, and
-/// the resolver is as it was. Voids that `is_lost` refuses keep their old surfaces.
+/// Keeps bodies solid, solves again and draws once. If the goal cannot be met any more there are no
+/// voids, and the resolver is as it was. Voids that `is_lost` refuses keep their old surfaces.
 pub fn keep_solid(
     resolver: &mut Resolver,
     voids: &Voids,

@@ -140,8 +140,8 @@ impl<'a> Resolver<'a> {
     /// Keeps bodies solid, solves again and draws once. A search that keeps more and more solid
     /// needs to [`correct`](Self::correct) the last voids only.
     ///
-    /// The figure is known before the voids are drawn. If they are lost by it, or if the goal cannot
-    /// be met any more, they keep their old surfaces, which saves most of the time.
+    /// The figure is known before the voids are drawn. Those that are lost by it keep their old
+    /// surfaces, which saves most of the time. So do those that do not meet the goal any more.
     pub fn without(&mut self, voids: &Voids, refused: &Refused) -> Result<Voids, Error> {
         self.refuse(refused.bodies, refused.margin_openings)?;
         let less = self.solve_undrawn(voids, voids.fixed)?;

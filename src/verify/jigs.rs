@@ -121,7 +121,7 @@ impl<'a> Bench<'a> {
         Vector::from(self.jig.out)
     }
 
-    /// Returns points of the rim of its joint; none if there is no such joint.
+    /// Returns points of the rim of its joint; empty if there is no such joint.
     fn rim(&self, evidence: &Evidence) -> Vec<Point> {
         let mut joints = evidence.promise.joints.iter();
         let joint = joints.find(|joint| joint.id == self.jig.joint);
