@@ -145,19 +145,24 @@ fn seam_words(loss_ratio: Option<f64>, is_taken: bool) -> String {
     let Some(loss_ratio) = loss_ratio else {
         return "seams: one runs where it is seen, and no other plan was found".to_owned();
     };
-    let percent = format!("{:.1} %", 100.0 * loss_ratio.abs());
-    // A plan is given up as soon as it has lost too much.
-    let (at_least, change) = if loss_ratio > 0.0 {
-        ("at least ", "worse")
-    } else {
-        ("", "better")
-    };
-    if is_taken {
-        format!("seams: they run where they are seen less; the goal's figure is {percent} {change}")
-    } else {
-        format!(
-            "seams: one runs where it is seen; in the plans tried that hide it, the goal's figure is {at_least}{percent} {change}"
-        )
+    let percent = format!("{:.1} %", 100.0 * loss_ratio.max(0.0));
+    let is_free = percent == "0.0 %";
+    match (is_taken, is_free) {
+        (true, true) => {
+            "seams: they run where they are seen less, which costs nothing of the goal's figure"
+                .to_owned()
+        }
+        (true, false) => format!(
+            "seams: they run where they are seen less; the goal's figure is {percent} worse for it"
+        ),
+        (false, true) => {
+            "seams: one runs where it is seen; the plans tried that hide it have other faults"
+                .to_owned()
+        }
+        // A plan is given up as soon as it has lost too much.
+        (false, false) => format!(
+            "seams: one runs where it is seen; in the plans tried that hide it, the goal's figure is at least {percent} worse"
+        ),
     }
 }
 
@@ -344,6 +349,15 @@ mod tests {
         assert!(remark(0.058).to_string().contains("2 of 5 joints"));
         assert!(remark(0.058).to_string().ends_with("5.8 % worse for it"));
         assert!(remark(-0.01).to_string().ends_with("1.0 % better for it"));
+    }
+
+    #[test]
+    fn hidden_seams_tell_their_price_or_that_there_is_none() {
+        let words = |loss_ratio| seam_words(Some(loss_ratio), true);
+        assert!(words(0.061).ends_with("6.1 % worse for it"));
+        for gain in [0.0, 0.0004, -0.046] {
+            assert!(words(gain).ends_with("costs nothing of the goal's figure"));
+        }
     }
 
     #[test]

@@ -77,12 +77,14 @@ pub(crate) fn promising_first(
 }
 
 /// Returns the places of the level planes, spread over the height at any moment: each next one lies
-/// in the widest gap so far. Empty if nobody looks at seams.
+/// in the widest gap so far. Empty unless seams are weighed against what stays unclean.
 ///
 /// The best hidden planes crowd about ear tips and feet, where seams are short and most of a void
-/// stays unseen. A level cut at the waist is what a person would try.
+/// stays unseen. A level cut at the waist is what a person would try. Where every void must be
+/// clean, they would take the turns of planes that open more.
 fn level_turns(scene: &Scene, wide: &[Turn]) -> Vec<usize> {
-    let Some(up) = scene.request.seams.up() else {
+    let seams = &scene.request.seams;
+    let Some(up) = seams.lack_weight.and(seams.up()) else {
         return Vec::new();
     };
     let is_level = |&place: &usize| {
