@@ -2,8 +2,9 @@
 
 use rayon::prelude::*;
 
-use super::cradle::{Slab, View};
+use super::cradle::{Cradle, SPARE_MM, Slab, View};
 use super::sketch::{Held, Sketch};
+use super::stops::{Sides, stops_at};
 use crate::{
     base::watch::Cancelled,
     cut::{
@@ -93,8 +94,13 @@ struct Stand {
     ribs_mm: [f64; 2],
     /// The corners of the joint's rim.
     rim: Vec<Spot>,
-    /// The body over either rib.
-    held: [Slab; 2],
+    /// The least and the greatest height of the rim, mm.
+    heights: [f64; 2],
+    /// The points of the body over either rib that its cradle may stop.
+    points: [Vec<Spot>; 2],
+    cradles: [Cradle; 2],
+    /// The least height of the body beside the joint, mm.
+    under_seam_mm: f64,
     /// Where the parts are pressed.
     press: Stop,
     /// The middle of the motions that are compared.
@@ -241,10 +247,28 @@ impl<'a> Bench<'a> {
     }
 
     fn stand(&self, view: View, [near, far]: [f64; 2]) -> Stand {
+        let gap_mm = self.request.pins.snug_gap_mm;
         let rim: Vec<Spot> = self.rim.iter().map(|p| flat(&view.local(p))).collect();
         let [left, right] = range(rim.iter().map(|spot| spot.x));
         let [low, high] = range(rim.iter().map(|spot| spot.y));
-        let surface = self.surface(view);
+        let beside_mm = gap_mm + CHEEK_MM;
+        let window = [left - beside_mm, right + beside_mm];
+        let local = |corners: &[Point; 3]| corners.each_ref().map(|p| view.local(p));
+        let surface: Vec<[Point; 3]> = self.outside.iter().map(local).collect();
+        // What is beyond a rib's face is no nearer to it than the gap.
+        let cradles = [
+            [-far - gap_mm, gap_mm - near],
+            [near - gap_mm, far + gap_mm],
+        ]
+        .map(|heights| Slab::of(&surface, heights).cradle(window, gap_mm));
+        let points = |side: usize| {
+            let heights = [[-far, -near], [near, far]][side];
+            // No outline is higher than this one.
+            let highest = cradles[side].outline(high, 0.0);
+            let highest = Sides::of(&highest, REACH_MM + SPARE_MM);
+            let points = Slab::of(&surface, heights);
+            points.points().filter(|at| highest.is_near(at)).collect()
+        };
         let press = Stop {
             at: Spot::new(0.5 * (left + right), high),
             normal: Way::new(0.0, -1.0),
@@ -254,45 +278,27 @@ impl<'a> Bench<'a> {
             view,
             ribs_mm: [near, far],
             rim,
-            held: [[-far, -near], [near, far]].map(|heights| Slab::of(&surface, heights)),
+            heights: [low, high],
+            points: [0, 1].map(points),
+            cradles,
+            under_seam_mm: Slab::of(&surface, [-near, near]).lowest_mm(window),
             middle: Spot::new(press.at.x, 0.5 * (low + high)),
             press,
         }
     }
 
-    /// Returns the triangles of the outside in a view.
-    fn surface(&self, view: View) -> Vec<[Point; 3]> {
-        let local = |corners: &[Point; 3]| corners.each_ref().map(|p| view.local(p));
-        self.outside.iter().map(local).collect()
-    }
-
     /// Returns sketches of jigs with cheeks of some heights that fit the printer.
     fn sketch(&self, index: usize, stand: &Stand, cheeks: &[f64]) -> Vec<Trial> {
-        let (view, [near, far]) = (stand.view, stand.ribs_mm);
-        let gap_mm = self.request.pins.snug_gap_mm;
-        let across = range(stand.rim.iter().map(|spot| spot.x));
-        let [low, high] = range(stand.rim.iter().map(|spot| spot.y));
-        let beside_mm = gap_mm + CHEEK_MM;
-        let window = [across[0] - beside_mm, across[1] + beside_mm];
-        let surface = self.surface(view);
-        // What is beyond a rib's face is no nearer to it than the gap.
-        let slabs = [
-            [-far - gap_mm, gap_mm - near],
-            [near - gap_mm, far + gap_mm],
-        ]
-        .map(|heights| Slab::of(&surface, heights));
-        let under_seam_mm = Slab::of(&surface, [-near, near]).lowest_mm(window);
-        let cradles = slabs.each_ref().map(|slab| slab.cradle(window, gap_mm));
+        let [low, high] = stand.heights;
         let sketch = |(share, slope): (f64, f64)| {
             let top_mm = low + share * (high - low);
-            let ribs = cradles
-                .each_ref()
-                .map(|cradle| cradle.outline(top_mm, slope));
+            let cradles = stand.cradles.each_ref();
+            let ribs = cradles.map(|cradle| cradle.outline(top_mm, slope));
             let deepest = ribs.iter().flatten().map(|corner| corner.y);
-            let top = deepest.fold(under_seam_mm - WIPING_ROOM_MM, f64::min);
+            let top = deepest.fold(stand.under_seam_mm - WIPING_ROOM_MM, f64::min);
             let sketch = Sketch {
-                view,
-                ribs_mm: [near, far],
+                view: stand.view,
+                ribs_mm: stand.ribs_mm,
                 plate: [top - PLATE_MM, top],
                 ribs,
             };
@@ -340,7 +346,7 @@ impl Stand {
     /// Measures the play of the parts in a jig; `None` if they slide or turn even so.
     fn hold(&self, sketch: &Sketch) -> Option<Held> {
         let seat = |side: usize| {
-            let stops = self.held[side].stops(&sketch.ribs[side], REACH_MM);
+            let stops = stops_at(&self.points[side], &sketch.ribs[side], REACH_MM);
             Seat::pressed(&stops, &self.press, self.middle)
         };
         let play = seat(0)?.play_between(&seat(1)?, self.middle, &self.rim);

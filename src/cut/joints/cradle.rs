@@ -1,20 +1,16 @@
 //! The outline of a cradle: what is left of a slab when a body is lifted out of it.
 
-use super::stops::Sides;
 use crate::{
-    geom::{
-        Plane, Point, Vector,
-        play::{Spot, Stop},
-    },
+    geom::{Plane, Point, Vector, play::Spot},
     mesh::{MeshError, TriMesh},
 };
-use std::{collections::BTreeMap, ops::Range};
+use std::ops::Range;
 
 /// Width of a step of the outline, mm: finer than any printer's line or pixel.
 const STEP_MM: f64 = 0.02;
 
 /// Depth by which the outline may lie deeper than needed, so that it has fewer corners, mm.
-const SPARE_MM: f64 = 0.01;
+pub(super) const SPARE_MM: f64 = 0.01;
 
 /// Distance of the points of a body that a cradle may stop, mm.
 const SPACING_MM: f64 = 0.15;
@@ -27,9 +23,6 @@ const SLOPE_MM: f64 = 0.25;
 
 /// Least width of a groove, and of a strip between two, mm: any printer prints it.
 const STRIP_MM: f64 = 1.0;
-
-/// Sectors of direction and of place in each of which only the nearest stop counts.
-const SECTORS: f64 = 36.0;
 
 /// A view along the normal of a joint: x across, y along the normal, z along the way out.
 #[derive(Clone, Copy)]
@@ -72,11 +65,17 @@ pub(crate) struct Slab {
 impl Slab {
     /// Cuts the triangles of a surface (in a view) between two heights over the joint, mm.
     pub(crate) fn of(surface: &[[Point; 3]], [low, high]: [f64; 2]) -> Self {
+        let flat = |corners: &[Point]| corners.iter().map(|p| Spot::new(p.x, p.z)).collect();
         let piece = |corners: &[Point; 3]| {
+            if corners.iter().all(|p| p.y > high) || corners.iter().all(|p| p.y < low) {
+                return None;
+            }
+            if corners.iter().all(|p| (low..=high).contains(&p.y)) {
+                return Some(flat(corners));
+            }
             let above = clip(corners, |p| low - p.y);
             let within = clip(&above, |p| p.y - high);
-            let flat: Vec<Spot> = within.iter().map(|p| Spot::new(p.x, p.z)).collect();
-            (!flat.is_empty()).then_some(flat)
+            (!within.is_empty()).then(|| flat(&within))
         };
         Self {
             pieces: surface.iter().filter_map(piece).collect(),
@@ -138,7 +137,7 @@ impl Slab {
     }
 
     /// Returns points along the sides of its pieces, [`SPACING_MM`] apart at most.
-    fn points(&self) -> impl Iterator<Item = Spot> + '_ {
+    pub(super) fn points(&self) -> impl Iterator<Item = Spot> + '_ {
         let sides = self.pieces.iter().flat_map(|piece| {
             let next = piece.iter().cycle().skip(1);
             piece.iter().zip(next)
@@ -148,27 +147,6 @@ impl Slab {
             let count = (way.norm() / SPACING_MM).ceil().max(1.0);
             (0..count as usize).map(move |step| from + way * (step as f64 / count))
         })
-    }
-
-    /// Returns the stops of a body in a cradle: its points near the outline, each with the nearest
-    /// floor, left wall and right wall.
-    pub(crate) fn stops(&self, outline: &[Spot], reach_mm: f64) -> Vec<Stop> {
-        let mut nearest: BTreeMap<[i64; 2], Stop> = BTreeMap::new();
-        let (Some(first), Some(last)) = (outline.first(), outline.last()) else {
-            return Vec::new();
-        };
-        let width = (last.x - first.x).max(f64::MIN_POSITIVE);
-        let sides = Sides::of(outline, reach_mm);
-        for stop in self.points().flat_map(|at| sides.touched_by(&at)) {
-            let turn = stop.normal.y.atan2(stop.normal.x) / std::f64::consts::TAU;
-            let place = (stop.at.x - first.x) / width;
-            let sector = [turn, place].map(|share| (share * SECTORS).floor() as i64);
-            let known = nearest.entry(sector).or_insert(stop);
-            if stop.room_mm < known.room_mm {
-                *known = stop;
-            }
-        }
-        nearest.into_values().collect()
     }
 }
 
@@ -279,24 +257,31 @@ fn thin(outline: &[Spot]) -> Vec<Spot> {
     let mut kept: Vec<Spot> = outline.first().copied().into_iter().collect();
     let mut from = 0;
     while from + 1 < outline.len() {
-        let mut to = from + 1;
-        while to + 1 < outline.len() && is_straight(&outline[from..=to + 1]) {
-            to += 1;
-        }
-        kept.push(outline[to]);
-        from = to;
+        let count = count_straight(&outline[from..]);
+        from += count;
+        kept.push(outline[from]);
     }
     kept
 }
 
-/// Returns true if a stretch hardly leaves its chord.
-fn is_straight(stretch: &[Spot]) -> bool {
-    let (first, last) = (stretch[0], stretch[stretch.len() - 1]);
-    let slope = (last.y - first.y) / (last.x - first.x);
-    stretch.iter().all(|corner| {
-        let over = corner.y - (first.y + slope * (corner.x - first.x));
-        over.abs() <= 0.5 * SPARE_MM
-    })
+/// Returns the number of steps from the first corner to the last one whose chord hardly leaves the
+/// corners between; one at least.
+fn count_straight(outline: &[Spot]) -> usize {
+    let first = outline[0];
+    // The slopes of the chords that pass all corners so far.
+    let (mut least, mut most) = (f64::NEG_INFINITY, f64::INFINITY);
+    let mut count = 1;
+    for (step, corner) in outline.iter().enumerate().skip(1) {
+        let across = corner.x - first.x;
+        let slope = (corner.y - first.y) / across;
+        if step > 1 && !(least..=most).contains(&slope) {
+            break;
+        }
+        count = step;
+        least = least.max(slope - 0.5 * SPARE_MM / across);
+        most = most.min(slope + 0.5 * SPARE_MM / across);
+    }
+    count
 }
 
 /// Returns the closed body under an outline down to `low_mm`, between two heights over the joint,
@@ -336,6 +321,7 @@ pub(crate) fn body_under(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::cut::joints::stops::stops_at;
     use crate::cut::scenes::ball;
     use crate::geom::Bvh;
 
@@ -387,7 +373,8 @@ mod tests {
         assert!((deeper_mm - RELIEF_MM).abs() < SPARE_MM, "{deeper_mm}");
         // A slope of 0.7 is that of a circle of 10.2 mm at 5.8 mm beside its middle. The ball has
         // facets, and points just before the wall of the groove count as near.
-        let stops = slab.stops(&relieved, 1.0);
+        let points: Vec<Spot> = slab.points().collect();
+        let stops = stops_at(&points, &relieved, 1.0);
         // The walls of the groove stop it too, but only after a long way.
         let near = stops.iter().filter(|stop| stop.room_mm < 0.25);
         let inmost = near.map(|stop| stop.at.x.abs());

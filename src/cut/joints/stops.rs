@@ -1,7 +1,10 @@
 //! The sides of a cradle's outline that stop a point of a body.
 
 use crate::geom::play::{Spot, Stop, Way};
-use std::ops::Range;
+use std::{collections::BTreeMap, ops::Range};
+
+/// Sectors of direction and of place in each of which only the nearest stop counts.
+const SECTORS: f64 = 36.0;
 
 /// Least part of the way to the outline that is normal to it, if it is to stop a point. A judge
 /// allows 0.99: what stops a point here then does so for the judge, too.
@@ -9,6 +12,27 @@ const FACING_RATIO: f64 = 0.999;
 
 /// Steepness up to which a side is a floor; steeper ones are walls.
 const FLOOR_SLOPE: f64 = 1.0;
+
+/// Returns the stops of a body in a cradle: its points near the outline, each with the nearest
+/// floor, left wall and right wall.
+pub(super) fn stops_at(points: &[Spot], outline: &[Spot], reach_mm: f64) -> Vec<Stop> {
+    let mut nearest: BTreeMap<[i64; 2], Stop> = BTreeMap::new();
+    let (Some(first), Some(last)) = (outline.first(), outline.last()) else {
+        return Vec::new();
+    };
+    let width = (last.x - first.x).max(f64::MIN_POSITIVE);
+    let sides = Sides::of(outline, reach_mm);
+    for stop in points.iter().flat_map(|at| sides.touched_by(at)) {
+        let turn = stop.normal.y.atan2(stop.normal.x) / std::f64::consts::TAU;
+        let place = (stop.at.x - first.x) / width;
+        let sector = [turn, place].map(|share| (share * SECTORS).floor() as i64);
+        let known = nearest.entry(sector).or_insert(stop);
+        if stop.room_mm < known.room_mm {
+            *known = stop;
+        }
+    }
+    nearest.into_values().collect()
+}
 
 /// The sides of an outline, sorted into columns across, so that a point looks at few of them.
 pub(super) struct Sides {
@@ -118,13 +142,22 @@ impl Sides {
         found.into_iter().flatten()
     }
 
-    /// Returns the sides that may be within reach of a point, from left to right.
-    fn near(&self, at: &Spot) -> impl Iterator<Item = &Side> {
+    /// Returns the column of a point, unless the point is too high over all its sides.
+    fn column(&self, at: &Spot) -> Option<&Column> {
         let place = (at.x - self.low) / self.reach_mm;
         let column = (place >= 0.0).then(|| self.columns.get(place as usize));
-        let column = column.flatten();
-        let is_over = |column: &&Column| at.y > column.top + self.reach_mm;
-        let sides = column.filter(|column| !is_over(column));
+        let is_below = |column: &&Column| at.y <= column.top + self.reach_mm;
+        column.flatten().filter(is_below)
+    }
+
+    /// Returns true if the outline, or a lower one, may be within reach of a point.
+    pub(super) fn is_near(&self, at: &Spot) -> bool {
+        self.column(at).is_some()
+    }
+
+    /// Returns the sides that may be within reach of a point, from left to right.
+    fn near(&self, at: &Spot) -> impl Iterator<Item = &Side> {
+        let sides = self.column(at);
         let sides = sides.map_or(&[][..], |column| &self.sides[column.sides.clone()]);
         let [low, high] = [at.y - self.reach_mm, at.y + self.reach_mm];
         let is_level = move |side: &&Side| side.heights[0] <= high && side.heights[1] >= low;
