@@ -14,6 +14,7 @@ use crate::io::threemf::PackageError;
 use crate::io::{ContentError, ReadError, StlError};
 use crate::job::{Filling, JobError};
 use crate::kit::KitError;
+use crate::mend::MendError;
 use crate::mesh::{ClipError, Defects};
 use crate::printer::{MaterialError, ProfileError, SizeError, WallError};
 use crate::repair::NotOneBody;
@@ -31,7 +32,7 @@ pub enum Error {
     #[error(transparent)]
     Read(#[from] ReadError),
     /// The model does not bound a solid.
-    #[error("{} does not bound a solid", path.display())]
+    #[error("{} does not bound a solid{}", path.display(), or_redraw(source))]
     NotSolid {
         /// The model's file.
         path: PathBuf,
@@ -45,6 +46,14 @@ pub enum Error {
         path: PathBuf,
         /// Its shells, or the places where it passes through itself.
         source: Box<NotOneBody>,
+    },
+    /// The model cannot be mended as ordered.
+    #[error("{} cannot be repaired as ordered", path.display())]
+    Mend {
+        /// The model's file.
+        path: PathBuf,
+        /// The reason.
+        source: Box<MendError>,
     },
     /// The job cannot be read, or its model has changed.
     #[error(transparent)]
@@ -157,6 +166,16 @@ pub enum Error {
     /// The caller stopped the run.
     #[error("stopped before the end")]
     Cancelled,
+}
+
+/// Returns the remedy to let a new surface be drawn, if that leaves no defect.
+fn or_redraw(defects: &Defects) -> String {
+    if defects.can_draw_over() {
+        let order = Setting::new(Key::Repair, "remesh");
+        format!("; remedy: let a new surface be drawn around it (`{order}`), or mend it by hand")
+    } else {
+        String::new()
+    }
 }
 
 impl From<Cancelled> for Error {

@@ -17,6 +17,7 @@ use crate::base::toml_text::{self, TextFault};
 use crate::base::units::Length;
 use crate::cut::{CutOrder, KeepClear, LeastPart, SeamStyle};
 use crate::goal::Request;
+use crate::repair::RepairOrder;
 
 /// The version of `job.toml` that this program writes and reads.
 pub const JOB_SCHEMA: u32 = 1;
@@ -74,6 +75,9 @@ pub struct Job {
     /// The filling of the voids; air if the key is missing.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fill: Option<Filling>,
+    /// The repairs of the model asked for; those that everyone gets if the key is missing.
+    #[serde(default, skip_serializing_if = "RepairOrder::is_auto")]
+    pub repair: RepairOrder,
     /// The model.
     pub model: ModelChoice,
     /// The printer and its material.
@@ -217,6 +221,7 @@ impl Job {
             format: PartFormat::Both,
             ballast: Order::None,
             fill: None,
+            repair: RepairOrder::default(),
             model,
             printer,
             goal,
@@ -348,6 +353,7 @@ mod tests {
         other.cut = CutMode::Never;
         other.seam = SeamStyle::Level;
         other.least_part = "5%".parse().unwrap();
+        other.repair = "remesh:0.1mm,fill".parse().unwrap();
         other.keep_clear = vec!["1,2.5,-3,4".parse().unwrap(), "0,0,9,1".parse().unwrap()];
         other.printer.material = Some("vero-white".into());
         other.model.scaling = Scaling::Factor(0.1 + 0.2);

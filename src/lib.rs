@@ -11,7 +11,7 @@
 //!
 //! | stage | rooms |
 //! | --- | --- |
-//! | load | [`io`] reads, [`repair`] mends, [`mesh`] proves a solid, [`printer`] gives wall and pitch |
+//! | load | [`io`] reads, [`mend`] mends by the rungs of [`repair`], [`mesh`] proves a solid, [`printer`] gives wall and pitch |
 //! | place | [`goal`] places the aim, [`hardware`] bores sockets, [`advice`] chooses an open axis |
 //! | solve | [`shell`] keeps the wall, [`interior`] measures columns, [`hollow`] solves, [`ballast`] adds mass |
 //! | open | [`voids`] draws the surfaces, [`cut`] plans cuts and pins, [`poses`] chooses poses, [`open`] resolves both |
@@ -63,7 +63,7 @@ pub mod verify;
 /// Points, meshes, their files, repair and mass.
 pub mod model {
     #[doc(inline)]
-    pub use crate::{geom, io, mass, mesh, repair};
+    pub use crate::{geom, io, mass, mend, mesh, repair};
 }
 
 /// From a goal to the best void: what is asked, what may be emptied, the solver and its surfaces.
@@ -122,6 +122,8 @@ pub mod io;
 pub mod make;
 #[doc(hidden)]
 pub mod mass;
+#[doc(hidden)]
+pub mod mend;
 #[doc(hidden)]
 pub mod mesh;
 #[doc(hidden)]

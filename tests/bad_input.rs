@@ -180,6 +180,77 @@ fn inspect_bytes(bytes: &[u8]) -> String {
     text(&output.stdout).replace('\u{202f}', "")
 }
 
+/// A box whose lid and floor are gone, and with them a triangle of a side: no rung closes it.
+fn torn_box() -> Vec<u8> {
+    let mut triangles = cuboid([0.0; 3], [40.0; 3]);
+    let far = cuboid([10.0, 10.0, 30.0], [20.0, 20.0, 60.0]);
+    triangles.drain(8..);
+    triangles.remove(1);
+    triangles.extend(&far[..7]);
+    stl(&triangles)
+}
+
+#[test]
+fn what_cannot_be_mended_is_refused_with_places_and_the_order_for_a_new_surface() {
+    let said = refuse("torn.stl", &torn_box());
+    assert!(said.contains("first at ("), "{said}");
+    assert!(said.contains("--repair=remesh"), "{said}");
+}
+
+#[test]
+fn the_picture_of_a_refused_model_names_its_holes_and_no_model_is_written_over() {
+    let folder = tempfile::tempdir().unwrap();
+    let [model, picture] = ["torn.stl", "torn.svg"].map(|name| folder.path().join(name));
+    fs::write(&model, torn_box()).unwrap();
+    let inspect = |picture: &Path| {
+        let output = equipoise(&["inspect", path(&model), "--picture", path(picture)]);
+        assert_exit(&output, 2);
+        printed(&output)
+    };
+    assert!(inspect(&picture).contains("--repair=remesh"));
+    assert!(fs::read_to_string(&picture).unwrap().contains(">hole<"));
+    assert!(inspect(&model).contains("ends in .svg"));
+    assert_eq!(fs::read(&model).unwrap(), torn_box());
+}
+
+#[test]
+fn a_new_surface_of_a_torn_box_is_a_solid_and_says_how_far_it_moved() {
+    let folder = tempfile::tempdir().unwrap();
+    let model = folder.path().join("torn.stl");
+    fs::write(&model, torn_box()).unwrap();
+    let output = equipoise(&["inspect", path(&model), "--repair", "remesh:1mm"]);
+    assert_exit(&output, 0);
+    let said = printed(&output);
+    assert!(
+        said.contains("a new surface drawn within 1.000 mm"),
+        "{said}"
+    );
+    assert!(said.contains("no point moved by more than 0."), "{said}");
+}
+
+#[test]
+fn a_surface_inside_is_refused_until_it_is_ordered_filled() {
+    let inner = cuboid([10.0; 3], [30.0; 3]);
+    let nested = stl(&[cuboid([0.0; 3], [40.0; 3]), inner].concat());
+    assert!(refuse("nested.stl", &nested).contains("--repair=fill"));
+    let folder = tempfile::tempdir().unwrap();
+    let model = folder.path().join("nested.stl");
+    fs::write(&model, nested).unwrap();
+    let output = equipoise(&["inspect", path(&model), "--repair", "fill"]);
+    assert_exit(&output, 0);
+    let said = printed(&output).replace('\u{202f}', "");
+    assert!(said.contains("1 surface inside the model filled"), "{said}");
+    assert!(said.contains("a solid of 64000 mm³"), "{said}");
+}
+
+#[test]
+fn an_order_for_repairs_that_nobody_knows_is_refused_with_those_there_are() {
+    for order in ["magic", "remesh:0mm", "fill,cavities"] {
+        let said = refuse_options(&["--repair", order]);
+        assert!(said.contains("remesh:0.1mm"), "{said}");
+    }
+}
+
 #[test]
 fn a_truncated_stl_says_how_many_triangles_are_missing() {
     let whole = stl(&FACES);

@@ -43,6 +43,8 @@ choice! {
         Ballast = "ballast",
         /// The filling of the voids.
         Fill = "fill",
+        /// The repairs of the model.
+        Repair = "repair",
         /// The unit of the model file's numbers.
         Unit = "unit",
         /// The factor from the model file's numbers to mm.

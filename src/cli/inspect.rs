@@ -1,26 +1,28 @@
 //! `equipoise inspect`: a model's facts and defects, and what it could become.
 
 use std::io::Write;
+use std::path::PathBuf;
 
 use serde::Serialize;
 
 use super::args::InspectArgs;
+use super::broken::{BrokenPictureError, check_name, places, redraw_hint, write_picture};
 use super::exit::Exit;
-use super::flags::{flag, flags, with_flags};
+use super::flags::{flags, with_flags};
+use super::mass_facts::{Mass, mass, mass_text, plain};
 use super::show::{say, table};
 use super::voice::Voice;
 use crate::advice::{Case, Prospect, name_direction, prospects};
-use crate::base::numbers::quantity;
 use crate::base::setting::{Key, Setting};
 use crate::base::units::{format_count, show_mm};
 use crate::base::watch::{Cancelled, Watch};
 use crate::geom::Vector;
-use crate::goal::{Contact, GoalKind, Request, Up, find_upright};
+use crate::goal::{Contact, GoalKind, Request, find_upright};
 use crate::io::{ReadError, read_model};
-use crate::mass::{Body, moments_of_mesh};
-use crate::mesh::{Defects, MeshFacts, Solid, TriMesh, scaled};
+use crate::mend::{MendError, mend};
+use crate::mesh::{Defects, MeshFacts, Solid, scaled};
 use crate::printer::{MaterialError, Printer, ProfileError, WallError};
-use crate::repair::{one_body, repair};
+use crate::repair::one_body_with;
 use crate::run::NaturalUp;
 
 /// A reason why `inspect` could not run.
@@ -30,6 +32,17 @@ pub enum InspectError {
     /// The model cannot be read.
     #[error(transparent)]
     Read(#[from] ReadError),
+    /// The model cannot be mended as ordered.
+    #[error("{} cannot be repaired as ordered", path.display())]
+    Mend {
+        /// The model's file.
+        path: PathBuf,
+        /// The reason.
+        source: Box<MendError>,
+    },
+    /// The picture cannot be written.
+    #[error(transparent)]
+    Picture(#[from] BrokenPictureError),
     /// The printer's profile cannot be used.
     #[error(transparent)]
     Profile(#[from] ProfileError),
@@ -67,6 +80,8 @@ struct Findings {
     degenerate_triangles: usize,
     repairs: String,
     defects: Option<String>,
+    /// True if a new surface would have none of the defects.
+    can_be_redrawn: bool,
     not_one_body: Option<String>,
     solid: Option<Mass>,
     /// The goals it could reach with a wall; `None` if it is not a solid of one body.
@@ -95,16 +110,6 @@ const EXAMPLE_BORE: &str = "8mm";
 /// The wall over the longest side, if neither a wall nor a printer is given.
 const PLAIN_WALL_RATIO: f64 = 0.01;
 
-/// The mass properties of a solid of density 1 g/cm³, model axes.
-#[derive(Debug, Serialize)]
-struct Mass {
-    volume_mm3: f64,
-    center_mm: [f64; 3],
-    principal_moments_ratio: [f64; 3],
-    dominant_axis: [f64; 3],
-    dominance_ratio_by_axis: [f64; 3],
-}
-
 /// Writes the facts and defects of a model to `out`.
 ///
 /// Returns [`Exit::CouldNotRun`], as `prepare` would, if the model is not a solid of one body.
@@ -113,12 +118,28 @@ pub fn inspect(
     voice: Voice,
     out: &mut dyn Write,
 ) -> Result<Exit, InspectError> {
-    let (file, repairs) = repair(read_model(&args.model)?, &Watch::silent())?;
-    let mesh = scaled(&file, args.scaling.scaling().factor(file.longest_side_mm()));
+    args.picture.as_deref().map_or(Ok(()), check_name)?;
+    let factor = |longest| args.scaling.scaling().factor(longest);
+    let order = args.repair.unwrap_or_default();
+    let mended = mend(read_model(&args.model)?, order, factor, &Watch::silent());
+    let mended = mended.map_err(|source| InspectError::Mend {
+        path: args.model.clone(),
+        source: Box::new(source),
+    })?;
+    let mesh = scaled(&mended.mesh, mended.scale_ratio);
     let facts = MeshFacts::of(&mesh);
     // Defects are located in the coordinates of the file, where a person looks for them.
-    let solid = Solid::new(mesh).map_err(|defects| Defects::of(&file).unwrap_or(defects));
-    let mut findings = findings(&facts, repairs.to_string(), &solid);
+    let solid = Solid::new(mesh).map_err(|defects| Defects::of(&mended.mesh).unwrap_or(defects));
+    let refusal = match &solid {
+        Ok(solid) => one_body_with(solid, order.inner, &Watch::silent())?.err(),
+        Err(_) => None,
+    };
+    if let Some(path) = &args.picture {
+        let places = places(solid.as_ref().err(), refusal.as_ref(), mended.scale_ratio);
+        write_picture(path, &mended.mesh, &places)?;
+    }
+    let mut findings = findings(&facts, mended.repairs.to_string(), &solid);
+    findings.not_one_body = refusal.map(|why| why.to_string());
     if let (Ok(solid), None) = (&solid, &findings.not_one_body) {
         findings.could_become = Some(becoming(args, solid)?);
     }
@@ -153,10 +174,8 @@ fn findings(facts: &MeshFacts, repairs: String, solid: &Result<Solid, Defects>) 
         degenerate_triangles: facts.degenerate_triangles,
         repairs,
         defects: solid.as_ref().err().map(ToString::to_string),
-        not_one_body: solid
-            .as_ref()
-            .ok()
-            .and_then(|solid| Some(one_body(solid, &Watch::silent()).ok()?.err()?.to_string())),
+        can_be_redrawn: solid.as_ref().is_err_and(Defects::can_draw_over),
+        not_one_body: None,
         solid: solid.as_ref().ok().map(|solid| mass(solid.mesh())),
         could_become: None,
     }
@@ -217,31 +236,6 @@ fn becoming(args: &InspectArgs, solid: &Solid) -> Result<Becoming, InspectError>
     })
 }
 
-fn mass(mesh: &TriMesh) -> Mass {
-    let moments = moments_of_mesh(mesh);
-    let body = Body::new(&moments, 1.0);
-    let principal = body.principal();
-    let largest = principal.moments_g_mm2[2];
-    Mass {
-        volume_mm3: moments.volume(),
-        center_mm: body.center.coords.into(),
-        principal_moments_ratio: principal.moments_g_mm2.map(|moment| moment / largest),
-        dominant_axis: principal.axes.column(2).into_owned().into(),
-        dominance_ratio_by_axis: [0, 1, 2].map(|axis| dominance(&body, axis)),
-    }
-}
-
-/// Returns the larger moment across a coordinate axis over the one about it.
-fn dominance(body: &Body, axis: usize) -> f64 {
-    let inertia = body.inertia_g_mm2;
-    let about = Vector::ith(axis, 1.0).dot(&(inertia * Vector::ith(axis, 1.0)));
-    let across = inertia
-        .remove_row(axis)
-        .remove_column(axis)
-        .symmetric_eigenvalues();
-    across.max() / about
-}
-
 fn text(findings: &Findings) -> String {
     let [x, y, z] = findings.size_mm.map(|mm| plain(mm, ""));
     let mut text = format!(
@@ -274,22 +268,19 @@ fn text(findings: &Findings) -> String {
         }
     }
     if let Some(reason) = &findings.not_one_body {
-        text += &format!("prepare needs one body: {reason}\n");
+        text += &format!("prepare needs one body: {}\n", with_flags(reason));
     }
     match (&findings.solid, &findings.defects) {
         (Some(mass), _) => text += &mass_text(mass),
-        (_, Some(defects)) => text += &format!("{defects}\n"),
+        (_, Some(defects)) => {
+            text += &format!("{defects}\n{}", redraw_hint(findings.can_be_redrawn))
+        }
         _ => {}
     }
     text + &findings
         .could_become
         .as_ref()
         .map_or(String::new(), becoming_text)
-}
-
-/// Returns a quantity with plain blanks, which a terminal can search for.
-fn plain(value: f64, unit: &str) -> String {
-    quantity(value, unit).replace('\u{a0}', " ")
 }
 
 /// Returns the natural up, and a line for each goal with what to type, the best first.
@@ -349,26 +340,4 @@ fn settings(prospect: &Prospect) -> Vec<Setting> {
     let bore = bore.then(|| Setting::new(Key::Bore, EXAMPLE_BORE));
     let all = [Some(goal), Some(up), contact, tip, bore];
     all.into_iter().flatten().collect()
-}
-
-fn mass_text(mass: &Mass) -> String {
-    let [cx, cy, cz] = mass.center_mm;
-    let [ax, ay, az] = mass.dominant_axis;
-    let mut text = format!(
-        "a solid of {}, centre of mass ({cx:.3}, {cy:.3}, {cz:.3}) mm\nlargest moment of inertia about ({ax:.4}, {ay:.4}, {az:.4}), which {} takes\n",
-        plain(mass.volume_mm3, "mm³"),
-        flag(&Setting::new(Key::Up, Up::Principal))
-    );
-    let axes = ["x", "y", "z"].iter().zip(mass.dominance_ratio_by_axis);
-    let (steady, shaky): (Vec<_>, Vec<_>) = axes.partition(|(_, ratio)| *ratio < 1.0);
-    for (axes, words) in [
-        (steady, "spins steadily"),
-        (shaky, "does not spin steadily"),
-    ] {
-        let names: Vec<&str> = axes.iter().map(|(axis, _)| **axis).collect();
-        if !names.is_empty() {
-            text += &format!("solid, it {words} about {}\n", names.join(", "));
-        }
-    }
-    text
 }

@@ -2,12 +2,14 @@
 
 pub mod args;
 pub mod bars;
+pub mod broken;
 pub mod coupon;
 mod cuts;
 mod exit;
 mod flags;
 pub mod inspect;
 pub mod manual;
+mod mass_facts;
 pub mod prepare;
 pub mod printers;
 pub mod printers_markdown;

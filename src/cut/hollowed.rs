@@ -2,7 +2,7 @@
 
 use crate::{
     cut::{request::PlanRequest, seat::Seat},
-    mesh::{Solid, TriMesh},
+    mesh::{Defects, Solid, TriMesh, shells},
 };
 
 /// An outer surface and the voids inside it.
@@ -33,6 +33,25 @@ impl Hollowed {
             outer,
             voids: bodies.into_iter().map(Void::empty).collect(),
         }
+    }
+
+    /// Splits a solid into its outside and the cavities in it, as voids that hold nothing.
+    ///
+    /// # Errors
+    /// A part of it bounds no solid, which a solid of bodies with cavities does not have.
+    pub fn of_solid(solid: &Solid) -> Result<Self, Defects> {
+        let faces_inward = |shell: &TriMesh| shell.signed_volume_mm3() < 0.0;
+        let (inward, outward): (Vec<_>, Vec<_>) =
+            shells(solid.mesh()).into_iter().partition(faces_inward);
+        if inward.is_empty() {
+            return Ok(Self::new(solid.clone(), Vec::new()));
+        }
+        let outside = outward.iter().fold(TriMesh::default(), TriMesh::joined);
+        let cavities = inward.iter().map(|shell| Solid::new(shell.reversed()));
+        Ok(Self::new(
+            Solid::new(outside)?,
+            cavities.collect::<Result<_, _>>()?,
+        ))
     }
 
     /// Returns one mesh that bounds the remaining material: the outer surface and every void turned

@@ -26,6 +26,10 @@
 //!   tensor in terms of its vertex coordinates", Journal of Mathematics and Statistics 1(1), 2005.
 //! * **Compensated sums**: A. Neumaier, "Rundungsfehleranalyse einiger Verfahren zur Summation
 //!   endlicher Summen", Zeitschrift für Angewandte Mathematik und Mechanik 54, 1974.
+//! * **Winding numbers**: A. Jacobson, L. Kavan, O. Sorkine-Hornung, "Robust inside-outside
+//!   segmentation using generalized winding numbers", ACM Transactions on Graphics 32(4), 2013;
+//!   G. Barill, N. G. Dickson, R. Schmidt, D. I. W. Levin, A. Jacobson, "Fast winding numbers for
+//!   soups and clouds", ACM Transactions on Graphics 37(4), 2018.
 //! * **Signed distance**: J. A. Bærentzen, H. Aanæs, "Signed distance computation using the angle
 //!   weighted pseudonormal", IEEE Transactions on Visualization and Computer Graphics 11(3), 2005.
 //! * **Isosurface stuffing** (the graded tetrahedral lattice): F. Labelle, J. R. Shewchuk,

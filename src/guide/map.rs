@@ -7,6 +7,7 @@
 //! | --- | --- |
 //! | What happens to a job, in which order? | `prepare` in `prepare/mod.rs`, a line of seven stages |
 //! | Where is a broken mesh mended, and who says what was changed? | `repair` in `repair/ladder.rs`; `Repairs` in `repair/report.rs` counts the changes |
+//! | What becomes of a file that no rung mends? | `redraw` in `mend/redraw.rs` draws a new surface by the winding numbers of `mesh/winding.rs`, `farthest` in `mend/redraw/stray.rs` measures it both ways |
 //! | How thick is the wall, and why? | `quantise_wall` in `printer/wall.rs`; `Shell` in `shell/wall.rs` keeps it |
 //! | Where does a request become a frame with a support? | `place` in `goal/place.rs`, then the goal's own file, say `goal/top.rs` |
 //! | Who decides if a top needs a tip, and which? | `choose_contact` in `prepare/place.rs`; `Lean` in `goal/lean.rs` says how far it leans, `TipPlace` in `goal/tips.rs` picks the pin |

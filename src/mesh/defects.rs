@@ -53,6 +53,28 @@ impl DefectKind {
         }
     }
 
+    /// Returns the defect in the few words that fit on a picture.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Empty => "no triangles",
+            Self::NotFinite => "no finite number",
+            Self::RepeatedCorner => "no area",
+            Self::Hole => "hole",
+            Self::CrowdedEdge => "three faces on an edge",
+            Self::MisorientedEdge => "faces opposite ways",
+            Self::NoVolume => "no volume",
+            Self::InsideOut => "faces inward",
+        }
+    }
+
+    /// Returns true if a new surface by winding number has no such defect.
+    pub fn is_drawn_over(self) -> bool {
+        matches!(
+            self,
+            Self::Hole | Self::CrowdedEdge | Self::MisorientedEdge | Self::InsideOut
+        )
+    }
+
     /// Returns the remedy, as a request to the user.
     pub fn remedy(self) -> &'static str {
         match self {
@@ -146,6 +168,11 @@ impl Defects {
     /// Returns the defects, one for each kind that occurs.
     pub fn list(&self) -> &[Defect] {
         &self.0
+    }
+
+    /// Returns true if a new surface by winding number has none of them.
+    pub fn can_draw_over(&self) -> bool {
+        self.0.iter().all(|defect| defect.kind.is_drawn_over())
     }
 
     /// Returns the number of occurrences of `kind`.

@@ -5,14 +5,15 @@
 //! * **Topology:** `edges`, `fans` around a vertex, connected `shells`, [`bodies()`], and
 //!   `union_find` under them all.
 //! * **Measurements:** [`MeshFacts`], the body along an axis (`NearAxis`), self-intersections
-//!   ([`Crossings`]), exact distances ([`MeshDistance`]), and points spread evenly over a surface
-//!   ([`spread_points`]).
+//!   ([`Crossings`], [`Broken`]), exact distances ([`MeshDistance`]), and points spread evenly over
+//!   a surface ([`spread_points`]). [`WindingNumbers`] tell inside from outside of any triangles.
 //! * **Operations:** booleans, plane cuts and simplification ([`Csg`]); `clip` cuts by a plane for
 //!   trials; `cut_planes` keeps cuts off vertices and faces.
 //! * **Shapes:** [`primitives`] for tests and tools.
 
 mod axial;
 mod bodies;
+mod broken;
 mod clip;
 pub(crate) mod crossings;
 mod csg;
@@ -28,9 +29,11 @@ pub(crate) mod shells;
 mod solid;
 mod tri_mesh;
 pub(crate) mod union_find;
+mod winding;
 
 pub(crate) use axial::{AxialLine, NearAxis, walled_mm};
 pub use bodies::{bodies, shells, winding_number};
+pub use broken::Broken;
 pub use crossings::Crossings;
 pub use csg::{ClipError, Csg};
 pub(crate) use cut_planes::{move_off_faces, move_off_vertices};
@@ -41,3 +44,4 @@ pub use sampling::{SurfacePoint, area_mm2, spread_points};
 pub use solid::Solid;
 pub(crate) use tri_mesh::smallest_first;
 pub use tri_mesh::{MeshError, TriMesh, scaled};
+pub use winding::WindingNumbers;

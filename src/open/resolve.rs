@@ -25,6 +25,8 @@ pub struct Resolver<'a> {
     first_value: f64,
     /// The surface of the same region.
     cavity: Cavity,
+    /// The outside of the model, and the cavities that it came with.
+    given: Hollowed,
     /// Volume of voids that were refused, mm³.
     refused_mm3: f64,
     /// Volume of bosses that could have been emptied, mm³.
@@ -59,6 +61,7 @@ impl<'a> Resolver<'a> {
             first_value: solved.solution.certificate.value,
             solved,
             cavity,
+            given: Hollowed::of_solid(placed.solid()).map_err(VoidError::from)?,
             refused_mm3: 0.0,
             bosses_mm3: 0.0,
             watch: watch.clone(),
@@ -228,7 +231,8 @@ impl<'a> Resolver<'a> {
         let refused = bodies.too_small.into_iter().filter(is_significant);
         let refused: Vec<TriMesh> = refused.collect();
         self.refuse(&refused, policy.refused_margin_openings)?;
-        let mut hollowed = Hollowed::new(self.placed.solid().clone(), bodies.bodies);
+        let mut hollowed = Hollowed::new(self.given.outer.clone(), bodies.bodies);
+        hollowed.voids.extend(self.given.voids.iter().cloned());
         hollowed.voids.extend(pockets(&self.solved.load)?);
         Ok(Voids {
             solution,

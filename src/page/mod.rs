@@ -3,6 +3,7 @@
 mod album;
 mod apart;
 mod below;
+mod broken;
 mod certificate;
 mod cleaning;
 mod cover;
@@ -43,6 +44,7 @@ mod weighing;
 mod words;
 
 pub use album::{draw_figures, render_pictures};
+pub use broken::{Place, draw_broken};
 pub use certificate::certificate;
 pub use cut_drawing::{CutFace, Mouth, Region};
 pub use document::document;

@@ -6,9 +6,10 @@ use crate::cut::rods;
 use crate::error::Error;
 use crate::io;
 use crate::job::Job;
+use crate::mend::{MendError, mend};
 use crate::mesh::{Defects, Solid, scaled};
 use crate::printer::{Printer, check_room_for_void};
-use crate::repair::{one_body, repair};
+use crate::repair::one_body_with;
 use crate::run::{Model, Shop};
 use crate::thin::thicken;
 
@@ -33,8 +34,15 @@ pub fn model(job: &Job, printer: &Printer, watch: &Watch) -> Result<Model, Error
     let mesh = io::decode_model(&bytes).map_err(content)?;
     job.clone().bind_to(&bytes)?;
     watch.check()?;
-    let (mesh, repairs) = repair(mesh, watch)?;
-    let scale_ratio = job.model.scaling.factor(mesh.longest_side_mm());
+    let factor = |longest| job.model.scaling.factor(longest);
+    let mended = mend(mesh, job.repair, factor, watch).map_err(|error| match error {
+        MendError::Cancelled(cancelled) => cancelled.into(),
+        source => Error::Mend {
+            path: path(),
+            source: Box::new(source),
+        },
+    })?;
+    let (mesh, scale_ratio) = (mended.mesh, mended.scale_ratio);
     printer.check_length(scale_ratio * mesh.longest_side_mm())?;
     watch.check()?;
     let solid = Solid::new(scaled(&mesh, scale_ratio)).map_err(|defects| Error::NotSolid {
@@ -42,7 +50,7 @@ pub fn model(job: &Job, printer: &Printer, watch: &Watch) -> Result<Model, Error
         source: Box::new(Defects::of(&mesh).unwrap_or(defects)),
     })?;
     watch.check()?;
-    one_body(&solid, watch)?.map_err(|source| Error::NotOneBody {
+    one_body_with(&solid, job.repair.inner, watch)?.map_err(|source| Error::NotOneBody {
         path: path(),
         source: Box::new(source),
     })?;
@@ -58,7 +66,7 @@ pub fn model(job: &Job, printer: &Printer, watch: &Watch) -> Result<Model, Error
             .as_ref()
             .map_or(solid, |thick| thick.solid.clone()),
         thickened,
-        repairs,
+        repairs: mended.repairs,
         sha256,
         scale_ratio,
     })

@@ -3,6 +3,8 @@
 use std::collections::{BTreeSet, HashSet};
 
 use super::holes::fill_holes;
+use super::inner::settle_inner;
+use super::order::InnerSurfaces;
 use super::orient::{face_outward, orient_neighbours};
 use super::report::Repairs;
 use super::sew::sew;
@@ -41,6 +43,18 @@ const MAX_STITCHED_EDGES: usize = 4000;
 /// # Errors
 /// The watch was stopped.
 pub fn repair(mesh: TriMesh, watch: &Watch) -> Result<(TriMesh, Repairs), Cancelled> {
+    repair_with(mesh, InnerSurfaces::Refuse, watch)
+}
+
+/// Climbs the ladder like [`repair`], and settles inner surfaces as ordered before the last rung.
+///
+/// # Errors
+/// The watch was stopped.
+pub fn repair_with(
+    mesh: TriMesh,
+    inner: InnerSurfaces,
+    watch: &Watch,
+) -> Result<(TriMesh, Repairs), Cancelled> {
     let mut repairs = Repairs::default();
     let mesh = merge_equal_vertices(mesh, &mut repairs);
     let mesh = close_seams(mesh, &mut repairs);
@@ -58,6 +72,7 @@ pub fn repair(mesh: TriMesh, watch: &Watch) -> Result<(TriMesh, Repairs), Cancel
     let mesh = face_outward_if_closed(mesh);
     repairs.flipped_triangles += count_flipped(&before, &mesh);
     let mesh = untangle_shells(mesh, &mut repairs, watch)?;
+    let mesh = settle_inner(mesh, inner, &mut repairs, watch)?;
     let mesh = unite(mesh, &mut repairs, watch)?;
     Ok((mesh, repairs))
 }

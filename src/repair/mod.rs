@@ -35,23 +35,29 @@
 //!     the space around which it winds at least once. *Cost:* n log n, and more only where it
 //!     crosses, with a limit. *Proof:* kept only if the result is closed, does not cross itself,
 //!     and has moved no more than the stitching of cracks may. What lay inside does not count.
-//! 11. **Unite overlapping shells** (`unite`), if closed shells cross and none lies inside
+//! 11. **Settle inner surfaces** (`inner`), only if ordered. Drops the shells inside others, or
+//!     turns them to bound cavities. *Cost:* a pass over the triangles for each pair of shells.
+//!     *Proof:* no vertex moves.
+//! 12. **Unite overlapping shells** (`unite`), if closed shells cross and none lies inside
 //!     another. *Cost:* a few booleans for each of at most 200 shells. *Proof:* kept only if the
 //!     result is a solid that does not cross itself.
 //!
 //! At the top stands [`Solid::new`](crate::mesh::Solid::new), which proves the result or lists all
 //! remaining [`Defects`](crate::mesh::Defects). A shell that still crosses itself stays as it is,
-//! and [`one_body`] refuses it.
+//! and [`one_body`] refuses it. What the ladder cannot mend, [`crate::mend`] draws anew on order.
 //!
 //! # Beside the ladder
 //!
+//! * [`RepairOrder`] is what a person orders beyond the rungs that everyone gets.
 //! * [`one_body`] checks that a solid is a single body, as every kit requires.
 //! * `sew` joins parts along their rims, within a tolerance that its caller judges.
 //! * [`unfold()`] mends the slivers that the rounding of a written file would fold.
 
 mod holes;
+mod inner;
 mod ladder;
 mod one_body;
+mod order;
 mod orient;
 mod report;
 mod sew;
@@ -61,9 +67,11 @@ mod unstitch;
 mod untangle;
 mod weld;
 
-pub use ladder::repair;
-pub use one_body::{NotOneBody, ShellFact, ShellRole, one_body};
-pub use report::Repairs;
+pub use inner::settle_inner;
+pub use ladder::{repair, repair_with};
+pub use one_body::{NotOneBody, ShellFact, ShellRole, one_body, one_body_with};
+pub use order::{InnerSurfaces, Remesh, RepairOrder, RepairOrderError};
+pub use report::{Redrawn, Repairs};
 pub(crate) use sew::sew;
 pub use unfold::unfold;
 pub use weld::weld;

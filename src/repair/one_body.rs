@@ -3,14 +3,13 @@
 
 use std::fmt;
 
+use super::order::InnerSurfaces;
+use crate::base::setting::{Key, Setting};
 use crate::base::watch::{Cancelled, Watch};
 use crate::geom::Point;
 use crate::mesh::edges::EdgeTable;
 use crate::mesh::shells::{Shells, shell_box};
 use crate::mesh::{Crossings, Solid, TriMesh};
-
-/// Largest number of shells listed. A scan with more fragments needs cleaning as a whole.
-const MAX_LISTED_SHELLS: usize = 12;
 
 /// The role of a shell among the others.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -65,14 +64,20 @@ impl fmt::Display for ShellFact {
 pub enum NotOneBody {
     /// The surface passes through itself: the overlap would count twice.
     #[error(
-        "its surface crosses or overlaps itself in {} places{}; remedy: unite the overlapping bodies \
-         in a modelling program (boolean union), or mend the surface there, then export again",
-        .0.pairs, first_at(.0)
+        "its surface crosses or overlaps itself in {} places{}; remedy: let a new surface be drawn \
+         (`{}`), or unite the overlapping bodies in a modelling program (boolean union) and export \
+         again",
+        .0.pairs, first_at(.0), Setting::new(Key::Repair, "remesh")
     )]
     Crosses(Crossings),
     /// There are several shells.
     #[error("{}", describe_shells(.0))]
     SeveralShells(Vec<ShellFact>),
+}
+
+impl NotOneBody {
+    /// Largest number of shells listed. A scan with more fragments needs cleaning as a whole.
+    pub const MAX_LISTED: usize = 12;
 }
 
 fn first_at(crossings: &Crossings) -> String {
@@ -85,9 +90,9 @@ fn first_at(crossings: &Crossings) -> String {
 fn describe_shells(shells: &[ShellFact]) -> String {
     let named = shells
         .iter()
-        .take(MAX_LISTED_SHELLS)
+        .take(NotOneBody::MAX_LISTED)
         .map(ToString::to_string);
-    let more = shells.len().saturating_sub(MAX_LISTED_SHELLS);
+    let more = shells.len().saturating_sub(NotOneBody::MAX_LISTED);
     let more = (more > 0).then(|| format!("{more} more"));
     let named: Vec<String> = named.chain(more).collect();
     format!(
@@ -98,16 +103,22 @@ fn describe_shells(shells: &[ShellFact]) -> String {
     )
 }
 
-fn remedies(shells: &[ShellFact]) -> Vec<&'static str> {
+fn remedies(shells: &[ShellFact]) -> Vec<String> {
     let count = |role| shells.iter().filter(|shell| shell.role == role).count();
     let inner = shells.len() - count(ShellRole::Body);
-    let within = (inner > 0).then_some(
-        "remove the inner surfaces in a mesh editor, as equipoise makes the voids itself and needs the filled body",
-    );
-    let beside = (count(ShellRole::Body) > 1).then_some(
-        "join the separate bodies into one (boolean union, with a bridge where they do not touch), or keep the one that \
-         is meant",
-    );
+    let within = (inner > 0).then(|| {
+        format!(
+            "fill the inner surfaces (`{}`), as equipoise makes the voids itself, or keep them as \
+             cavities (`{}`)",
+            Setting::new(Key::Repair, "fill"),
+            Setting::new(Key::Repair, "cavities")
+        )
+    });
+    let beside = (count(ShellRole::Body) > 1).then(|| {
+        "join the separate bodies into one (boolean union, with a bridge where they do not touch), \
+         or keep the one that is meant"
+            .to_owned()
+    });
     within.into_iter().chain(beside).collect()
 }
 
@@ -119,16 +130,36 @@ fn remedies(shells: &[ShellFact]) -> Vec<&'static str> {
 /// # Errors
 /// The watch was stopped before the answer was found.
 pub fn one_body(solid: &Solid, watch: &Watch) -> Result<Result<(), NotOneBody>, Cancelled> {
+    one_body_with(solid, InnerSurfaces::Refuse, watch)
+}
+
+/// Checks like [`one_body`], but lets the body have cavities if that is the order.
+///
+/// # Errors
+/// The watch was stopped before the answer was found.
+pub fn one_body_with(
+    solid: &Solid,
+    inner: InnerSurfaces,
+    watch: &Watch,
+) -> Result<Result<(), NotOneBody>, Cancelled> {
     let mesh = solid.mesh();
     let crossings = Crossings::of_watched(mesh, watch)?;
     if crossings.pairs > 0 {
         return Ok(Err(NotOneBody::Crosses(crossings)));
     }
     let shells = Shells::of(mesh, &EdgeTable::of(mesh));
-    Ok(if shells.count() == 1 {
+    if shells.count() == 1 {
+        return Ok(Ok(()));
+    }
+    let facts = facts(mesh, &shells);
+    let is_allowed =
+        |fact: &ShellFact| fact.role == ShellRole::Cavity && inner == InnerSurfaces::Cavities;
+    let others = facts.iter().filter(|fact| !is_allowed(fact));
+    let is_one = others.map(|fact| fact.role).eq([ShellRole::Body]);
+    Ok(if is_one {
         Ok(())
     } else {
-        Err(NotOneBody::SeveralShells(facts(mesh, &shells)))
+        Err(NotOneBody::SeveralShells(facts))
     })
 }
 
@@ -204,6 +235,19 @@ mod tests {
     }
 
     #[test]
+    fn cavities_are_allowed_if_they_are_ordered_and_loose_bodies_never() {
+        let allows = |mesh: TriMesh| {
+            let solid = Solid::new(mesh).unwrap();
+            let judged = one_body_with(&solid, InnerSurfaces::Cavities, &Watch::silent());
+            judged.unwrap().is_ok()
+        };
+        let hollow = cube(4.0).joined(&cube(3.0).reversed());
+        assert!(allows(hollow.clone()));
+        assert!(judge(hollow.clone()).is_err());
+        assert!(!allows(hollow.joined(&cube(2.0))));
+    }
+
+    #[test]
     fn the_message_names_place_volume_and_remedy_of_each_shell() {
         let hole = cuboid(&Point::new(1.0, 1.0, 1.0), &Point::new(3.0, 3.0, 3.0)).reversed();
         let message = refusal(cube(4.0).joined(&hole)).to_string();
@@ -212,7 +256,7 @@ mod tests {
             "{message}"
         );
         assert!(
-            message.contains("remove the inner surfaces") && !message.contains("separate"),
+            message.contains("fill the inner surfaces") && !message.contains("separate"),
             "{message}"
         );
     }

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use crate::base::units::format_count;
+use crate::base::units::{format_count, show_mm};
 
 /// Counts of the changes that [`super::repair`] made to a mesh.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -33,8 +33,26 @@ pub struct Repairs {
     pub untangled_pairs: usize,
     /// Largest distance by which the surface moved in untangling, as a share of the diagonal.
     pub untangled_ratio: f64,
+    /// Surfaces inside the model that were dropped: it is filled there.
+    pub filled_shells: usize,
+    /// Surfaces inside the model that bound cavities.
+    pub cavities: usize,
+    /// The new surface that was drawn; `None` if the old one was kept.
+    pub redrawn: Option<Redrawn>,
     /// Closed surfaces that were united with those they overlap.
     pub united_shells: usize,
+}
+
+/// A new surface in place of the old one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Redrawn {
+    /// Its tolerance, mm.
+    pub within_mm: f64,
+    /// Largest distance that was measured between it and the old one, mm. Of the old one what does
+    /// not part inside from outside is left out.
+    pub moved_mm: f64,
+    /// Pieces of it that were dropped as smaller than its tolerance can tell.
+    pub dropped_specks: usize,
 }
 
 impl Repairs {
@@ -76,6 +94,39 @@ impl Repairs {
         closed.chain(untangled).chain(united).collect()
     }
 
+    /// Describes what was done because the owner ordered it.
+    fn describe_ordered(&self) -> Vec<String> {
+        let filled = (self.filled_shells > 0).then(|| {
+            format!(
+                "{} inside the model filled (the outside did not move)",
+                format_count(self.filled_shells, "surface")
+            )
+        });
+        let cavities = (self.cavities > 0).then(|| {
+            format!(
+                "{} inside the model kept as {} (nothing moved)",
+                format_count(self.cavities, "surface"),
+                if self.cavities == 1 {
+                    "a cavity"
+                } else {
+                    "cavities"
+                }
+            )
+        });
+        let redrawn = self.redrawn.map(|redrawn| {
+            let specks = match redrawn.dropped_specks {
+                0 => String::new(),
+                count => format!("; dropped as too small: {}", format_count(count, "piece")),
+            };
+            format!(
+                "a new surface drawn within {} (no point moved by more than {}{specks})",
+                show_mm(redrawn.within_mm),
+                show_mm(redrawn.moved_mm)
+            )
+        });
+        redrawn.into_iter().chain(filled).chain(cavities).collect()
+    }
+
     /// Returns the counts that a user should know. Leaves out the merging of equal vertices,
     /// which every STL file needs, and the dropping of unused ones, which nobody sees.
     pub fn notable(self) -> Self {
@@ -112,6 +163,7 @@ impl fmt::Display for Repairs {
             .filter(|(count, _)| *count > 0)
             .map(|(count, description)| format!("{description}: {count}"))
             .chain(self.describe_closing())
+            .chain(self.describe_ordered())
             .collect();
         if descriptions.is_empty() {
             f.write_str("nothing")

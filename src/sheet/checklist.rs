@@ -12,6 +12,7 @@ use super::printer::{GridRow, MaterialRow, PrinterRow, WallRow};
 use super::timing::Timing;
 use super::voids::{CutRow, VoidRow};
 use crate::printer::Plate;
+use crate::repair::RepairOrder;
 use crate::verify::{Check, Figures, FillOrder, Hardware, PromisedFigure, SCHEMA};
 
 /// The job sheet of a kit, for machines; the room `page` renders the same for people.
@@ -129,6 +130,12 @@ pub struct ModelRow {
     pub file: String,
     /// SHA-256 of that file.
     pub sha256: String,
+    /// The repairs that were asked for, as in `job.toml`.
+    #[serde(default, skip_serializing_if = "RepairOrder::is_auto")]
+    pub repair: RepairOrder,
+    /// The new surface that was drawn for it; `None` if it kept its own.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub redrawn: Option<RedrawnRow>,
     /// Number of triangles after repair.
     pub triangles: usize,
     /// Extent along the axes, mm.
@@ -140,6 +147,15 @@ pub struct ModelRow {
     /// The thickening of its thin features; `None` if they were left as they are.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub thickened: Option<ThickenedRow>,
+}
+
+/// The new surface of a model that could not be mended.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct RedrawnRow {
+    /// Its tolerance, mm.
+    pub within_mm: f64,
+    /// The greatest distance that was measured between it and the old surface, mm.
+    pub moved_mm: f64,
 }
 
 /// The thickening of thin features.

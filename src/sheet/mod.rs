@@ -15,7 +15,9 @@ mod timing;
 mod voids;
 
 pub use certificate::{Certificate, CleaningRow, Course, HeightProof, KeptRow, PassRow, SpeedRow};
-pub use checklist::{Checklist, ChecklistError, LogRow, ModelRow, ThickenedRow, Tool, Verdict};
+pub use checklist::{
+    Checklist, ChecklistError, LogRow, ModelRow, RedrawnRow, ThickenedRow, Tool, Verdict,
+};
 pub use goal::{FootRow, GoalRow, ObjectiveName, ShaftKind, ShaftRow, TurnRow};
 pub use joints::{BallastRow, BossRow, CutListRow, JigRow, JointRow, RoundRow};
 pub use parts::{Half, PartRow, SupportRow, finished_size_mm, part_picture_file};

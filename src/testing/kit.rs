@@ -3,7 +3,7 @@
 use crate::base::watch::Watch;
 use crate::geom::{Parting, Plane, Point, Vector};
 use crate::page::{CutFace, Mouth, Picture, Region, Subject, View, draw_figures, render_pictures};
-use crate::repair::weld;
+use crate::repair::{RepairOrder, weld};
 use crate::sheet::part_picture_file;
 use crate::sheet::*;
 use crate::verify::judge_tests::{judge, sound_kit};
@@ -173,6 +173,8 @@ fn model(found: &Judgement) -> ModelRow {
         size_mm: [60.0, 40.0, 12.0],
         volume_mm3: found.solid.volume_mm3,
         scale_ratio: 1.0,
+        repair: RepairOrder::default(),
+        redrawn: None,
         thickened: None,
     }
 }

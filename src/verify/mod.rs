@@ -56,6 +56,7 @@ mod kit;
 mod machine;
 mod model;
 mod packages;
+mod redrawn;
 mod seal;
 mod sheet;
 mod strangers;

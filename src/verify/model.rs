@@ -7,12 +7,13 @@ use serde_json::Value;
 
 use super::cover::{Lie, ON_SHEET_MM, Sheet, Sheets, Whose};
 use super::reading::{read_file, read_mesh};
+use super::redrawn::{find_missing, find_strays};
 use super::{Check, CheckKind, Evidence, Limit, Shells, VerifyError};
 use crate::base::digest::sha256_hex;
 use crate::base::watch::Watch;
 use crate::geom::Point;
 use crate::mesh::{Solid, TriMesh, scaled};
-use crate::repair::{repair, weld};
+use crate::repair::{InnerSurfaces, RepairOrder, repair_with, weld};
 use crate::thin::{ThickenError, thicken};
 
 /// Checks that the outside of the uncut result is that of the model in this file, in the stated
@@ -27,35 +28,65 @@ pub(super) fn model_check(
     watch: &Watch,
 ) -> Result<Check, VerifyError> {
     let stated = &sheet["model"];
+    let order = stated["repair"].as_str().and_then(|text| text.parse().ok());
+    let order: RepairOrder = order.unwrap_or_default();
+    let redrawn_mm = stated["redrawn"]["within_mm"].as_f64();
+    let redrawn_mm = redrawn_mm.filter(|_| order.remesh.is_some());
+    let within_mm = redrawn_mm.unwrap_or(ON_SHEET_MM);
     let promise =
-        format!("the outside is that of the model, within {ON_SHEET_MM} mm, but for triangles");
+        format!("the outside is that of the model, within {within_mm} mm, but for triangles");
     let verdict = |count: usize, words: Option<String>| {
         let limit = Limit::at_most(0.0, "");
         Check::new(CheckKind::Model, &promise, Some(count as f64), limit).at(words)
     };
     let sha256 = sha256_hex(&[&read_file(file)?]);
-    let (mesh, _) = repair(read_mesh(file)?, watch)?;
+    let (mesh, _) = repair_with(read_mesh(file)?, order.inner, watch)?;
     let scale_ratio = stated["scale_ratio"].as_f64().unwrap_or(f64::NAN);
-    let model = thickened(scaled(&mesh, scale_ratio), stated, watch)?;
-    let count = model.triangles().len();
+    let mesh = scaled(&mesh, scale_ratio);
     if stated["sha256"].as_str() != Some(&sha256) {
         let words = "it is another file than the one of the checklist";
-        return Ok(verdict(count, Some(words.to_owned())));
+        return Ok(verdict(mesh.triangles().len(), Some(words.to_owned())));
     }
+    let outer = outer_of(evidence);
+    // Cavities that the model came with are among the voids.
+    let all = match order.inner {
+        InnerSurfaces::Cavities => &evidence.hollowed,
+        _ => &outer,
+    };
+    let has_hardware = !evidence.promise.hardware.is_empty();
+    if redrawn_mm.is_some() {
+        let limit_mm = within_mm + stated["thickened"]["moved_mm"].as_f64().unwrap_or(0.0);
+        let off = if has_hardware {
+            Vec::new()
+        } else {
+            let strays = find_strays(&outer, &mesh, limit_mm, watch)?;
+            [strays, find_missing(all, &mesh, limit_mm, watch)?].concat()
+        };
+        return Ok(verdict(off.len(), name_first(&off)));
+    }
+    let model = thickened(mesh, stated, watch)?;
+    let count = model.triangles().len();
     if stated["triangles"].as_u64() != Some(count as u64) {
         let words = format!("it has {count} triangles, not {}", stated["triangles"]);
         return Ok(verdict(count, Some(words)));
     }
-    if !evidence.promise.hardware.is_empty() {
+    if has_hardware {
         return Ok(verdict(0, None));
     }
-    let outer = Shells::of_mesh(&weld(&evidence.hollowed)).outer_mesh();
-    let off = [find_off(&outer, &model), find_off(&model, &outer)].concat();
-    let words = off.first().map(|at| {
-        let [x, y, z] = [at.x, at.y, at.z];
-        format!("{x:.1},{y:.1},{z:.1} mm")
-    });
-    Ok(verdict(off.len(), words))
+    let off = [find_off(&outer, &model), find_off(&model, all)].concat();
+    Ok(verdict(off.len(), name_first(&off)))
+}
+
+/// Returns the outside of the uncut result.
+fn outer_of(evidence: &Evidence) -> TriMesh {
+    Shells::of_mesh(&weld(&evidence.hollowed)).outer_mesh()
+}
+
+/// Names the first of some places.
+fn name_first(places: &[Point]) -> Option<String> {
+    let at = places.first()?;
+    let [x, y, z] = [at.x, at.y, at.z];
+    Some(format!("{x:.1},{y:.1},{z:.1} mm"))
 }
 
 /// Thickens a model as the checklist says; returns it as it is if that says nothing, or if it

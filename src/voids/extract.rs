@@ -1,11 +1,13 @@
 //! Draws a surface: refines the lattice until its triangles follow the function, then marches.
 
+use rayon::prelude::*;
+
 use super::error::VoidError;
 use super::field::{Field, Known, Resolution};
 use super::lattice::{Across, Links};
 use super::march::{Piece, cap, piece};
 use super::nodes::{Nodes, Numbers};
-use super::octree::{FINEST_UNITS, Octree};
+use super::octree::{CIRCUMRADIUS, FINEST_UNITS, Octree};
 use super::roots::{Roots, VertexKey, is_crossing};
 use super::runs::{flat_map_in_runs, map_in_runs, runs};
 use super::table::IndexMap;
@@ -122,6 +124,20 @@ impl<'a, F: Field> Extractor<'a, F> {
         leaves.retain(|&i| self.tree.cell(i).size > FINEST_UNITS);
         let fresh = self.tree.refine(&leaves, self.field, self.watch)?;
         Ok(self.tree.widened(&fresh))
+    }
+
+    /// Returns the leaves that may hold surface and reach into one of these balls.
+    pub fn leaves_in(&self, balls: &[(Point, f64)]) -> Vec<u32> {
+        let reaches = |leaf: &u32| {
+            let cell = self.tree.cell(*leaf);
+            let own_mm = CIRCUMRADIUS * self.tree.length_mm(cell.size);
+            let meets = |(at, radius): &(Point, f64)| {
+                (cell.center.at - at).norm_squared() < (own_mm + radius).powi(2)
+            };
+            !cell.is_free && balls.iter().any(meets)
+        };
+        let leaves = self.leaves();
+        leaves.into_par_iter().filter(reaches).collect()
     }
 
     /// Returns the triangles as they are now.

@@ -35,6 +35,10 @@ mod inscribed;
 mod offset;
 mod region;
 
+// A new surface for broken ones.
+mod remesh;
+mod soup_field;
+
 #[cfg(test)]
 mod shapes;
 #[cfg(test)]
@@ -44,4 +48,5 @@ pub use cavity::{Cavity, without_slivers};
 pub use error::VoidError;
 pub use grow::grow_bodies;
 pub use offset::CavitySpec;
+pub use remesh::{Missing, Soup};
 pub use split::Voids;

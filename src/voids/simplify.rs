@@ -11,7 +11,7 @@ use crate::mesh::{MeshError, TriMesh};
 
 /// Number of times the failures are locked and the rest is tried again, before the mesh is left as
 /// it was.
-const ROUNDS: usize = 4;
+const ROUNDS: usize = 8;
 
 /// Rings of neighbours locked around a triangle that failed.
 const LOCKED_RINGS: usize = 2;

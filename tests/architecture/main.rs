@@ -65,6 +65,8 @@ const ARROWS: &[(&str, &[&str])] = &[
         "voids",
         &["printer", "repair", "geom", "mass", "mesh", "base", "shell"],
     ),
+    // A new surface is drawn as voids are; the ladder below knows nothing of drawing.
+    ("mend", &["base", "geom", "mesh", "repair", "voids"]),
     ("poses", &["base", "geom", "mesh"]),
     (
         "cut",
@@ -106,12 +108,13 @@ const ARROWS: &[(&str, &[&str])] = &[
         "coupon",
         &["geom", "io", "kit", "mesh", "page", "printer", "base"],
     ),
-    ("job", &["ballast", "cut", "base", "goal"]),
+    ("job", &["ballast", "cut", "base", "goal", "repair"]),
     (
         "error",
         &[
             "base", "repair", "ballast", "cut", "draw", "goal", "hardware", "hollow", "interior",
-            "io", "job", "kit", "mesh", "printer", "sheet", "shell", "thin", "verify", "voids",
+            "io", "job", "kit", "mend", "mesh", "printer", "sheet", "shell", "thin", "verify",
+            "voids",
         ],
     ),
     (
@@ -139,8 +142,8 @@ const ARROWS: &[(&str, &[&str])] = &[
         "prepare",
         &[
             "advice", "ballast", "base", "cut", "error", "geom", "goal", "hardware", "hollow",
-            "interior", "io", "job", "kit", "make", "mass", "mesh", "open", "page", "printer",
-            "repair", "run", "sheet", "shell", "thin", "verify",
+            "interior", "io", "job", "kit", "make", "mass", "mend", "mesh", "open", "page",
+            "printer", "repair", "run", "sheet", "shell", "thin", "verify",
         ],
     ),
     (
@@ -159,6 +162,7 @@ const ARROWS: &[(&str, &[&str])] = &[
             "job",
             "kit",
             "mass",
+            "mend",
             "mesh",
             "page",
             "prepare",
@@ -189,6 +193,7 @@ const ARROWS: &[(&str, &[&str])] = &[
             "io",
             "make",
             "mass",
+            "mend",
             "mesh",
             "open",
             "page",

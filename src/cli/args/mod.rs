@@ -35,6 +35,7 @@ pub use typed::SplitUnit;
 pub use values::NumberError;
 
 use crate::base::units::Length;
+use crate::repair::RepairOrder;
 use values::{ALSO, EXAMPLES, EXIT_CODES};
 
 /// Make kits of printed parts that spin, stand, float, run true or slide open
@@ -136,6 +137,13 @@ pub struct InspectArgs {
         help_heading = "Printer"
     )]
     pub wall: Option<Length>,
+    /// Repair the model as `prepare --repair` does: cavities, fill, remesh or remesh:TOLERANCE
+    /// [default: auto]
+    #[arg(long, value_name = "HOW")]
+    pub repair: Option<RepairOrder>,
+    /// Draw the model with the places of its defects into this SVG file
+    #[arg(long, value_name = "FILE")]
+    pub picture: Option<PathBuf>,
     /// The size of the model.
     #[command(flatten, next_help_heading = "Size")]
     pub scaling: ScalingArgs,

@@ -16,6 +16,7 @@ use crate::base::units::Length;
 use crate::cli::shop::chosen_printer;
 use crate::goal::{self, Contact, GoalKind, Objective, SpinPoint, Up};
 use crate::job::{Job, ModelChoice, PartFormat};
+use crate::repair::RepairOrder;
 
 /// The usage: the required arguments, and the options.
 const USAGE: &str = "equipoise prepare <MODEL> --goal <GOAL> --printer <ID|FILE> [OPTIONS]";
@@ -65,6 +66,14 @@ pub struct PrepareArgs {
     /// Never ask, not even on a terminal
     #[arg(long, help_heading = FIRST)]
     pub no_questions: bool,
+
+    /// Repair the model beyond what moves nothing: cavities, fill, remesh or remesh:TOLERANCE
+    /// [default: auto]
+    ///
+    /// Surfaces inside the model bound cavities, or they are filled. Remesh draws a new surface,
+    /// for files that cannot be mended. Two are joined by a comma: remesh:0.1mm,fill.
+    #[arg(long, value_name = "HOW", help_heading = FIRST)]
+    pub repair: Option<RepairOrder>,
 
     /// A material that the printer offers [default: the printer's]
     #[arg(long, value_name = "ID", help_heading = "Printer")]
@@ -166,7 +175,7 @@ pub struct PrepareArgs {
 pub const DEFAULT_PLANS: u8 = 3;
 
 /// The arguments that a replayed job decides.
-const DECIDED_BY_JOB: [&str; 35] = [
+const DECIDED_BY_JOB: [&str; 36] = [
     "printer",
     "material",
     "wall",
@@ -202,6 +211,7 @@ const DECIDED_BY_JOB: [&str; 35] = [
     "format",
     "ballast",
     "fill",
+    "repair",
 ];
 
 /// The order for `prepare`: the job, and the target of its kit.
@@ -290,6 +300,7 @@ impl PrepareArgs {
             format: self.format.unwrap_or(default.format),
             ballast: self.load.ballast.unwrap_or(default.ballast),
             fill: self.load.fill,
+            repair: self.repair.unwrap_or_default(),
             ..default
         })
     }

@@ -19,9 +19,9 @@ use crate::base::watch::{Cancelled, Watch};
 use crate::error::Error;
 use crate::goal::{GoalKind, Request, find_upright};
 use crate::io::read_model;
+use crate::mend::mend;
 use crate::mesh::{Defects, Solid, scaled};
 use crate::printer::{Printer, ProfileError};
-use crate::repair::repair;
 use choices::{GoalChoice, PrinterChoice, UpChoice};
 pub use prompt::Unanswered;
 use prompt::{choose, enter};
@@ -79,7 +79,7 @@ pub fn ask(mut args: PrepareArgs, printer: Option<String>) -> Result<PrepareArgs
         typed.push(path.to_string_lossy().into_owned());
         args.model = Some(path.clone());
     }
-    let solid = load(&path)?;
+    let solid = load(&path, &args)?;
     let kind = match args.goal {
         Some(kind) => kind,
         None => choose("What should it do?", GoalChoice::all(), LIST_HELP)?.0,
@@ -174,9 +174,17 @@ fn ask_up(solid: &Solid, kind: GoalKind) -> Result<UpChoice, AskError> {
     Ok(choose("Which side is down?", choices, LIST_HELP)?)
 }
 
-/// Reads the model in the numbers of its file.
-fn load(path: &Path) -> Result<Solid, Error> {
-    let (mesh, _) = repair(read_model(path)?, &Watch::silent())?;
+/// Reads the model in the numbers of its file, and mends it as ordered.
+fn load(path: &Path, args: &PrepareArgs) -> Result<Solid, Error> {
+    let order = args.repair.unwrap_or_default();
+    let factor = |longest| args.scaling.scaling().factor(longest);
+    let mended = mend(read_model(path)?, order, factor, &Watch::silent());
+    let mesh = mended
+        .map_err(|source| Error::Mend {
+            path: path.to_owned(),
+            source: Box::new(source),
+        })?
+        .mesh;
     Solid::new(scaled(&mesh, 1.0)).map_err(|defects| Error::NotSolid {
         path: path.to_owned(),
         source: Box::new(Defects::of(&mesh).unwrap_or(defects)),

@@ -17,10 +17,11 @@ use super::voids::{cut_rows, void_rows};
 use crate::ballast::PlacedPart;
 use crate::goal::{Objective, RoundKind, RoundSurface, Warning};
 use crate::mass::moments_of_mesh;
+use crate::mesh::{TriMesh, shells};
 use crate::run::{AxisChoice, Placed};
 use crate::sheet::{
-    BallastRow, Checklist, GoalRow, ModelRow, ShaftKind, ShaftRow, ThickenedRow, Tool, Verdict,
-    WallRow, finished_size_mm,
+    BallastRow, Checklist, GoalRow, ModelRow, RedrawnRow, ShaftKind, ShaftRow, ThickenedRow, Tool,
+    Verdict, WallRow, finished_size_mm,
 };
 
 /// Fills the checklist, but for the hashes of the kit's files and the timings.
@@ -83,9 +84,14 @@ fn model_row(placed: &Placed) -> ModelRow {
     ModelRow {
         file: file.to_string_lossy().into_owned(),
         sha256: model.sha256.clone(),
+        repair: placed.job.repair,
+        redrawn: model.repairs.redrawn.map(|redrawn| RedrawnRow {
+            within_mm: redrawn.within_mm,
+            moved_mm: redrawn.moved_mm,
+        }),
         triangles: mesh.triangles().len(),
         size_mm: mesh.aabb().size().into(),
-        volume_mm3: moments_of_mesh(mesh).volume(),
+        volume_mm3: outside_mm3(mesh),
         scale_ratio: model.scale_ratio,
         thickened: model.thickened.as_ref().map(|thick| ThickenedRow {
             wall_mm: thick.wall_mm,
@@ -93,6 +99,13 @@ fn model_row(placed: &Placed) -> ModelRow {
             added_mm3: thick.added_mm3,
         }),
     }
+}
+
+/// Returns the volume inside the outside of a mesh, with cavities that the model came with, mm³.
+fn outside_mm3(mesh: &TriMesh) -> f64 {
+    let shells = shells(mesh);
+    let volumes = shells.iter().map(|shell| moments_of_mesh(shell).volume());
+    volumes.filter(|volume| *volume > 0.0).sum()
 }
 
 fn goal_row(facts: &Facts) -> GoalRow {
