@@ -141,7 +141,11 @@ fn a_cavity_in_the_model_is_refused_with_its_place_and_volume() {
         said.contains("a cavity of 1000.000 mm³ about (11.00, 11.00, 11.00) mm"),
         "{said}"
     );
-    assert!(said.contains("remedy: remove the inner surfaces"), "{said}");
+    assert!(
+        said.contains("remedy: fill the inner surfaces (--repair=fill)")
+            && said.contains("keep them as cavities (--repair=cavities)"),
+        "{said}"
+    );
 }
 
 #[test]
