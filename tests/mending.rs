@@ -53,7 +53,15 @@ fn make(folder: &Path, model: &Path, options: &str) -> serde_json::Value {
     let verified = equipoise(&["verify", path(&kit), "--model", path(model)]);
     assert_exit(&verified, 0);
     let job = kit.join("job.toml");
-    let replayed = equipoise(&["prepare", "--job", path(&job), "--out", path(&again)]);
+    let replay = [
+        "prepare",
+        "--job",
+        path(&job),
+        "--out",
+        path(&again),
+        "--force",
+    ];
+    let replayed = equipoise(&replay);
     assert_exit(&replayed, 0);
     let sums = |kit: &Path| fs::read(kit.join("SHA256SUMS")).unwrap();
     assert!(sums(&kit) == sums(&again), "the job replays to other bytes");
