@@ -4,8 +4,8 @@ use super::goal_checks::{figure_check, goal_checks};
 use super::hardware::HardwareKind;
 use super::joints::FilmError;
 use super::limits::{
-    CUP_LIMIT_MM3, FILM_LIMIT_RATIO, GAP_TOLERANCE_MM, GRIP_TOLERANCE_MM, JIG_SEAM_LIMIT_MM,
-    LEAST_GRIP_DIAMETERS, PIN_LIMIT_MM, POSE_LIMIT_RATIO, RESTING_LIMIT_MM,
+    CUP_LIMIT_MM3, EQUAL_PINS_MM, FILM_LIMIT_RATIO, GAP_TOLERANCE_MM, GRIP_TOLERANCE_MM,
+    JIG_SEAM_LIMIT_MM, LEAST_GRIP_DIAMETERS, PIN_LIMIT_MM, POSE_LIMIT_RATIO, RESTING_LIMIT_MM,
     STRING_GAP_TOLERANCE_MM, VOLUME_SUM_LIMIT_RATIO, WALL_TOLERANCE_MM,
 };
 use super::play::worst_joint;
@@ -326,15 +326,16 @@ fn film_check(error: &FilmError) -> Check {
     .at(Some(error.joint.clone()))
 }
 
-/// Returns the largest value of any pin and the pin's id. A pin without a value counts as infinite,
-/// so that the check fails.
+/// Returns the largest value of any pin, and the id of the first pin that has it or nearly so. A pin
+/// without a value counts as infinite, so that the check fails.
 fn worst_peg(
     pegs: &[PegFacts],
     value: impl Fn(&PegFacts) -> Option<f64>,
 ) -> (Option<f64>, Option<String>) {
     let of = |peg: &PegFacts| value(peg).unwrap_or(f64::INFINITY);
-    let worst = pegs.iter().max_by(|a, b| of(a).total_cmp(&of(b)));
-    (worst.map(of), worst.map(|peg| peg.id.clone()))
+    let worst = pegs.iter().map(of).max_by(f64::total_cmp);
+    let is_worst = |peg: &&PegFacts| worst.is_some_and(|worst| of(peg) >= worst - EQUAL_PINS_MM);
+    (worst, pegs.iter().find(is_worst).map(|peg| peg.id.clone()))
 }
 
 /// Checks that a count of faults is zero.

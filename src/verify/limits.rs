@@ -46,6 +46,9 @@ pub const POSE_LIMIT_RATIO: f64 = 1e-9;
 /// A pin or socket may be this far from its promised radius, length or depth, mm. The flats of a
 /// circle of 48 sides lie 0.004 mm inside it at 4 mm across. Above it a pin may bind or rattle.
 pub const PIN_LIMIT_MM: f64 = 0.02;
+/// Pins whose values differ by less are equally bad, and the first is named, mm. Rounding to single
+/// precision changes values by up to 1e-5; without it a part saved again names another pin.
+pub const EQUAL_PINS_MM: f64 = 1e-4;
 /// A jig must leave this much room along the seam, mm, so that glue can be wiped off it and does
 /// not reach the jig.
 pub(super) const JIG_SEAM_LIMIT_MM: f64 = 3.0;
