@@ -326,8 +326,8 @@ fn film_check(error: &FilmError) -> Check {
     .at(Some(error.joint.clone()))
 }
 
-/// Returns the largest value of any pin, and the id of the first pin that has it or nearly so. A pin
-/// without a value counts as infinite, so that the check fails.
+/// Returns the largest value of any pin, and the id of the first pin that has it or nearly so. A
+/// pin without a value counts as infinite, so that the check fails.
 fn worst_peg(
     pegs: &[PegFacts],
     value: impl Fn(&PegFacts) -> Option<f64>,
