@@ -1,7 +1,7 @@
 //! Mending: the model as its owner ordered it, by the ladder of repairs and by a new surface.
 //!
 //! [`mend`] is what every command does to a file that it has read. The ladder is in
-//! [`crate::repair`], the new surface in [`crate::voids::remesh`].
+//! [`crate::repair`], the new surface in [`Soup`](crate::voids::Soup).
 //!
 //! * `error`: the reasons why a model cannot be mended
 //!

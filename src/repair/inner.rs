@@ -13,7 +13,9 @@ use crate::mesh::shells::Shells;
 
 /// Settles the inner surfaces of a mesh as ordered, and counts them. No vertex moves.
 ///
-/// See [`settle`] for the rules and the cost.
+/// A closed surface inside one other bounds a cavity, whichever way it faces. Inside two it is a
+/// loose body and faces outward, and so on. Takes a pass over the triangles for each pair of
+/// shells.
 ///
 /// # Errors
 /// The watch was stopped.
