@@ -1,9 +1,9 @@
 //! The picture of what keeps a model from being one solid body.
 
-use std::io;
 use std::path::{Path, PathBuf};
 
 use super::flags::flag;
+use super::new_files::{NewFileError, write_all};
 use crate::base::setting::{Key, Setting};
 use crate::base::watch::{Cancelled, Watch};
 use crate::draw::PictureError;
@@ -27,27 +27,27 @@ pub enum BrokenPictureError {
     /// The picture cannot be drawn.
     #[error(transparent)]
     Draw(#[from] PictureError),
-    /// The system refused.
-    #[error("cannot write {}; remedy: check the folder and your permissions", path.display())]
-    Write {
-        /// The path that cannot be written.
-        path: PathBuf,
-        /// The fault that the system reports.
-        source: io::Error,
-    },
+    /// The file exists already.
+    #[error("{} exists; remedy: give another name, or move that file away", .0.display())]
+    Exists(PathBuf),
+    /// A file cannot be written.
+    #[error(transparent)]
+    File(#[from] NewFileError),
     /// The command was stopped.
     #[error(transparent)]
     Stopped(#[from] Cancelled),
 }
 
-/// Refuses a name that is not that of an SVG file.
+/// Refuses a name that is not that of a new SVG file.
 pub(super) fn check_name(path: &Path) -> Result<(), BrokenPictureError> {
     let ending = path.extension().and_then(|ending| ending.to_str());
-    if ending.is_some_and(|ending| ending.eq_ignore_ascii_case(PICTURE_ENDING)) {
-        Ok(())
-    } else {
-        Err(BrokenPictureError::NotSvg(path.to_owned()))
+    if !ending.is_some_and(|ending| ending.eq_ignore_ascii_case(PICTURE_ENDING)) {
+        return Err(BrokenPictureError::NotSvg(path.to_owned()));
     }
+    if path.exists() {
+        return Err(BrokenPictureError::Exists(path.to_owned()));
+    }
+    Ok(())
 }
 
 /// Writes the picture of a mesh with what is broken in it in red, and these places with names.
@@ -58,10 +58,7 @@ pub(super) fn write_picture(
 ) -> Result<(), BrokenPictureError> {
     let broken = Broken::of(mesh, &Watch::silent())?;
     let svg = draw_broken(mesh, &broken, places)?;
-    std::fs::write(path, svg).map_err(|source| BrokenPictureError::Write {
-        path: path.to_owned(),
-        source,
-    })
+    Ok(write_all([(path, &svg)])?)
 }
 
 /// Returns the places of what was refused, in the coordinates of the file, which this factor scales

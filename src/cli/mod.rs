@@ -10,6 +10,7 @@ mod flags;
 pub mod inspect;
 pub mod manual;
 mod mass_facts;
+mod new_files;
 pub mod prepare;
 pub mod printers;
 pub mod printers_markdown;

@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 
 use super::args::{CalibrateArgs, ImportArgs, NewArgs};
 use super::flags::{MEASUREMENTS, command_for_coupons, command_for_new_profile};
+use super::new_files::{self, NewFileError, check_free, draft};
 use super::shop::today;
-use crate::base::setting::{Key, Setting};
 use crate::base::units::{format_count, show_percent};
 use crate::coupon::CouponSet;
 use crate::printer::import::{ImportError, Imported, slug};
@@ -34,14 +34,9 @@ pub enum ProfilesError {
     /// The printer has no such material.
     #[error(transparent)]
     Material(#[from] MaterialError),
-    /// The file exists already.
-    #[error(
-        "{} exists; choose another (`{}`), or replace it (`{}`)",
-        .0.display(),
-        Setting::open(Key::Out),
-        Setting::open(Key::Force)
-    )]
-    Exists(PathBuf),
+    /// The file cannot be written.
+    #[error(transparent)]
+    File(#[from] NewFileError),
     /// A shipped printer is not a file.
     #[error(
         "{id} is a shipped printer; remedy: {}, and calibrate that",
@@ -50,14 +45,6 @@ pub enum ProfilesError {
     ShippedPrinter {
         /// The printer's id.
         id: String,
-    },
-    /// The system refused.
-    #[error("cannot write {}; remedy: check the folder and your permissions", path.display())]
-    Write {
-        /// The path that cannot be written.
-        path: PathBuf,
-        /// The fault that the system reports.
-        source: io::Error,
     },
     /// The standard output is closed.
     #[error("cannot write to the output")]
@@ -189,32 +176,8 @@ fn list(all: &Imported, out: &mut dyn Write) -> Result<(), ProfilesError> {
 
 /// Writes a profile and reads it back; one that does not load is not left behind.
 fn write_checked(target: &Path, text: &str, force: bool) -> Result<Printer, ProfilesError> {
-    if target.exists() && !force {
-        return Err(ProfilesError::Exists(target.to_owned()));
-    }
-    let refused = |source| ProfilesError::Write {
-        path: target.to_owned(),
-        source,
-    };
-    let mut name = target
-        .file_name()
-        .map(|name| name.to_owned())
-        .unwrap_or_default();
-    name.push(".new");
-    let draft = target.with_file_name(name);
-    fs::write(&draft, text).map_err(refused)?;
-    let read = Printer::read(&draft);
-    let printer = match read {
-        Ok(printer) => fs::rename(&draft, target)
-            .map(|()| printer)
-            .map_err(refused),
-        Err(error) => Err(error.into()),
-    };
-    if printer.is_err() {
-        // The fault that matters is reported, not that of removing the draft.
-        let _ = fs::remove_file(&draft);
-    }
-    printer
+    check_free(target, force)?;
+    new_files::write_checked([(target, text)], || Ok(Printer::read(&draft(target))?))
 }
 
 /// Writes the measurements into a shop's own profile.

@@ -1,7 +1,5 @@
 //! `equipoise skeleton`: the curves inside a model, written for editing, with a picture of them.
 
-use std::ffi::OsString;
-use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
@@ -9,10 +7,10 @@ use serde::Serialize;
 
 use super::args::{Root, SkeletonArgs};
 use super::exit::Exit;
+use super::new_files::{NewFileError, check_free, write_all};
 use super::show::table;
 use super::skeleton_picture::picture;
 use super::voice::Voice;
-use crate::base::setting::{Key, Setting};
 use crate::base::toml_text::TextFault;
 use crate::base::units::{format_count, show_mm};
 use crate::base::watch::{Cancelled, Watch};
@@ -69,22 +67,9 @@ pub enum SkeletonCommandError {
     /// The picture cannot be drawn.
     #[error(transparent)]
     Picture(#[from] PictureError),
-    /// A file exists already.
-    #[error(
-        "{} exists; remedy: choose another (`{}`), or replace it (`{}`)",
-        .0.display(),
-        Setting::open(Key::Out),
-        Setting::open(Key::Force)
-    )]
-    Exists(PathBuf),
-    /// The system refused.
-    #[error("cannot write {}; remedy: check the folder and your permissions", path.display())]
-    Write {
-        /// The path that cannot be written.
-        path: PathBuf,
-        /// The fault that the system reports.
-        source: io::Error,
-    },
+    /// A file cannot be written.
+    #[error(transparent)]
+    File(#[from] NewFileError),
     /// The command was stopped.
     #[error(transparent)]
     Stopped(#[from] Cancelled),
@@ -174,9 +159,7 @@ fn write(args: &SkeletonArgs) -> Result<Findings, SkeletonCommandError> {
         .unwrap_or_else(|| default_file(&args.model));
     let image = file.with_extension("svg");
     for path in [&file, &image] {
-        if path.exists() && !args.force {
-            return Err(SkeletonCommandError::Exists(path.clone()));
-        }
+        check_free(path, args.force)?;
     }
     let watch = Watch::silent();
     let solid = read_solid(args, &watch)?;
@@ -187,7 +170,7 @@ fn write(args: &SkeletonArgs) -> Result<Findings, SkeletonCommandError> {
     let name = args.model.file_name().unwrap_or_default().to_string_lossy();
     let up = find_upright(&solid, &watch)?.first().map(|pose| pose.up);
     let drawn = picture(&solid, &skeleton, up)?.to_file(&format!("the skeleton of {name}"));
-    write_both([(&file, skeleton.to_toml(&name)), (&image, drawn)])?;
+    write_all([(&file, &skeleton.to_toml(&name)), (&image, &drawn)])?;
     let mut findings = findings(&skeleton, &sizes);
     findings.genus = MeshFacts::of(solid.mesh()).genus;
     (findings.file, findings.picture) = (file, Some(image));
@@ -238,38 +221,6 @@ fn choose_root(skeleton: &mut Skeleton, root: Option<Root>) -> Result<(), Skelet
         }
     }
     Ok(())
-}
-
-/// Writes both files, or neither.
-fn write_both(files: [(&PathBuf, String); 2]) -> Result<(), SkeletonCommandError> {
-    let drafts = files.each_ref().map(|(path, _)| draft(path));
-    let written = files
-        .iter()
-        .zip(&drafts)
-        .try_for_each(|((path, text), draft)| fs::write(draft, text).map_err(refused(path)));
-    let placed = written.and_then(|()| {
-        let mut pairs = files.iter().zip(&drafts);
-        pairs.try_for_each(|((path, _), draft)| fs::rename(draft, path).map_err(refused(path)))
-    });
-    if placed.is_err() {
-        // The fault that matters is reported, not that of removing the drafts.
-        drafts.iter().for_each(|draft| _ = fs::remove_file(draft));
-    }
-    placed
-}
-
-fn refused(path: &Path) -> impl Fn(io::Error) -> SkeletonCommandError {
-    |source| SkeletonCommandError::Write {
-        path: path.to_owned(),
-        source,
-    }
-}
-
-/// Returns the name under which a file is written before it takes its place.
-fn draft(path: &Path) -> PathBuf {
-    let mut name: OsString = path.file_name().unwrap_or_default().to_owned();
-    name.push(".new");
-    path.with_file_name(name)
 }
 
 /// Returns what is in a skeleton, for shells of these sizes.

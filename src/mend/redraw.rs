@@ -10,13 +10,14 @@ use crate::voids::Soup;
 use stray::Old;
 
 /// Tolerance of a new surface if none is given, as a share of the longest side. It is 0.2 mm, about
-/// a layer, on a model of 100 mm. Below 5e-4 it takes minutes; above 1e-2 faces are lost.
+/// a layer, on a model of 100 mm. A lower one takes longer; a higher one loses detail.
 const USUAL_TOLERANCE_RATIO: f64 = 2e-3;
 
 /// Number of times that the surface is drawn, each time with cells of half the size.
 const ATTEMPTS: i32 = 2;
 
-/// Largest area of the old surface, in squares of the tolerance.
+/// Largest area of the old surface, in squares of the tolerance. It bounds the memory; how much
+/// that is was not measured.
 const MOST_SQUARES: f64 = 6e6;
 
 /// Size below which a separate piece is a speck, in tolerances. A body of that size is lost within

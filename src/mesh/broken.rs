@@ -6,7 +6,7 @@ use super::edges::{EdgeKind, EdgeTable, edge_kind};
 use crate::base::watch::{Cancelled, Watch};
 use crate::geom::Point;
 
-/// What is broken in a mesh.
+/// The edges and triangles that are broken in a mesh.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Broken {
     /// The ends of each edge that is not shared by exactly two triangles which run in opposite

@@ -5,7 +5,7 @@ use super::sampling::area_mm2;
 use crate::geom::{Aabb, Point, Vector};
 
 /// Largest number of triangles that are summed one by one. Fewer make the tree larger, more the
-/// sums longer; between 4 and 16 the time is about the same.
+/// sums longer.
 const LEAF_TRIANGLES: usize = 8;
 
 /// Distance, in radii of a group of triangles, beyond which the group is summed as one. At 4 the

@@ -161,7 +161,8 @@ fn seam_words(loss_ratio: Option<f64>, is_taken: bool) -> String {
         }
         // A plan is given up as soon as it has lost too much.
         (false, false) => format!(
-            "seams: one runs where it is seen; in the plans tried that hide it, the goal's figure is at least {percent} worse"
+            "seams: one runs where it is seen; in the plans tried that hide it, the goal's figure \
+             is at least {percent} worse"
         ),
     }
 }

@@ -1,6 +1,6 @@
 //! The interface between a surface extractor and the function whose positive region it bounds.
 
-use crate::geom::{NO_HINT, Point, Vector};
+use crate::geom::{Bvh, NO_HINT, Nearest, Point, Vector};
 
 /// The function's value and what was learnt at one point.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -42,6 +42,15 @@ pub(super) struct Known {
     pub at: Point,
     /// The sample taken there.
     pub sample: Sample,
+}
+
+/// Returns the triangle nearest to a point; the hints of points nearby save time. `None` if there
+/// are no triangles.
+pub(super) fn nearest(surface: &Bvh, p: &Point, nearby: &[Known]) -> Option<Nearest> {
+    let mut hints = [NO_HINT; 2];
+    let known = hints.iter_mut().zip(nearby);
+    known.for_each(|(hint, known)| *hint = known.sample.hint);
+    surface.closest(p, f64::INFINITY, &hints)
 }
 
 /// A continuous function whose positive region is bounded by triangles.

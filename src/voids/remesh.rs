@@ -24,8 +24,8 @@ const COARSE_CELLS: f64 = 8.0;
 /// the smallest cell, 1/64 of the tolerance, is lost.
 const FINER_HALVINGS: i32 = 5;
 
-/// Largest number of triangles up to which cells are halved for what is missing; a million take
-/// about a gigabyte.
+/// Largest number of triangles up to which cells are halved for what is missing. It bounds the
+/// memory; how much that is was not measured.
 const MOST_TRIANGLES: usize = 2_000_000;
 
 /// Triangles that halving a cell of the surface adds: four of its eight parts hold surface, with

@@ -1,8 +1,8 @@
 //! The space around which triangles of any kind wind, as a function: positive where the generalised
 //! winding number is above one half.
 
-use super::field::{Field, Known, Sample};
-use crate::geom::{Bvh, NO_HINT, Point, Vector};
+use super::field::{Field, Known, Sample, nearest};
+use crate::geom::{Bvh, Point, Vector};
 use crate::mesh::WindingNumbers;
 
 /// The winding number that separates inside from outside.
@@ -66,12 +66,7 @@ impl SoupField<'_> {
 
 impl Field for SoupField<'_> {
     fn sample(&self, p: &Point, nearby: &[Known]) -> Sample {
-        let mut hints = [NO_HINT; 2];
-        hints
-            .iter_mut()
-            .zip(nearby)
-            .for_each(|(hint, known)| *hint = known.sample.hint);
-        let Some(nearest) = self.surface.closest(p, f64::INFINITY, &hints) else {
+        let Some(nearest) = nearest(self.surface, p, nearby) else {
             return Sample::plain(f64::NEG_INFINITY, Vector::zeros());
         };
         let distance_mm = nearest.distance_squared.sqrt();

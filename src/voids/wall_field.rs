@@ -1,9 +1,9 @@
 //! The region that may be emptied, as a function: positive inside the model, deeper than the wall
 //! and outside the keeps.
 
-use super::field::{Field, Known, Sample};
+use super::field::{Field, Known, Sample, nearest};
 use crate::geom::triangle::closest_on_segment;
-use crate::geom::{Bvh, NO_HINT, Point, Vector};
+use crate::geom::{Bvh, Point, Vector};
 use crate::shell::Keep;
 
 /// Share of the sum of two empty balls' radii below which the balls certainly overlap. Balls on
@@ -59,12 +59,7 @@ impl WallField<'_> {
 
 impl Field for WallField<'_> {
     fn sample(&self, p: &Point, nearby: &[Known]) -> Sample {
-        let mut hints = [NO_HINT; 2];
-        hints
-            .iter_mut()
-            .zip(nearby)
-            .for_each(|(hint, known)| *hint = known.sample.hint);
-        let Some(nearest) = self.surface.closest(p, f64::INFINITY, &hints) else {
+        let Some(nearest) = nearest(self.surface, p, nearby) else {
             return Sample::plain(f64::NEG_INFINITY, Vector::zeros());
         };
         let clearance_mm = nearest.distance_squared.sqrt();

@@ -101,7 +101,7 @@ struct Stand {
     cradles: [Cradle; 2],
     /// The least height of the body beside the joint, mm.
     under_seam_mm: f64,
-    /// Where the parts are pressed.
+    /// The stop by which the parts are pressed into it.
     press: Stop,
     /// The middle of the motions that are compared.
     middle: Spot,
@@ -147,7 +147,7 @@ impl<'a> Bench<'a> {
         let Plane { normal, offset_mm } = self.plane;
         let plane = [normal.x, normal.y, normal.z, *offset_mm];
         let room = self.request.build_volume_mm;
-        let room = room.map_or([f64::INFINITY; 3], |room| room);
+        let room = room.unwrap_or([f64::INFINITY; 3]);
         let rules = [self.request.pins.snug_gap_mm, self.max_step_mm()];
         plane.into_iter().chain(room).chain(rules).chain(corners)
     }

@@ -166,7 +166,7 @@ impl<'a> BossMaker<'a> {
 }
 
 /// Returns the corners of a polygon around a disc.
-fn disc(center: &Point, normal: &Vector, radius_mm: f64) -> Vec<Point> {
+pub(crate) fn disc(center: &Point, normal: &Vector, radius_mm: f64) -> Vec<Point> {
     let (u, v) = orthonormal_basis(normal);
     let corner_mm = radius_mm / (PI / SIDES as f64).cos();
     let corner = |side: usize| {

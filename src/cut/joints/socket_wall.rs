@@ -1,29 +1,26 @@
 //! Sockets that voids came too near to after their pins were placed.
 
-use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use std::f64::consts::FRAC_PI_2;
 
 use crate::{
     cut::{
         error::CutError,
         hollowed::Hollowed,
-        joints::{boss::Boss, boss_maker::MARGIN_MM, pin_shape::PinSite},
+        joints::{
+            boss::Boss,
+            boss_maker::{MARGIN_MM, disc},
+            pin_shape::PinSite,
+        },
         plan::CutPlan,
         request::PlanRequest,
     },
-    geom::{Bvh, Point, Vector, orthonormal_basis},
+    geom::{Bvh, Point, Vector},
     mesh::{Csg, TriMesh},
 };
 
 /// Lack of wall that is let be, mm: half of what the judge lets be. Below it, rounds are spent on
 /// what nobody can print or measure; above it, a kit may break its promise.
 const SLACK_MM: f64 = 0.005;
-
-/// Sides of the polygons around a socket.
-const SIDES: usize = 32;
-
-/// Rotation of their corners about its axis, in sides: keeps every side off the planes of the
-/// model's axes.
-const PHASE: f64 = 0.37;
 
 /// Rings of the rounded ends of a socket's room, beside the ring at its widest.
 const RINGS: usize = 6;
@@ -98,28 +95,25 @@ fn room_body(pin: &PinSite, radius_mm: f64) -> Result<TriMesh, CutError> {
 
 /// Returns points whose hull holds the half ball about an end.
 fn rounded_end(end: &Point, outward: &Vector, radius_mm: f64) -> Vec<Point> {
-    let (u, v) = orthonormal_basis(outward);
     let step = FRAC_PI_2 / RINGS as f64;
-    // The flats between corners, and between rings, lie outside the ball.
-    let corner_mm = radius_mm / (PI / SIDES as f64).cos() / (step / 2.0).cos();
-    let corner = |ring: usize, side: usize| {
-        let (rise, reach) = (ring as f64 * step).sin_cos();
-        let (sin, cos) = (TAU * (side as f64 + PHASE) / SIDES as f64).sin_cos();
-        end + ((u * cos + v * sin) * reach + outward * rise) * corner_mm
+    // The flats between rings lie outside the ball; those of a ring lie outside its disc.
+    let reach_mm = radius_mm / (step / 2.0).cos();
+    let ring = |index: usize| {
+        let (rise, across) = (index as f64 * step).sin_cos();
+        let center = end + outward * (rise * reach_mm);
+        disc(&center, outward, across * reach_mm)
     };
-    let rings = 0..RINGS;
-    let corners = rings.flat_map(|ring| (0..SIDES).map(move |side| (ring, side)));
-    let tip = end + outward * corner_mm;
-    corners
-        .map(|(ring, side)| corner(ring, side))
-        .chain([tip])
-        .collect()
+    let tip = end + outward * reach_mm;
+    (0..RINGS).flat_map(ring).chain([tip]).collect()
 }
 
 #[cfg(test)]
 mod tests {
+    use std::f64::consts::PI;
+
     use super::*;
     use crate::cut::scenes::{cuboid, plan, request, with_balls};
+    use crate::geom::orthonormal_basis;
 
     /// Returns a wide slab with a void in its middle, cut in two with pins beside the void.
     fn slab() -> (Hollowed, CutPlan, PlanRequest) {

@@ -38,7 +38,7 @@ pub(super) fn stops_at(points: &[Spot], outline: &[Spot], reach_mm: f64) -> Vec<
 pub(super) struct Sides {
     sides: Vec<Side>,
     columns: Vec<Column>,
-    /// Where the first column begins, mm.
+    /// The place across at which the first column begins, mm.
     low: f64,
     reach_mm: f64,
 }
@@ -52,7 +52,7 @@ struct Side {
     heights: [f64; 2],
 }
 
-/// What a side stops.
+/// The motions that a side stops.
 #[derive(Clone, Copy)]
 enum Kind {
     Floor,

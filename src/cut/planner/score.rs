@@ -334,7 +334,7 @@ impl Burden {
         let ample_glue_mm2 = AMPLE_GLUE_DISCS * std::f64::consts::FRAC_PI_4 * needed_mm * needed_mm;
         let circle_mm = std::f64::consts::PI * scene.diagonal_mm;
         let ample_part_ratio = AMPLE_PART_RATIO.max(scene.request.least_part.mass_ratio());
-        let room_weight = if scene.request.seams.lack_weight.is_some() {
+        let room_weight = if scene.request.seams.are_weighed() {
             WEIGHED_ROOM_WEIGHT
         } else {
             ROOM_WEIGHT
@@ -382,7 +382,7 @@ impl Burden {
 /// Returns the weighted term of the narrowest of the voids' openings (mm), 0 at best.
 pub(crate) fn opening_penalty(scene: &Scene, openings_mm: impl Iterator<Item = f64>) -> f64 {
     let ample_mm = AMPLE_OPENING_RATIO * scene.request.min_opening_mm;
-    let weight = if scene.request.seams.lack_weight.is_some() {
+    let weight = if scene.request.seams.are_weighed() {
         WEIGHED_OPENING_WEIGHT
     } else {
         OPENING_WEIGHT

@@ -117,7 +117,7 @@ pub(crate) fn smallest_plans(scene: &Scene) -> Result<Found, CutError> {
     let (least, bound_nodes) = bound.map_or((usize::MAX, 0), |cover| (cover.at_least, cover.nodes));
     let mut measured: Vec<MeasuredPlane> = Vec::new();
     let mut best = None;
-    let rounds = if scene.request.seams.lack_weight.is_some() {
+    let rounds = if scene.request.seams.are_weighed() {
         WEIGHED_ROUNDS
     } else {
         ROUNDS
@@ -151,7 +151,7 @@ pub(crate) fn smallest_plans(scene: &Scene) -> Result<Found, CutError> {
 fn needed_voids(scene: &Scene) -> VoidSet {
     let voids = &scene.hollowed.voids;
     let all = VoidSet::MAX >> (MAX_VOIDS - voids.len());
-    if scene.request.seams.lack_weight.is_none() {
+    if !scene.request.seams.are_weighed() {
         return all;
     }
     let areas_mm2 = scene.wall_areas_mm2();
@@ -250,7 +250,7 @@ fn burdens_of(
     measured: &[MeasuredPlane],
     covers: &[(f64, Vec<usize>)],
 ) -> Result<Vec<Option<Burden>>, Cancelled> {
-    let limit = if scene.request.seams.lack_weight.is_some() {
+    let limit = if scene.request.seams.are_weighed() {
         WEIGHED_SCORED_PLANES
     } else {
         SCORED_PLANES

@@ -86,7 +86,7 @@ pub(crate) fn to_draft(
         pieces,
         bridges,
     } = layout;
-    if scene.request.seams.lack_weight.is_none() {
+    if !scene.request.seams.are_weighed() {
         check_no_cavity(pieces)?;
     }
     let bare = |joint: &Joint| joint_note(tree, joint, &Placement::default());

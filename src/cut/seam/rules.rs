@@ -80,6 +80,12 @@ impl Seams {
         self.skin.is_some()
     }
 
+    /// Returns true if seams are weighed against what stays solid.
+    #[must_use]
+    pub fn are_weighed(&self) -> bool {
+        self.lack_weight.is_some()
+    }
+
     /// Returns the same rules with nobody to look: only the length of a seam counts.
     #[must_use]
     pub fn unseen(&self) -> Self {

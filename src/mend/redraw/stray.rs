@@ -11,8 +11,8 @@ use crate::voids::{Missing, Soup};
 const SPREAD_POINTS: usize = 10_000;
 
 /// Largest number of triangles that are measured at their middles and corners. Of more an even
-/// share is taken. A distance to the new surface costs a microsecond; one to the old surface also
-/// costs winding numbers.
+/// share is taken. A distance to the old surface costs winding numbers too, so that fewer of the
+/// new one's are measured.
 const MOST_OLD: usize = 100_000;
 const MOST_NEW: usize = 5_000;
 
