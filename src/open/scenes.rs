@@ -242,6 +242,7 @@ pub(super) fn solve(placed: &Placed) -> Solved {
         columns,
         height_proof: None,
         course: TopCourse::default(),
+        coarse: None,
     }
 }
 
