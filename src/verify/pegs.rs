@@ -132,7 +132,7 @@ pub(super) fn measure_pegs(
         let [first, second] = sockets[..] else {
             return Ok(lost);
         };
-        let wall_mm = wall_mm(first.peg, &whole).min(wall_mm(second.peg, &whole));
+        let wall_mm = wall_mm(first.peg, whole).min(wall_mm(second.peg, whole));
         let lost = PegFacts {
             ordered_gap_mm: promise.clearance_mm(&first.peg.joint),
             wall_mm,
