@@ -19,7 +19,7 @@ pub mod rings;
 pub mod triangle;
 
 pub use aabb::Aabb;
-pub use bvh::{Bvh, NO_HINT, Nearest};
+pub use bvh::{Bundle, Bvh, Member, NO_HINT, Nearest};
 pub use frame::Frame;
 pub use parting::Parting;
 pub use plane::{Plane, orthonormal_basis};

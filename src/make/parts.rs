@@ -76,7 +76,6 @@ struct Corrector<'r, 'a> {
 }
 
 /// Written parts, and their distance from the goal.
-#[derive(Clone)]
 struct Attempt {
     voids: Voids,
     plan: CutPlan,
@@ -93,15 +92,22 @@ struct Attempt {
 impl Corrector<'_, '_> {
     /// Makes parts until they meet the goal; returns the attempt nearest to it.
     fn best(&mut self, voids: Voids, plan: CutPlan, more: Moments) -> Result<Attempt, Error> {
-        let mut last = self.attempt(voids, plan, more)?;
-        let mut best = last.clone();
+        let mut best = self.attempt(voids, plan, more)?;
+        // The attempt before, if it is not the best.
+        let mut last: Option<Attempt> = None;
         for _ in 1..self.placed.policy.max_assemblies {
             if best.defect_ratio <= 1.0 {
                 break;
             }
-            last = self.attempt(last.voids, last.plan, last.more)?;
-            if last.defect_ratio < best.defect_ratio {
-                best = last.clone();
+            let (voids, plan, more) = match last.take() {
+                Some(last) => (last.voids, last.plan, last.more),
+                None => (best.voids.clone(), best.plan.clone(), best.more),
+            };
+            let next = self.attempt(voids, plan, more)?;
+            if next.defect_ratio < best.defect_ratio {
+                best = next;
+            } else {
+                last = Some(next);
             }
         }
         Ok(best)

@@ -6,7 +6,7 @@ use crate::error::Error;
 use crate::geom::Vector;
 use crate::io::stl;
 use crate::mesh::{Crossings, TriMesh};
-use crate::repair::{unfold, weld};
+use crate::repair::unfold;
 use crate::run::{Placed, WrittenJig, WrittenPart};
 use crate::verify::Pose;
 
@@ -39,7 +39,7 @@ pub fn write(
     };
     let mut written = writer.write(part.clone(), 0)?;
     for writing in 1..WRITINGS {
-        if Crossings::of_watched(&weld(&written.read_back), watch)?.pairs == 0 {
+        if Crossings::of_watched(&written.read_back, watch)?.pairs == 0 {
             break;
         }
         written = writer.write(part.clone(), writing)?;
@@ -75,7 +75,7 @@ pub fn write_jig(placed: &Placed, jig: Jig, watch: &Watch) -> Result<WrittenJig,
 /// The file does not read back, or the watch was stopped.
 pub fn write_free_of_folds(mesh: &TriMesh, name: &str, watch: &Watch) -> Result<Vec<u8>, Error> {
     let bytes = stl::encode(mesh, name);
-    let is_folded = Crossings::of_watched(&weld(&stl::decode(&bytes)?), watch)?.pairs > 0;
+    let is_folded = Crossings::of_watched(&stl::decode(&bytes)?, watch)?.pairs > 0;
     if is_folded {
         return Ok(stl::encode(&unfold(mesh, watch)?, name));
     }

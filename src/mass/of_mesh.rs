@@ -30,6 +30,7 @@ pub(super) struct MomentSum([NeumaierSum; Moments::COUNT]);
 
 impl MomentSum {
     /// Adds the signed moments of the tetrahedron spanned by the origin and three corners.
+    #[inline]
     pub fn add_tetrahedron(&mut self, corners: [Vector; 3]) {
         for (sum, term) in self.0.iter_mut().zip(tetrahedron_moments(corners).0) {
             sum.add(term);
@@ -43,6 +44,7 @@ impl MomentSum {
 }
 
 /// Returns the signed moments of the tetrahedron spanned by the origin and three corners.
+#[inline]
 fn tetrahedron_moments([a, b, c]: [Vector; 3]) -> Moments {
     let determinant = a.dot(&b.cross(&c));
     let sum = a + b + c;
@@ -64,6 +66,7 @@ struct NeumaierSum {
 }
 
 impl NeumaierSum {
+    #[inline]
     fn add(&mut self, term: f64) {
         let next = self.sum + term;
         self.error += if self.sum.abs() >= term.abs() {

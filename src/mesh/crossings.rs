@@ -8,7 +8,7 @@ use robust::{Coord, Coord3D, orient2d, orient3d};
 
 use super::TriMesh;
 use crate::base::watch::{Cancelled, Watch};
-use crate::geom::{Aabb, Bvh, Point};
+use crate::geom::{Aabb, Bundle, Bvh, Point};
 
 /// Largest number of crossings counted for one triangle. A sound mesh has none, a crossing surface
 /// a few. Without this limit, a file that holds one triangle 100 000 times would be counted for
@@ -36,31 +36,38 @@ impl Crossings {
     /// finite. Takes about 0.3 s for 100 000 triangles on two cores. The count does not depend
     /// on the number of threads.
     pub fn of(mesh: &TriMesh) -> Self {
-        let Ok(found) = Self::count(mesh, || Ok::<(), Infallible>(()));
+        let tree = Bvh::new(mesh.iter_corners());
+        let Ok(found) = Self::count(mesh, &tree, || Ok::<(), Infallible>(()));
         found
     }
 
     /// Counts the pairs like [`Crossings::of`], until the watch is stopped.
     pub fn of_watched(mesh: &TriMesh, watch: &Watch) -> Result<Self, Cancelled> {
-        Self::count(mesh, || watch.check())
+        Self::in_tree(mesh, &Bvh::new(mesh.iter_corners()), watch)
     }
 
-    /// Counts the pairs, and checks before every triangle that it may go on.
-    fn count<E: Send>(mesh: &TriMesh, check: impl Fn() -> Result<(), E> + Sync) -> Result<Self, E> {
-        let bvh = Bvh::new(mesh.iter_corners());
-        let count = |index: usize| {
+    /// Counts the pairs like [`Crossings::of_watched`], with a tree over these triangles.
+    pub fn in_tree(mesh: &TriMesh, tree: &Bvh, watch: &Watch) -> Result<Self, Cancelled> {
+        Self::count(mesh, tree, || watch.check())
+    }
+
+    /// Counts the pairs, and checks before every few triangles that it may go on.
+    fn count<E: Send>(
+        mesh: &TriMesh,
+        tree: &Bvh,
+        check: impl Fn() -> Result<(), E> + Sync,
+    ) -> Result<Self, E> {
+        let count = |bundle: &Bundle| {
             check()?;
-            Ok(crossings_after(index, &mesh.corners(index), &bvh))
+            Ok(crossings_of(bundle, tree))
         };
-        let counts = (0..mesh.triangles().len()).into_par_iter().map(count);
-        let counts = counts.collect::<Result<Vec<usize>, E>>()?;
-        let first = counts
-            .iter()
-            .position(|&count| count > 0)
-            .map(|t| centroid(&mesh.corners(t)));
+        let bundles = tree.bundles();
+        let counts = bundles.par_iter().map(count);
+        let counts = counts.collect::<Result<Vec<Found>, E>>()?;
+        let first = counts.iter().filter_map(|found| found.first).min();
         Ok(Self {
-            pairs: counts.iter().sum(),
-            first,
+            pairs: counts.iter().map(|found| found.pairs).sum(),
+            first: first.map(|t| centroid(&mesh.corners(t as usize))),
         })
     }
 }
@@ -69,18 +76,34 @@ fn centroid([a, b, c]: &[Point; 3]) -> Point {
     Point::from((a.coords + b.coords + c.coords) / 3.0)
 }
 
-/// Counts the triangles after triangle `index` that cross it, up to the limit.
-fn crossings_after(index: usize, corners: &[Point; 3], bvh: &Bvh) -> usize {
-    let mut count = 0;
-    bvh.visit_overlapping(&Aabb::of_points(corners), |other, other_corners| {
-        count += usize::from(other as usize > index && cross(corners, other_corners));
-        if count < MAX_PER_TRIANGLE {
-            ControlFlow::Continue(())
-        } else {
+/// The crossings found for a few triangles.
+struct Found {
+    pairs: usize,
+    /// The least index of those that cross.
+    first: Option<u32>,
+}
+
+/// Counts, for each triangle of a bundle, the triangles after it that cross it, up to the limit.
+fn crossings_of(bundle: &Bundle, bvh: &Bvh) -> Found {
+    let mut counts = vec![0; bundle.len()];
+    bvh.visit_near(bundle, |[own, other]| {
+        let count = &mut counts[own.place];
+        let is_after = other.id > own.id && *count < MAX_PER_TRIANGLE;
+        *count += usize::from(is_after && cross(own.corners, other.corners));
+        if counts.iter().all(|&count| count >= MAX_PER_TRIANGLE) {
             ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
         }
     });
-    count
+    let ids = bvh.ids_of(bundle).iter().zip(&counts);
+    Found {
+        pairs: counts.iter().sum(),
+        first: ids
+            .filter(|(_, count)| **count > 0)
+            .map(|(id, _)| *id)
+            .min(),
+    }
 }
 
 /// Returns the pairs of triangles that pass through each other or overlap in one plane, ascending.
@@ -112,14 +135,14 @@ pub(crate) fn crossing_pairs(mesh: &TriMesh, watch: &Watch) -> Result<Vec<[u32; 
 
 /// Returns true if two triangles pass through each other or overlap in one plane.
 pub(crate) fn cross(a: &[Point; 3], b: &[Point; 3]) -> bool {
-    let b_sides = b.map(|p| side_of(a, &p));
+    let b_sides = [side_of(a, &b[0]), side_of(a, &b[1]), side_of(a, &b[2])];
     if b_sides == [0; 3] {
         return overlap_in_plane(a, b);
     }
     if !are_on_both_sides(&b_sides) {
         return false;
     }
-    let a_sides = a.map(|p| side_of(b, &p));
+    let a_sides = [side_of(b, &a[0]), side_of(b, &a[1]), side_of(b, &a[2])];
     are_on_both_sides(&a_sides)
         && (an_edge_passes(b, &b_sides, a) || an_edge_passes(a, &a_sides, b))
 }
@@ -131,15 +154,25 @@ fn are_on_both_sides(sides: &[i8; 3]) -> bool {
 
 /// Returns the side of the triangle's plane on which the point lies: 1 behind it, −1 in front, 0 in
 /// it. Exact.
+#[inline]
 pub(crate) fn side_of([a, b, c]: &[Point; 3], p: &Point) -> i8 {
-    let [a, b, c, p] = [a, b, c, p].map(|p| Coord3D {
+    // Neighbours share corners: their volume is exactly zero, which the predicate finds out last.
+    if p == a || p == b || p == c {
+        return 0;
+    }
+    sign(orient3d(coord(a), coord(b), coord(c), coord(p)))
+}
+
+#[inline]
+fn coord(p: &Point) -> Coord3D<f64> {
+    Coord3D {
         x: p.x,
         y: p.y,
         z: p.z,
-    });
-    sign(orient3d(a, b, c, p))
+    }
 }
 
+#[inline]
 fn sign(x: f64) -> i8 {
     if x > 0.0 {
         1

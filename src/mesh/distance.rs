@@ -61,28 +61,7 @@ impl MeshDistance {
     /// Infinite if either is empty. Runs on all threads; the result does not depend on their
     /// number.
     pub fn min_distance_to(&self, other: &TriMesh) -> f64 {
-        let to_vertex = |p: &Point| {
-            self.bvh
-                .closest(p, f64::INFINITY, &[])
-                .map_or(f64::INFINITY, |n| n.distance_squared.sqrt())
-        };
-        let first_bound = other
-            .vertices()
-            .iter()
-            .step_by(VERTEX_STRIDE)
-            .map(to_vertex)
-            .fold(f64::INFINITY, f64::min);
-        let indices: Vec<usize> = (0..other.triangles().len()).collect();
-        indices
-            .par_chunks(CHUNK)
-            .map(|chunk| {
-                chunk.iter().fold(first_bound, |best, &i| {
-                    self.bvh.triangle_distance(&other.corners(i), best)
-                })
-            })
-            .collect::<Vec<f64>>()
-            .into_iter()
-            .fold(f64::INFINITY, f64::min)
+        least_distance_mm(&self.bvh, other)
     }
 
     fn pseudonormal(&self, nearest: &Nearest) -> Vector {
@@ -95,6 +74,33 @@ impl MeshDistance {
             }
         }
     }
+}
+
+/// Returns the least distance between the triangles of a tree and those of `other`, mm; 0 if they
+/// meet. Exact up to rounding.
+///
+/// Infinite if either is empty. Runs on all threads; the result does not depend on their number.
+pub fn least_distance_mm(bvh: &Bvh, other: &TriMesh) -> f64 {
+    let vertices: Vec<&Point> = other.vertices().iter().step_by(VERTEX_STRIDE).collect();
+    let to_vertices = vertices.par_chunks(CHUNK).map(|chunk| {
+        chunk.iter().fold(f64::INFINITY, |best: f64, p| {
+            let nearest = bvh.closest(p, best, &[]);
+            nearest.map_or(best, |n| best.min(n.distance_squared.sqrt()))
+        })
+    });
+    let first_bound = least(to_vertices);
+    let indices: Vec<usize> = (0..other.triangles().len()).collect();
+    least(indices.par_chunks(CHUNK).map(|chunk| {
+        chunk.iter().fold(first_bound, |best, &i| {
+            bvh.triangle_distance(&other.corners(i), best)
+        })
+    }))
+}
+
+/// Returns the least of some numbers; infinite if there are none.
+fn least(numbers: impl IndexedParallelIterator<Item = f64>) -> f64 {
+    let numbers: Vec<f64> = numbers.collect();
+    numbers.into_iter().fold(f64::INFINITY, f64::min)
 }
 
 /// The outward pseudonormals of faces, edges and vertices; not normalised.

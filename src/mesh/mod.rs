@@ -38,7 +38,7 @@ pub use crossings::Crossings;
 pub use csg::{ClipError, Csg};
 pub(crate) use cut_planes::{move_off_faces, move_off_vertices};
 pub use defects::{Defect, DefectKind, Defects};
-pub use distance::MeshDistance;
+pub use distance::{MeshDistance, least_distance_mm};
 pub use facts::MeshFacts;
 pub use sampling::{SurfacePoint, area_mm2, spread_points};
 pub use solid::Solid;

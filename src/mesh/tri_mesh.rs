@@ -63,6 +63,7 @@ impl TriMesh {
     }
 
     /// Returns the vertices, mm.
+    #[inline]
     pub fn vertices(&self) -> &[Point] {
         &self.vertices
     }
@@ -73,6 +74,7 @@ impl TriMesh {
     }
 
     /// Returns the triangles as vertex indices.
+    #[inline]
     pub fn triangles(&self) -> &[[u32; 3]] {
         &self.triangles
     }
@@ -83,11 +85,13 @@ impl TriMesh {
     }
 
     /// Returns the corners of triangle `index`.
+    #[inline]
     pub fn corners(&self, index: usize) -> [Point; 3] {
         self.triangles[index].map(|v| self.vertices[v as usize])
     }
 
     /// Returns the corners of every triangle, in order.
+    #[inline]
     pub fn iter_corners(&self) -> impl ExactSizeIterator<Item = [Point; 3]> + '_ {
         self.triangles
             .iter()
@@ -162,6 +166,7 @@ pub fn scaled(mesh: &TriMesh, factor: f64) -> TriMesh {
 
 /// Returns the signed volume of the tetrahedron that a triangle spans with `apex`, mm³: positive if
 /// the triangle faces away from it.
+#[inline]
 pub(crate) fn signed_volume_mm3([a, b, c]: &[Point; 3], apex: &Point) -> f64 {
     let (a, b, c) = (a - apex, b - apex, c - apex);
     a.dot(&b.cross(&c)) / 6.0

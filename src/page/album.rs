@@ -106,10 +106,14 @@ pub fn draw_figures(
     faces: &[CutFace],
     watch: &Watch,
 ) -> Result<Vec<Picture>, PictureError> {
-    let mut drawings = below::pictures(sheet, subject, watch)?;
+    let (below, inertia) = rayon::join(
+        || below::pictures(sheet, subject, watch),
+        || inertia::pictures(sheet, subject, watch),
+    );
+    let mut drawings = below?;
     drawings.extend(joint_drawing::drawings(sheet, faces));
     drawings.extend(cut_drawing::drawings(sheet, faces));
-    drawings.extend(inertia::pictures(sheet, subject, watch)?);
+    drawings.extend(inertia?);
     drawings.extend(curves::plots(sheet));
     Ok(drawings)
 }

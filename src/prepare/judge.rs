@@ -6,11 +6,13 @@ use crate::geom::Parting;
 use crate::io::stl;
 use crate::make::{File, packages, repack};
 use crate::page::{Picture, Subject, View, render_pictures};
-use crate::repair::weld;
 use crate::run::{Made, Placed, WrittenJig};
 use crate::sheet::Verdict;
 use crate::sheet::from_run::{promise, promised_figure};
-use crate::verify::{Evidence, Judgement, PromisedFigure, Shells, checks, judge, loose_jigs};
+use crate::verify::{
+    Body, Evidence, JigFacts, Judgement, PromisedFigure, Shells, checks, is_loose, judge_measured,
+    measure_jigs,
+};
 
 /// A kit in draft: its parts judged, its pictures taken.
 pub struct Draft {
@@ -58,17 +60,23 @@ pub fn draft(placed: &Placed, made: Made, watch: &Watch) -> Result<Draft, Error>
         parts: made.evidence(),
         jigs: made.jigs.iter().map(WrittenJig::evidence).collect(),
     };
-    let shells = Shells::of_mesh(&weld(&evidence.hollowed));
-    let loose = loose_jigs(&evidence, &shells.outer_mesh(), watch)?;
-    if !loose.is_empty() {
-        made.jigs.retain(|jig| !loose.contains(&jig.id()));
+    let body = Body::of(&evidence.hollowed);
+    let jigs = measure_jigs(&evidence, &body, watch)?;
+    let count = jigs.len();
+    let (jigs, firm): (Vec<JigFacts>, Vec<WrittenJig>) = jigs
+        .into_iter()
+        .zip(std::mem::take(&mut made.jigs))
+        .filter(|(jig, _)| !is_loose(jig, &evidence.promise))
+        .unzip();
+    made.jigs = firm;
+    if jigs.len() < count {
         evidence.promise = promise(placed, &made);
         evidence.jigs = made.jigs.iter().map(WrittenJig::evidence).collect();
     }
     let cuts = made.plan.partings()?;
-    let subject = subject(&evidence, &shells, &cuts);
+    let subject = subject(&evidence, &body.shells, &cuts);
     let (judgement, ((pictures, view), packages)) = rayon::join(
-        || judge(&evidence, watch),
+        || judge_measured(&evidence, &body, jigs, watch),
         || {
             let pictures = || render_pictures(&subject, watch);
             let drawn = || rayon::join(pictures, || View::of(&subject, watch));
@@ -87,7 +95,7 @@ pub fn draft(placed: &Placed, made: Made, watch: &Watch) -> Result<Draft, Error>
         hollowed,
         packages,
         evidence,
-        shells,
+        shells: body.shells,
         cuts,
         judgement,
         pictures,

@@ -25,9 +25,8 @@ const CUTS: &str = "cuts.toml";
 /// Puts a judged kit together, with its job sheet.
 pub fn finish(placed: &Placed, mut draft: Draft, watch: &Watch) -> Result<Prepared, Error> {
     watch.enter(Phase::Report);
-    let mut checklist = fill(placed, &draft);
-    watch.check()?;
-    let faces = faces(&draft.made, watch)?;
+    let (mut checklist, faces) = rayon::join(|| fill(placed, &draft), || faces(&draft.made, watch));
+    let faces = faces?;
     let of_cuts = draw_figures(&checklist, &draft.subject(), &faces, watch)?;
     draft.pictures.extend(of_cuts);
     watch.check()?;

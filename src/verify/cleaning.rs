@@ -191,7 +191,7 @@ impl Inspector<'_> {
         };
         let triangles: Vec<[u32; 3]> = surface
             .triangles()
-            .iter()
+            .par_iter()
             .filter(is_wall)
             .copied()
             .collect();

@@ -1,5 +1,7 @@
 //! The evidence before the judge: the promises of a kit, and the meshes read back from its files.
 
+use rayon::prelude::*;
+
 use super::{Fingerprint, Pose, Promise};
 use crate::mass::{Moments, moments_of_mesh};
 use crate::mesh::TriMesh;
@@ -29,12 +31,17 @@ pub struct PartEvidence {
 }
 
 impl Evidence {
-    /// Returns true if a part has the triangles of its promised fingerprint. Parts of kits without
-    /// fingerprints are taken as they are.
-    pub(super) fn is_part_as_made(&self, part: usize) -> bool {
+    /// Returns the fingerprints of the parts as they were read back.
+    pub(super) fn fingerprints(&self) -> Vec<Fingerprint> {
+        let parts = self.parts.par_iter();
+        parts.map(|part| Fingerprint::of(&part.mesh)).collect()
+    }
+
+    /// Returns true if a part with the fingerprint `found` has the triangles of its promised one.
+    /// Parts of kits without fingerprints are taken as they are.
+    pub(super) fn is_part_as_made(&self, part: usize, found: &Fingerprint) -> bool {
         let promised = self.promise.parts[part].fingerprint.as_ref();
-        let found = || Fingerprint::of(&self.parts[part].mesh);
-        promised.is_none_or(|promised| promised.triangles_sha256 == found().triangles_sha256)
+        promised.is_none_or(|promised| promised.triangles_sha256 == found.triangles_sha256)
     }
 }
 
@@ -48,7 +55,8 @@ impl PartEvidence {
 /// Returns the moments of the parts put together in the model frame, exact for the triangles as
 /// written.
 pub fn assembly_moments<'a>(parts: impl IntoIterator<Item = &'a PartEvidence>) -> Moments {
-    parts
-        .into_iter()
-        .fold(Moments::default(), |sum, part| sum + part.moments())
+    let parts: Vec<&PartEvidence> = parts.into_iter().collect();
+    let moments: Vec<Moments> = parts.par_iter().map(|part| part.moments()).collect();
+    let sum = |sum, part| sum + part;
+    moments.into_iter().fold(Moments::default(), sum)
 }

@@ -1,6 +1,7 @@
 //! Fingerprints of parts: the hash of a part's triangles, and moments that show how its shape was
 //! changed.
 
+use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::base::digest::sha256_hex;
@@ -93,19 +94,20 @@ impl Fingerprint {
         } else {
             Vector::zeros()
         };
-        let sum = |axes: &[usize]| -> f64 {
-            let term = |(area, middle): &(f64, Point)| {
-                let arm = middle.coords - center;
-                area * axes.iter().map(|&axis| arm[axis]).product::<f64>()
-            };
-            patches.iter().map(term).sum()
+        let sums = || {
+            (
+                sums_about(&center, &patches, SECOND),
+                sums_about(&center, &patches, THIRD),
+            )
         };
+        let (triangles_sha256, (second_mm4, third_mm5)) =
+            rayon::join(|| triangles_sha256(mesh), sums);
         Self {
-            triangles_sha256: triangles_sha256(mesh),
+            triangles_sha256,
             area_mm2,
             center_mm: center.into(),
-            second_mm4: SECOND.map(|axes| sum(&axes)),
-            third_mm5: THIRD.map(|axes| sum(&axes)),
+            second_mm4,
+            third_mm5,
         }
     }
 
@@ -202,6 +204,23 @@ fn patch([a, b, c]: [Point; 3]) -> (f64, Point) {
     ((b - a).cross(&(c - a)).norm() / 2.0, middle)
 }
 
+/// Returns the sums, over patches with their areas, of the products of some coordinates about a
+/// centre.
+fn sums_about<const FACTORS: usize, const N: usize>(
+    center: &Vector,
+    patches: &[(f64, Point)],
+    axes: [[usize; FACTORS]; N],
+) -> [f64; N] {
+    let mut sums = [0.0; N];
+    for (area, middle) in patches {
+        let arm = middle.coords - center;
+        for (sum, axes) in sums.iter_mut().zip(&axes) {
+            *sum += area * axes.iter().map(|&axis| arm[axis]).product::<f64>();
+        }
+    }
+    sums
+}
+
 /// Returns the SHA-256 of the triangles in single precision, in ascending order, each rotated to
 /// start at its least corner.
 fn triangles_sha256(mesh: &TriMesh) -> String {
@@ -215,7 +234,7 @@ fn triangles_sha256(mesh: &TriMesh) -> String {
             .unwrap_or_default();
         triangle.rotate_left(least);
     }
-    triangles.sort_unstable();
+    triangles.par_sort_unstable_by_key(sort_key);
     let bytes: Vec<u8> = triangles
         .as_flattened()
         .as_flattened()
@@ -223,6 +242,14 @@ fn triangles_sha256(mesh: &TriMesh) -> String {
         .flat_map(|x| x.to_le_bytes())
         .collect();
     sha256_hex(&[&bytes])
+}
+
+/// Returns numbers that are in the order of the triangles' corners.
+#[inline]
+fn sort_key(triangle: &[[u32; 3]; 3]) -> (u128, u128, u32) {
+    let x = triangle.as_flattened();
+    let join = |from: usize| (from..from + 4).fold(0, |all, i| all << u32::BITS | u128::from(x[i]));
+    (join(0), join(4), x[8])
 }
 
 /// Returns the bits of a point in single precision; −0.0 counts as 0.0.

@@ -3,11 +3,11 @@
 use rayon::prelude::*;
 
 use super::rim::rim_of;
-use super::{Evidence, PartEvidence, PartFacts, PromisedJig};
+use super::{Body, Evidence, PartEvidence, PartFacts, Promise, PromisedJig};
 use crate::base::watch::{Cancelled, Watch};
 use crate::geom::play::{Play, Seat, Spot, Stop, Way};
 use crate::geom::{Bvh, Plane, Point, Vector};
-use crate::mesh::TriMesh;
+use crate::mesh::{TriMesh, least_distance_mm};
 
 /// Distance within which a jig stops a point of the outside, mm.
 const REACH_MM: f64 = 1.0;
@@ -43,17 +43,20 @@ pub struct JigFacts {
     pub play: Option<Play>,
 }
 
-/// Measures every jig, in the order of the checklist. `outer` is the outside of the object.
-pub(super) fn measure_jigs(
+/// Measures every jig beside the outside of the object, in the order of the checklist.
+///
+/// # Errors
+/// The watch was stopped before all was measured.
+pub fn measure_jigs(
     evidence: &Evidence,
-    outer: &TriMesh,
+    body: &Body,
     watch: &Watch,
 ) -> Result<Vec<JigFacts>, Cancelled> {
     let promise = &evidence.promise;
     let jigs = promise.jigs.iter().zip(&evidence.jigs);
     let facts = jigs.map(|(jig, read)| {
-        let part = PartFacts::of_part(read, watch)?;
-        let bench = Bench::new(jig, read, outer);
+        let part = PartFacts::of_part(read, &Bvh::new(read.mesh.iter_corners()), watch)?;
+        let bench = Bench::new(jig, read, body);
         watch.check()?;
         let rim = bench.rim(evidence);
         Ok(JigFacts {
@@ -69,24 +72,10 @@ pub(super) fn measure_jigs(
     facts.collect()
 }
 
-/// Returns the names of the jigs that leave a larger step than the process accepts: they hold
-/// nothing.
-pub fn loose_jigs(
-    evidence: &Evidence,
-    outer: &TriMesh,
-    watch: &Watch,
-) -> Result<Vec<String>, Cancelled> {
-    let max_mm = evidence.promise.printer.seam_step_mm;
-    let max_mm = max_mm.unwrap_or(f64::INFINITY);
-    let mut loose = Vec::new();
-    for (jig, read) in evidence.promise.jigs.iter().zip(&evidence.jigs) {
-        let bench = Bench::new(jig, read, outer);
-        let play = bench.play(&bench.rim(evidence), watch)?;
-        if play.is_none_or(|play| play.step_mm > max_mm) {
-            loose.push(read.id.clone());
-        }
-    }
-    Ok(loose)
+/// Returns true if a jig leaves a larger step than the process accepts: it holds nothing.
+pub fn is_loose(jig: &JigFacts, promise: &Promise) -> bool {
+    let max_mm = promise.printer.seam_step_mm.unwrap_or(f64::INFINITY);
+    jig.play.is_none_or(|play| play.step_mm > max_mm)
 }
 
 /// A jig beside the outside of the object, model frame.
@@ -95,18 +84,18 @@ struct Bench<'a> {
     mesh: TriMesh,
     surface: Bvh,
     outer: &'a TriMesh,
-    outside: Bvh,
+    outside: &'a Bvh,
 }
 
 impl<'a> Bench<'a> {
-    fn new(jig: &'a PromisedJig, read: &PartEvidence, outer: &'a TriMesh) -> Self {
+    fn new(jig: &'a PromisedJig, read: &PartEvidence, body: &'a Body) -> Self {
         let mesh = read.mesh.map_vertices(|p| read.pose.to_model(p));
         Self {
             jig,
             surface: Bvh::new(mesh.iter_corners()),
             mesh,
-            outer,
-            outside: Bvh::new(outer.iter_corners()),
+            outer: &body.outer,
+            outside: &body.outside,
         }
     }
 
@@ -130,12 +119,9 @@ impl<'a> Bench<'a> {
     }
 
     fn gap_mm(&self, watch: &Watch) -> Result<f64, Cancelled> {
-        let mut least_mm = 2.0 * self.jig.gap_mm + 1.0;
-        for corners in self.mesh.iter_corners() {
-            watch.check()?;
-            least_mm = least_mm.min(self.outside.triangle_distance(&corners, least_mm));
-        }
-        Ok(least_mm)
+        watch.check()?;
+        let most_mm = 2.0 * self.jig.gap_mm + 1.0;
+        Ok(most_mm.min(least_distance_mm(self.outside, &self.mesh)))
     }
 
     /// Counts the points of the jig that meet the outside on its way off, and those of the outside
@@ -165,7 +151,7 @@ impl<'a> Bench<'a> {
                 .map(meets)
                 .sum::<Result<usize, Cancelled>>()
         };
-        Ok(count(&self.mesh, &self.outside, -way)? + count(self.outer, &self.surface, way)?)
+        Ok(count(&self.mesh, self.outside, -way)? + count(self.outer, &self.surface, way)?)
     }
 
     /// Returns the least distance of the jig from some points, mm; infinite without any.
@@ -193,15 +179,16 @@ impl<'a> Bench<'a> {
             normal: Way::new(0.0, -1.0),
             room_mm: self.jig.pressed_mm,
         };
-        let mut seats = Vec::new();
-        for side in [-1.0, 1.0] {
-            seats.push(Seat::pressed(&self.stops(side, watch)?, &press, middle));
-        }
-        let [Some(low), Some(high)] = &seats[..] else {
+        let seat = |side: f64| {
+            let stops = self.stops(side, watch)?;
+            Ok(Seat::pressed(&stops, &press, middle))
+        };
+        let (low, high) = rayon::join(|| seat(-1.0), || seat(1.0));
+        let (Some(low), Some(high)) = (low?, high?) else {
             return Ok(None);
         };
         watch.check()?;
-        Ok(Some(low.play_between(high, middle, &rim)))
+        Ok(Some(low.play_between(&high, middle, &rim)))
     }
 
     /// Returns the stops of the part on one side of the joint, -1 or 1.

@@ -3,6 +3,7 @@
 use rayon::prelude::*;
 
 use super::ballast::{ballast_moments, fill_moments, least_room_mm};
+use super::body::Body;
 use super::checks::checks;
 use super::cleaning::inspect_voids;
 use super::cups::measure_cups;
@@ -14,12 +15,11 @@ use super::pegs::{count_overlaps, measure_pegs};
 use super::play::measure_joints;
 use super::shape::measure_shapes;
 use super::{
-    Evidence, Figures, Judgement, PartEvidence, PartFacts, Setting, Shells, SpinFacts,
-    SurfaceFacts, assembly_moments,
+    Evidence, Figures, Fit, JigFacts, Judgement, PartFacts, PegFacts, Setting, ShapeFacts,
+    SpinFacts, SurfaceFacts, VoidFacts, assembly_moments,
 };
 use crate::base::watch::{Cancelled, Watch};
 use crate::mass::{Moments, moments_of_mesh};
-use crate::repair::weld;
 use crate::thin::find_thin;
 
 /// Measures the evidence and checks every promise against it.
@@ -31,62 +31,173 @@ use crate::thin::find_thin;
 /// # Errors
 /// The watch was stopped before the judgement was made.
 pub fn judge(evidence: &Evidence, watch: &Watch) -> Result<Judgement, Cancelled> {
+    judge_beside(evidence, &Body::of(&evidence.hollowed), None, watch)
+}
+
+/// Judges as [`judge`] does, with what was measured before: the uncut result as [`Body::of`] takes
+/// it apart, and the jigs as [`measure_jigs`] finds them.
+///
+/// # Errors
+/// As [`judge`].
+pub fn judge_measured(
+    evidence: &Evidence,
+    body: &Body,
+    jigs: Vec<JigFacts>,
+    watch: &Watch,
+) -> Result<Judgement, Cancelled> {
+    judge_beside(evidence, body, Some(jigs), watch)
+}
+
+/// Measures what is left to measure, in parallel, and checks it.
+fn judge_beside(
+    evidence: &Evidence,
+    body: &Body,
+    jigs: Option<Vec<JigFacts>>,
+    watch: &Watch,
+) -> Result<Judgement, Cancelled> {
     let promise = &evidence.promise;
-    let welded = weld(&evidence.hollowed);
     watch.check()?;
-    let shells = Shells::of_mesh(&welded);
-    let outer = shells.outer_mesh();
-    let setting = Setting::new(promise, &outer);
-    let density_g_mm3 = setting.density_g_mm3();
-    let load = ballast_moments(&promise.ballast, density_g_mm3)
-        + fill_moments(promise.fill, &shells.inner_mesh(), setting.density_g_cm3);
-    let joined = (film_moments(promise) + mass_moments(&promise.dowels)) * density_g_mm3.recip();
-    watch.check()?;
-    let assembled = assembly_moments(&evidence.parts);
-    let probes: Vec<PartProbe> = evidence.parts.par_iter().map(PartProbe::new).collect();
-    watch.check()?;
-    let part_facts = |part: &PartEvidence| PartFacts::of_part(part, watch);
-    let jigs = measure_jigs(evidence, &outer, watch)?;
-    let shape = measure_shapes(evidence, &shells, watch)?;
-    let figures = |printed: &Moments, load: &Moments| {
-        watch.check()?;
-        Ok(Figures::with_load(printed, load, &setting))
-    };
+    let jigs = || jigs.map_or_else(|| measure_jigs(evidence, body, watch), Ok);
+    let thin = || find_thin(&body.outer, promise.printer.minimum_wall_mm, watch);
+    let ((surface, (jigs, walls)), ((thin, cups), (inside, figures))) = both(
+        || {
+            let surface = || SurfaceFacts::of_mesh(&body.welded, &body.whole, watch);
+            both(surface, || both(jigs, || Walls::of(evidence, body, watch)))
+        },
+        || {
+            let cups = || measure_cups(promise, &evidence.parts, watch);
+            let inside = || Inside::of(evidence, body, watch);
+            let figures = || AllFigures::of(evidence, body, watch);
+            both(|| both(thin, cups), || both(inside, figures))
+        },
+    )?;
     let mut judgement = Judgement {
-        solid: Figures::new(&moments_of_mesh(&outer), &setting),
-        hollowed: figures(&moments_of_mesh(&welded), &load)?,
-        assembly: figures(&assembled, &(load + joined))?,
-        surface: SurfaceFacts::of_mesh(&welded, watch)?,
-        parts: evidence
-            .parts
-            .par_iter()
-            .map(part_facts)
-            .collect::<Result<_, _>>()?,
-        wall_min_mm: least(shells.smallest_wall_mm(watch)?, shape.wall_mm),
-        shape,
-        fit: measure_fit(
-            &promise.hardware,
-            &promise.goal.frame(),
-            &outer,
-            promise.wall.required_mm,
-        ),
-        spin: SpinFacts::of_top(&promise.goal, &promise.hardware, &outer),
-        ballast_room_mm: least_room_mm(&promise.ballast, &welded, &outer),
-        thin: find_thin(&outer, promise.printer.minimum_wall_mm, watch)?,
-        cups: measure_cups(promise, &evidence.parts, watch)?,
-        pegs: measure_pegs(promise, &probes, &evidence.hollowed, watch)?,
+        solid: figures.solid,
+        hollowed: figures.hollowed,
+        assembly: figures.assembly,
+        surface,
+        parts: inside.parts,
+        wall_min_mm: walls.least_mm,
+        shape: walls.shape,
+        fit: figures.fit,
+        spin: figures.spin,
+        ballast_room_mm: figures.ballast_room_mm,
+        thin,
+        cups,
+        pegs: inside.pegs,
         joints: measure_joints(promise, &evidence.parts, &jigs),
         jigs,
-        overlaps: count_overlaps(&probes, watch)?,
-        voids: inspect_voids(promise, &shells.inward, &probes, watch)?,
+        overlaps: inside.overlaps,
+        voids: inside.voids,
         film_error: film_error(promise, &evidence.parts),
-        lost_strokes: count_lost_strokes(promise, &probes),
+        lost_strokes: inside.lost_strokes,
         checks: Vec::new(),
         changes: Vec::new(),
         unlisted: Vec::new(),
     };
     judgement.checks = checks(promise, &judgement);
     Ok(judgement)
+}
+
+/// Measures two things in parallel.
+fn both<A: Send, B: Send>(
+    a: impl FnOnce() -> Result<A, Cancelled> + Send,
+    b: impl FnOnce() -> Result<B, Cancelled> + Send,
+) -> Result<(A, B), Cancelled> {
+    let (a, b) = rayon::join(a, b);
+    Ok((a?, b?))
+}
+
+/// The facts about weights, and about the outside.
+struct AllFigures {
+    solid: Figures,
+    hollowed: Figures,
+    assembly: Figures,
+    fit: Option<Fit>,
+    spin: Option<SpinFacts>,
+    ballast_room_mm: Option<f64>,
+}
+
+impl AllFigures {
+    fn of(evidence: &Evidence, body: &Body, watch: &Watch) -> Result<Self, Cancelled> {
+        let promise = &evidence.promise;
+        let outer = &body.outer;
+        let setting = Setting::new(promise, outer);
+        let density_g_mm3 = setting.density_g_mm3();
+        let load = ballast_moments(&promise.ballast, density_g_mm3)
+            + fill_moments(
+                promise.fill,
+                &body.shells.inner_mesh(),
+                setting.density_g_cm3,
+            );
+        let joined =
+            (film_moments(promise) + mass_moments(&promise.dowels)) * density_g_mm3.recip();
+        let assembled = assembly_moments(&evidence.parts);
+        let figures = |printed: &Moments, load: &Moments| {
+            watch.check()?;
+            Ok(Figures::with_load(printed, load, &setting))
+        };
+        Ok(Self {
+            solid: Figures::new(&moments_of_mesh(outer), &setting),
+            hollowed: figures(&moments_of_mesh(&body.welded), &load)?,
+            assembly: figures(&assembled, &(load + joined))?,
+            fit: measure_fit(
+                &promise.hardware,
+                &promise.goal.frame(),
+                outer,
+                promise.wall.required_mm,
+            ),
+            spin: SpinFacts::of_top(&promise.goal, &promise.hardware, outer),
+            ballast_room_mm: least_room_mm(&promise.ballast, &body.welded, outer),
+        })
+    }
+}
+
+/// The facts about the surfaces of the parts and the walls between them.
+struct Walls {
+    shape: ShapeFacts,
+    least_mm: Option<f64>,
+}
+
+impl Walls {
+    fn of(evidence: &Evidence, body: &Body, watch: &Watch) -> Result<Self, Cancelled> {
+        let shape = || measure_shapes(evidence, &body.shells, watch);
+        let (shape, least_mm) = both(shape, || body.smallest_wall_mm(watch))?;
+        Ok(Self {
+            least_mm: least(least_mm, shape.wall_mm),
+            shape,
+        })
+    }
+}
+
+/// The facts about the parts, and those that probes of them find.
+struct Inside {
+    parts: Vec<PartFacts>,
+    pegs: Vec<PegFacts>,
+    overlaps: usize,
+    voids: Vec<VoidFacts>,
+    lost_strokes: Option<usize>,
+}
+
+impl Inside {
+    fn of(evidence: &Evidence, body: &Body, watch: &Watch) -> Result<Self, Cancelled> {
+        let promise = &evidence.promise;
+        let probes: Vec<PartProbe> = evidence.parts.par_iter().map(PartProbe::new).collect();
+        let pegs = || measure_pegs(promise, &probes, &body.whole, watch);
+        let overlaps = || count_overlaps(&probes, watch);
+        let voids = || inspect_voids(promise, &body.shells.inward, &probes, watch);
+        let facts = |probe: &PartProbe| PartFacts::of_part(probe.part, &probe.surface, watch);
+        let parts = || probes.par_iter().map(facts).collect::<Result<_, _>>();
+        let ((pegs, overlaps), (voids, parts)) =
+            both(|| both(pegs, overlaps), || both(voids, parts))?;
+        Ok(Self {
+            parts,
+            pegs,
+            overlaps,
+            voids,
+            lost_strokes: count_lost_strokes(promise, &probes),
+        })
+    }
 }
 
 /// Returns the smaller of two lengths that may be missing.

@@ -368,7 +368,10 @@ fn ballast_counts_by_its_declared_mass_at_its_declared_place() {
 #[test]
 fn a_wrong_mass_of_ballast_is_found() {
     let mut evidence = kit_with_ballast();
-    let sheet = sheet::restate(&serde_json::Value::Null, &evidence, &judge(&evidence));
+    let sheet = sheet::restate(
+        &serde_json::Value::Null,
+        &sheet::Findings::new(&evidence, &judge(&evidence)),
+    );
     let before = find_misstatements(&sheet, &evidence, &judge(&evidence));
     assert!(
         before.iter().all(|words| words.starts_with("model.")),

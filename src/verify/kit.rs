@@ -35,13 +35,17 @@ pub fn verify_kit_of(
 ) -> Result<Judgement, VerifyError> {
     let (promise, sheet) = read_checklist(folder)?;
     let evidence = read_evidence(folder, promise)?;
-    let mut judgement = judge(&evidence, watch)?;
-    let misstated = find_misstatements(&sheet, &evidence, &judgement);
-    judgement.changes = find_changes(folder, &evidence)?;
-    judgement
-        .changes
-        .extend(find_paper_changes(folder, &evidence.promise)?);
     let promise = &evidence.promise;
+    let changes = || {
+        let papers = find_paper_changes(folder, promise);
+        Ok([find_changes(folder, &evidence)?, papers?].concat())
+    };
+    let beside = || rayon::join(changes, || packages_check(folder, &evidence));
+    let (judgement, (changes, packages)) = rayon::join(|| judge(&evidence, watch), beside);
+    let mut judgement: Judgement = judgement?;
+    let misstated = find_misstatements(&sheet, &evidence, &judgement);
+    let changes: Result<_, VerifyError> = changes;
+    judgement.changes = changes?;
     let parts = promise.parts.iter().map(|part| part.file.as_str());
     let jigs = promise.jigs.iter().map(|jig| jig.file.as_str());
     let others = promise.files.keys().map(String::as_str);
@@ -50,7 +54,7 @@ pub fn verify_kit_of(
     judgement.unlisted = strangers.others;
     judgement.checks.push(sheet_check(&misstated));
     judgement.checks.push(files_check(&judgement.changes));
-    judgement.checks.extend(packages_check(folder, &evidence)?);
+    judgement.checks.extend(packages?);
     if let Some(model) = model {
         judgement
             .checks

@@ -6,7 +6,7 @@ use std::path::Path;
 use serde_json::{Value, json};
 
 use super::judge_tests::{judge, sound_kit};
-use super::sheet::{restate, restate_before_rounding};
+use super::sheet::{Findings, restate, restate_before_rounding};
 use super::*;
 use crate::base::digest::sha256_hex;
 use crate::base::watch::Watch;
@@ -41,8 +41,10 @@ fn write_kit(folder: &Path) {
         promise: serde_json::from_value(sheet.clone()).unwrap(),
         ..evidence
     };
-    fill_in(&mut sheet, restate(&Value::Null, &read, &judge(&read)));
-    fill_in(&mut sheet, restate_before_rounding(&read, &judge(&read)));
+    let judgement = judge(&read);
+    let findings = Findings::new(&read, &judgement);
+    fill_in(&mut sheet, restate(&Value::Null, &findings));
+    fill_in(&mut sheet, restate_before_rounding(&findings));
     fs::write(folder.join(CHECKLIST_FILE), sheet.to_string()).unwrap();
     seal(folder);
 }

@@ -2,6 +2,7 @@
 
 use super::{PartEvidence, Shells};
 use crate::base::watch::{Cancelled, Watch};
+use crate::geom::Bvh;
 use crate::mass::{Moments, moments_of_mesh};
 use crate::mesh::{Crossings, Solid, TriMesh};
 use crate::repair::weld;
@@ -41,22 +42,23 @@ pub struct PartFacts {
 }
 
 impl SurfaceFacts {
-    /// Measures a welded surface.
-    pub fn of_mesh(welded: &TriMesh, watch: &Watch) -> Result<Self, Cancelled> {
+    /// Measures a welded surface, with a tree over its triangles.
+    pub fn of_mesh(welded: &TriMesh, tree: &Bvh, watch: &Watch) -> Result<Self, Cancelled> {
         watch.check()?;
         let defect = Solid::new(welded.clone()).err();
         Ok(Self {
             triangles: welded.triangles().len(),
             defect: defect.map(|defects| defects.to_string()),
-            crossings: Crossings::of_watched(welded, watch)?.pairs,
+            crossings: Crossings::in_tree(welded, tree, watch)?.pairs,
             volume_mm3: moments_of_mesh(welded).volume(),
         })
     }
 }
 
 impl PartFacts {
-    /// Measures a part. Corners at one place are welded; nothing else is changed.
-    pub fn of_part(part: &PartEvidence, watch: &Watch) -> Result<Self, Cancelled> {
+    /// Measures a part, with a tree over its triangles. Corners at one place are welded; nothing
+    /// else is changed.
+    pub fn of_part(part: &PartEvidence, tree: &Bvh, watch: &Watch) -> Result<Self, Cancelled> {
         watch.check()?;
         let welded = weld(&part.mesh);
         let aabb = welded.aabb();
@@ -69,7 +71,7 @@ impl PartFacts {
             size_mm: aabb.size().into(),
             pose_error: part.pose.rigidity_error(),
             moments: part.moments(),
-            surface: SurfaceFacts::of_mesh(&welded, watch)?,
+            surface: SurfaceFacts::of_mesh(&welded, tree, watch)?,
         })
     }
 }

@@ -16,6 +16,7 @@ mod files;
 mod reading;
 // The facts about a whole body.
 mod ballast;
+mod body;
 mod figures;
 mod hardware;
 mod rotor;
@@ -79,7 +80,7 @@ pub(crate) mod test_meshes;
 // The judgement: from a folder, or from evidence in memory.
 pub use error::VerifyError;
 pub use evidence::{Evidence, PartEvidence, assembly_moments};
-pub use judge::judge;
+pub use judge::{judge, judge_measured};
 pub use judgement::Judgement;
 pub use kit::{verify_kit, verify_kit_of};
 pub use reading::read_promise;
@@ -98,11 +99,12 @@ pub use rotor::RotorOrder;
 pub use water::WaterOrder;
 
 // The facts.
+pub use body::Body;
 pub use cleaning::VoidFacts;
 pub use cups::CupFacts;
 pub use figures::{Figures, Setting};
 pub use hardware::{Fit, mass_moments};
-pub use jigs::{JigFacts, loose_jigs};
+pub use jigs::{JigFacts, is_loose, measure_jigs};
 pub use joints::FilmError;
 pub use measure::{PartFacts, SurfaceFacts};
 pub use pegs::PegFacts;

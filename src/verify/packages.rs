@@ -2,6 +2,8 @@
 
 use std::path::Path;
 
+use rayon::prelude::*;
+
 use super::fingerprint::Likeness;
 use super::reading::{read_file, undo_print_scale};
 use super::{Check, CheckKind, Evidence, Fingerprint, Limit, Promise, VerifyError};
@@ -17,6 +19,12 @@ struct Package {
     name: String,
     kind: Kind,
     objects: Vec<PlacedObject>,
+}
+
+/// The parts as they were read back, with the fingerprint of each.
+struct Parts<'a> {
+    evidence: &'a Evidence,
+    prints: Vec<Fingerprint>,
 }
 
 /// The kind of a package.
@@ -52,18 +60,25 @@ pub fn packages_check(folder: &Path, evidence: &Evidence) -> Result<Option<Check
     if files.is_empty() {
         return Ok(None);
     }
+    let there = files.into_par_iter();
+    let there = there.filter(|file| folder.join(file).is_file());
+    let decoded = there.map(|file| Ok((file, decode_objects(&read_file(&folder.join(file))?))));
+    let (prints, decoded) = rayon::join(
+        || evidence.fingerprints(),
+        || decoded.collect::<Vec<Result<_, VerifyError>>>(),
+    );
     let (mut faults, mut packages) = (Vec::new(), Vec::new());
-    for file in files.into_iter().filter(|file| folder.join(file).is_file()) {
-        match decode_objects(&read_file(&folder.join(file))?) {
-            Err(error) => faults.push(format!("{file}: {error}")),
-            Ok(objects) => packages.push(Package::new(file, objects, promise)),
+    for read in decoded {
+        match read? {
+            (file, Err(error)) => faults.push(format!("{file}: {error}")),
+            (file, Ok(objects)) => packages.push(Package::new(file, objects, promise)),
         }
     }
-    faults.extend(
-        merge_plates(packages)
-            .iter()
-            .flat_map(|package| find_faults(package, evidence)),
-    );
+    let packages = merge_plates(packages);
+    let parts = Parts { evidence, prints };
+    let found = packages.par_iter();
+    let found = found.map(|package| find_faults(package, &parts));
+    faults.extend(found.collect::<Vec<_>>().concat());
     let words = "every 3MF file holds the parts as they are judged";
     let check = Check::new(
         CheckKind::Packages,
@@ -119,7 +134,8 @@ fn merge_plates(packages: Vec<Package>) -> Vec<Package> {
 }
 
 /// Returns the faults of a package's objects, in words.
-fn find_faults(package: &Package, evidence: &Evidence) -> Vec<String> {
+fn find_faults(package: &Package, parts: &Parts) -> Vec<String> {
+    let evidence = parts.evidence;
     let Package {
         name,
         kind,
@@ -140,36 +156,33 @@ fn find_faults(package: &Package, evidence: &Evidence) -> Vec<String> {
             wanted.len()
         ));
     }
-    for part in wanted {
+    let fault = |part: usize| {
         let id = &evidence.parts[part].id;
         let found: Vec<&PlacedObject> =
             objects.iter().filter(|object| object.name == *id).collect();
         match found.as_slice() {
-            [object] if is_right(*kind, object, evidence, part) => {}
-            [_] => {
-                faults.push(format!(
-                    "{name}: {id} differs from the part in its own file, or is not in its place"
-                ));
-            }
-            _ => faults.push(format!("{name} holds {id} {} times", found.len())),
+            [object] if is_right(*kind, object, parts, part) => None,
+            [_] => Some(format!(
+                "{name}: {id} differs from the part in its own file, or is not in its place"
+            )),
+            _ => Some(format!("{name} holds {id} {} times", found.len())),
         }
-    }
+    };
+    let of_parts = wanted.into_par_iter().filter_map(fault);
+    faults.extend(of_parts.collect::<Vec<String>>());
     faults
 }
 
 /// Returns true if an object is the part. In the assembly its place counts too; in its own package
 /// it has the same triangles.
-fn is_right(kind: Kind, object: &PlacedObject, evidence: &Evidence, part: usize) -> bool {
+fn is_right(kind: Kind, object: &PlacedObject, parts: &Parts, part: usize) -> bool {
+    let Parts { evidence, prints } = parts;
     let (found, read) = (Fingerprint::of(&object.mesh), &evidence.parts[part]);
-    let promised = evidence.promise.parts[part].fingerprint.clone();
-    let printed = || {
-        promised
-            .unwrap_or_else(|| Fingerprint::of(&read.mesh))
-            .likeness(&found)
-    };
+    let promised = evidence.promise.parts[part].fingerprint.as_ref();
+    let printed = || promised.unwrap_or(&prints[part]).likeness(&found);
     match kind {
         // Only the part as made shows the place in the assembly.
-        Kind::Assembly if !evidence.is_part_as_made(part) => true,
+        Kind::Assembly if !evidence.is_part_as_made(part, &prints[part]) => true,
         Kind::Assembly => {
             let placed = read.mesh.map_vertices(|p| read.pose.to_model(p));
             matches!(

@@ -6,7 +6,8 @@ use crate::geom::{Bvh, Point, Vector};
 /// A part with its surface ready for rays. Points and directions are in the model frame.
 pub(super) struct PartProbe<'a> {
     pub(super) part: &'a PartEvidence,
-    surface: Bvh,
+    /// The tree over its triangles, print frame.
+    pub(super) surface: Bvh,
 }
 
 impl<'a> PartProbe<'a> {

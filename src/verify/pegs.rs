@@ -5,7 +5,6 @@ use super::part_probe::PartProbe;
 use super::{Hardware, PartEvidence, Peg, Promise};
 use crate::base::watch::{Cancelled, Watch};
 use crate::geom::{Bvh, Point, Vector, orthonormal_basis};
-use crate::mesh::TriMesh;
 
 /// Number of rays around a pin at each height: one for every flat of the pins in a kit.
 const DIRECTIONS: usize = 48;
@@ -102,13 +101,13 @@ struct PegOnPart<'a> {
 }
 
 /// Measures every pin of the kit with its socket, in the checklist's order, and then every dowel.
+/// `whole` is the uncut result.
 pub(super) fn measure_pegs(
     promise: &Promise,
     probes: &[PartProbe],
-    hollowed: &TriMesh,
+    whole: &Bvh,
     watch: &Watch,
 ) -> Result<Vec<PegFacts>, Cancelled> {
-    let whole = Bvh::new(hollowed.iter_corners());
     let parts = || promise.parts.iter().zip(probes);
     let pins = parts().flat_map(|(part, probe)| {
         part.pins
@@ -122,7 +121,7 @@ pub(super) fn measure_pegs(
             ..PegFacts::lost(&pin.peg.id)
         };
         Ok(match sockets_of(&pin.peg.id, promise, probes).first() {
-            Some(socket) => measure_pin(pin, *socket, &whole, lost),
+            Some(socket) => measure_pin(pin, *socket, whole, lost),
             None => lost,
         })
     });
@@ -133,7 +132,7 @@ pub(super) fn measure_pegs(
         let [first, second] = sockets[..] else {
             return Ok(lost);
         };
-        let wall_mm = wall_mm(first.peg, &whole).min(wall_mm(second.peg, &whole));
+        let wall_mm = wall_mm(first.peg, whole).min(wall_mm(second.peg, whole));
         let lost = PegFacts {
             ordered_gap_mm: promise.clearance_mm(&first.peg.joint),
             wall_mm,

@@ -35,21 +35,25 @@ impl Pose {
     }
 
     /// Returns the linear part, a proper rotation if the pose is rigid.
+    #[inline]
     pub fn rotation(&self) -> Matrix {
         Matrix::from_fn(|row, column| self.rows[row][column])
     }
 
     /// Returns the translation, mm.
+    #[inline]
     pub fn translation(&self) -> Vector {
         Vector::from_fn(|row, _| self.rows[row][3])
     }
 
     /// Returns the model coordinates of a point in the print frame. Exact only for a rigid pose.
+    #[inline]
     pub fn to_model(&self, print: &Point) -> Point {
         Point::from(self.rotation().tr_mul(&(print.coords - self.translation())))
     }
 
     /// Returns the print coordinates of a point in the model frame.
+    #[inline]
     pub fn to_print(&self, model: &Point) -> Point {
         Point::from(self.rotation() * model.coords + self.translation())
     }

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use rayon::prelude::*;
 use serde_json::Value;
 
 use super::files::{CHECKLIST_FILE, HOLLOWED_FILE, is_inside_kit};
@@ -13,7 +14,6 @@ use crate::mesh::TriMesh;
 /// Reads the meshes of a kit with these promises. The parts are returned in nominal size.
 pub(super) fn read_evidence(folder: &Path, promise: Promise) -> Result<Evidence, VerifyError> {
     check_files(folder, &promise)?;
-    let hollowed = read_mesh(&folder.join(HOLLOWED_FILE))?;
     let read = |id: &str, file: &str, pose: Pose| {
         let mesh = read_mesh(&folder.join(file))?;
         Ok(PartEvidence {
@@ -22,14 +22,19 @@ pub(super) fn read_evidence(folder: &Path, promise: Promise) -> Result<Evidence,
             pose,
         })
     };
-    let parts = promise.parts.iter();
+    let parts = promise.parts.par_iter();
     let parts = parts.map(|part| read(&part.id, &part.file, part.print_from_model));
-    let jigs = promise.jigs.iter();
+    let jigs = promise.jigs.par_iter();
     let jigs = jigs.map(|jig| read(&jig.id, &jig.file, jig.print_from_model));
+    // Every file is read before the first error is taken: which one it is depends on no thread.
+    let (hollowed, (parts, jigs)) = rayon::join(
+        || read_mesh(&folder.join(HOLLOWED_FILE)),
+        || rayon::join(|| parts.collect::<Vec<_>>(), || jigs.collect::<Vec<_>>()),
+    );
     Ok(Evidence {
-        hollowed,
-        parts: parts.collect::<Result<_, VerifyError>>()?,
-        jigs: jigs.collect::<Result<_, VerifyError>>()?,
+        hollowed: hollowed?,
+        parts: parts.into_iter().collect::<Result<_, VerifyError>>()?,
+        jigs: jigs.into_iter().collect::<Result<_, VerifyError>>()?,
         promise,
     })
 }

@@ -271,7 +271,10 @@ fn every_one_of_many_random_changes_of_a_part_is_named() {
         let what = change(&mut changed, &mut dice);
         // A hole beside a pin, under the mouth of its socket, is an open surface alone.
         let is_open = |part: &PartEvidence| {
-            let facts = PartFacts::of_part(part, &Watch::silent()).unwrap();
+            let facts = {
+                let tree = crate::geom::Bvh::new(part.mesh.iter_corners());
+                PartFacts::of_part(part, &tree, &Watch::silent()).unwrap()
+            };
             facts.surface.defect.is_some()
         };
         let is_named = !strays(&changed).is_empty() || changed.parts.iter().any(is_open);

@@ -37,6 +37,41 @@ struct Comparer {
     misstatements: Vec<String>,
 }
 
+/// What was found about the files of a kit.
+pub(super) struct Findings<'a> {
+    evidence: &'a Evidence,
+    judgement: &'a Judgement,
+    /// The fingerprint of each part, and whether it is the promised one.
+    prints: Vec<(Fingerprint, bool)>,
+    /// The shells of the uncut result.
+    shells: Shells,
+}
+
+impl<'a> Findings<'a> {
+    /// Adds the fingerprints of the parts and the shells to a judgement.
+    pub(super) fn new(evidence: &'a Evidence, judgement: &'a Judgement) -> Self {
+        let (prints, shells) = rayon::join(
+            || evidence.fingerprints(),
+            || Shells::of_mesh(&weld(&evidence.hollowed)),
+        );
+        let prints = prints.into_iter().enumerate().map(|(part, print)| {
+            let is_as_made = evidence.is_part_as_made(part, &print);
+            (print, is_as_made)
+        });
+        Self {
+            evidence,
+            judgement,
+            prints: prints.collect(),
+            shells,
+        }
+    }
+
+    /// Returns true if every part has the triangles of its promised fingerprint.
+    fn are_all_as_made(&self) -> bool {
+        self.prints.iter().all(|(_, is_as_made)| *is_as_made)
+    }
+}
+
 /// Finds the places where the checklist disagrees with the files, a sentence each, in the order of
 /// its keys.
 ///
@@ -51,13 +86,14 @@ pub fn find_misstatements(
         ratio: SHEET_LIMIT_RATIO,
         misstatements: Vec::new(),
     };
-    exact.object("", sheet, &restate(sheet, evidence, judgement));
+    let findings = Findings::new(evidence, judgement);
+    exact.object("", sheet, &restate(sheet, &findings));
     let mut rough = Comparer {
         ratio: BEFORE_ROUNDING_RATIO,
         misstatements: exact.misstatements,
     };
-    rough.object("", sheet, &restate_before_rounding(evidence, judgement));
-    if (0..evidence.parts.len()).all(|part| evidence.is_part_as_made(part)) {
+    rough.object("", sheet, &restate_before_rounding(&findings));
+    if findings.are_all_as_made() {
         let claims = find_false_claims(sheet, evidence, judgement);
         rough.misstatements.extend(claims);
         let numbers = find_false_numbers(sheet, evidence);
@@ -84,16 +120,14 @@ pub fn sheet_check(misstated: &[String]) -> Check {
 }
 
 /// Returns the part of the checklist that follows from these files, under its own keys.
-pub(super) fn restate(sheet: &Value, evidence: &Evidence, judgement: &Judgement) -> Value {
-    let promise = &evidence.promise;
-    let is_whole: Vec<bool> = (0..evidence.parts.len())
-        .map(|part| evidence.is_part_as_made(part))
-        .collect();
+pub(super) fn restate(sheet: &Value, findings: &Findings) -> Value {
+    let judgement = findings.judgement;
+    let promise = &findings.evidence.promise;
     let parts = judgement.parts.iter().enumerate();
     let parts: Vec<Value> = parts
         .map(|(index, facts)| {
-            if is_whole[index] {
-                part_row(evidence, index, facts)
+            if findings.prints[index].1 {
+                part_row(findings, index, facts)
             } else {
                 json!({})
             }
@@ -107,7 +141,7 @@ pub(super) fn restate(sheet: &Value, evidence: &Evidence, judgement: &Judgement)
         json!({ "measured_min_mm": judgement.wall_min_mm }),
     );
     rows.insert("parts".to_owned(), json!(parts));
-    let is_whole = is_whole.into_iter().all(|whole| whole);
+    let is_whole = findings.are_all_as_made();
     let found = is_whole.then_some(&judgement.joints[..]);
     rows.insert("joints".to_owned(), json!(joint_rows(promise, found)));
     if is_whole {
@@ -172,8 +206,13 @@ fn check_rows(stated: &Value, judgement: &Judgement) -> Value {
 }
 
 /// Returns the keys whose values the checklist states from before the rounding to a file's digits.
-pub(super) fn restate_before_rounding(evidence: &Evidence, judgement: &Judgement) -> Value {
-    let shells = Shells::of_mesh(&weld(&evidence.hollowed));
+pub(super) fn restate_before_rounding(findings: &Findings) -> Value {
+    let Findings {
+        evidence,
+        judgement,
+        shells,
+        ..
+    } = findings;
     let voids = evidence.promise.voids.iter().zip(&shells.inward);
     let void_row = |(promised, cavity): (&PromisedVoid, &TriMesh)| {
         let is_clean = judgement
@@ -182,7 +221,7 @@ pub(super) fn restate_before_rounding(evidence: &Evidence, judgement: &Judgement
             .filter(|check| check.kind.void() == Some(&promised.id))
             .all(|c| c.pass);
         let mut row = json!({ "volume_mm3": moments_of_mesh(cavity).volume().abs() });
-        if (0..evidence.parts.len()).all(|part| evidence.is_part_as_made(part)) {
+        if findings.are_all_as_made() {
             row["is_clean"] = json!(is_clean);
         }
         row
@@ -197,11 +236,9 @@ pub(super) fn restate_before_rounding(evidence: &Evidence, judgement: &Judgement
     rows
 }
 
-fn part_row(evidence: &Evidence, part: usize, facts: &PartFacts) -> Value {
-    let (mesh, density) = (
-        &evidence.parts[part].mesh,
-        evidence.promise.material.density_g_cm3,
-    );
+fn part_row(findings: &Findings, part: usize, facts: &PartFacts) -> Value {
+    let promise = &findings.evidence.promise;
+    let density = promise.material.density_g_cm3;
     let mut row = json!({
         "id": facts.id,
         "triangles": facts.surface.triangles,
@@ -209,8 +246,8 @@ fn part_row(evidence: &Evidence, part: usize, facts: &PartFacts) -> Value {
         "mass_g": facts.surface.volume_mm3 * density / MM3_PER_CM3,
         "size_mm": facts.size_mm,
     });
-    if evidence.promise.parts[part].fingerprint.is_some() {
-        row["fingerprint"] = json!(Fingerprint::of(mesh));
+    if promise.parts[part].fingerprint.is_some() {
+        row["fingerprint"] = json!(findings.prints[part].0);
     }
     row
 }

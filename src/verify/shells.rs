@@ -1,10 +1,8 @@
-//! The shells of a surface: its connected pieces by orientation, and the wall between them.
+//! The shells of a surface: its connected pieces by orientation.
 
-use std::collections::BTreeMap;
-
-use crate::base::watch::{Cancelled, Watch};
 use crate::mass::moments_of_mesh;
-use crate::mesh::{MeshDistance, TriMesh};
+use crate::mesh::TriMesh;
+use crate::mesh::edges::EdgeTable;
 
 /// The shells of a surface: outward ones bound material, inward ones bound air.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -34,20 +32,6 @@ impl Shells {
     pub fn inner_mesh(&self) -> TriMesh {
         join(&self.inward)
     }
-
-    /// Returns the smallest wall between the cavities and the outer surface, mm, or `None` if there
-    /// is no cavity. It is the distance between triangles, not between samples.
-    ///
-    /// A cavity of the model itself counts as a void; one that pierces the outside gives 0.
-    pub fn smallest_wall_mm(&self, watch: &Watch) -> Result<Option<f64>, Cancelled> {
-        if self.inward.is_empty() || self.outward.is_empty() {
-            return Ok(None);
-        }
-        watch.check()?;
-        let outside = MeshDistance::new(&self.outer_mesh());
-        watch.check()?;
-        Ok(Some(outside.min_distance_to(&self.inner_mesh())))
-    }
 }
 
 /// Returns all meshes side by side.
@@ -58,39 +42,35 @@ fn join(meshes: &[TriMesh]) -> TriMesh {
 /// Returns the pieces of a mesh that are connected through shared edges, each with its own
 /// vertices.
 pub(super) fn connected_pieces(mesh: &TriMesh) -> Vec<TriMesh> {
-    let mut groups: BTreeMap<u32, Vec<[u32; 3]>> = BTreeMap::new();
-    for (&triangle, root) in mesh.triangles().iter().zip(roots(mesh)) {
-        groups.entry(root).or_default().push(triangle);
+    let roots = roots(mesh);
+    let mut groups: Vec<Vec<[u32; 3]>> = Vec::new();
+    let mut group_of = vec![0; roots.len()];
+    for (index, (&triangle, root)) in mesh.triangles().iter().zip(roots).enumerate() {
+        // A root is the first triangle of its group.
+        let root = root as usize;
+        if root == index {
+            group_of[index] = groups.len();
+            groups.push(Vec::new());
+        }
+        groups[group_of[root]].push(triangle);
     }
+    let mut numbers = vec![0; mesh.vertices().len()];
+    let groups = groups.into_iter();
     groups
-        .into_values()
-        .map(|triangles| extract(mesh, &triangles))
+        .map(|triangles| extract(mesh, triangles, &mut numbers))
         .collect()
 }
 
 /// Returns for each triangle the least triangle it is connected to.
 fn roots(mesh: &TriMesh) -> Vec<u32> {
     let mut parent: Vec<u32> = (0..mesh.triangles().len() as u32).collect();
-    let mut sides = sides_of(mesh);
-    sides.sort_unstable();
-    for pair in sides.windows(2).filter(|pair| pair[0].0 == pair[1].0) {
-        let (a, b) = (find(&mut parent, pair[0].1), find(&mut parent, pair[1].1));
+    let table = EdgeTable::of(mesh);
+    for pair in table.edges().flat_map(|sides| sides.windows(2)) {
+        let [a, b] = [&pair[0], &pair[1]].map(|side| find(&mut parent, side.triangle() as u32));
         parent[a.max(b) as usize] = a.min(b);
     }
     (0..parent.len() as u32)
         .map(|triangle| find(&mut parent, triangle))
-        .collect()
-}
-
-/// Returns every side of every triangle with the triangle, its vertices ascending.
-fn sides_of(mesh: &TriMesh) -> Vec<([u32; 2], u32)> {
-    let sides = |(index, &[a, b, c]): (usize, &[u32; 3])| {
-        [[a, b], [b, c], [c, a]].map(|[from, to]| ([from.min(to), from.max(to)], index as u32))
-    };
-    mesh.triangles()
-        .iter()
-        .enumerate()
-        .flat_map(sides)
         .collect()
 }
 
@@ -104,14 +84,20 @@ fn find(parent: &mut [u32], mut triangle: u32) -> u32 {
     triangle
 }
 
-/// Returns some triangles of a mesh as a mesh with only the vertices they use.
-fn extract(mesh: &TriMesh, triangles: &[[u32; 3]]) -> TriMesh {
+/// Returns some triangles of a mesh as a mesh with only the vertices they use. `numbers` is room
+/// for a number for each vertex.
+fn extract(mesh: &TriMesh, triangles: Vec<[u32; 3]>, numbers: &mut [u32]) -> TriMesh {
     let mut used: Vec<u32> = triangles.iter().flatten().copied().collect();
     used.sort_unstable();
     used.dedup();
-    let renumbered = |v: u32| used.partition_point(|&u| u < v) as u32;
+    for (number, &v) in used.iter().enumerate() {
+        numbers[v as usize] = number as u32;
+    }
     let vertices = used.iter().map(|&v| mesh.vertices()[v as usize]).collect();
-    let triangles = triangles.iter().map(|t| t.map(renumbered)).collect();
+    let triangles = triangles
+        .into_iter()
+        .map(|t| t.map(|v| numbers[v as usize]))
+        .collect();
     TriMesh::new(vertices, triangles).unwrap_or_default()
 }
 

@@ -2,6 +2,8 @@
 //!
 //! Wald, "On fast Construction of SAH-based Bounding Volume Hierarchies", IEEE RT 2007.
 
+use rayon::prelude::*;
+
 use super::tree::{Bvh, Node};
 use crate::geom::{Aabb, Point};
 
@@ -19,19 +21,26 @@ const PARALLEL_ITEMS: usize = 4096;
 #[derive(Clone, Copy)]
 struct Item {
     aabb: Aabb,
-    center: Point,
     id: u32,
+}
+
+impl Item {
+    /// Returns a coordinate of the centre of its box.
+    #[inline]
+    fn center(&self, axis: usize) -> f64 {
+        (self.aabb.min[axis] + self.aabb.max[axis]) * 0.5
+    }
 }
 
 impl Bvh {
     /// Builds the tree over these triangles by the surface-area heuristic in O(n log n).
     pub fn new(triangles: impl IntoIterator<Item = [Point; 3]>) -> Self {
         let triangles: Vec<[Point; 3]> = triangles.into_iter().collect();
-        let mut items: Vec<Item> = triangles
-            .iter()
-            .enumerate()
-            .map(|(id, corners)| item(id, corners))
-            .collect();
+        let items = triangles
+            .par_iter()
+            .with_min_len(PARALLEL_ITEMS)
+            .enumerate();
+        let mut items: Vec<Item> = items.map(|(id, corners)| item(id, corners)).collect();
         let nodes = if items.is_empty() {
             Vec::new()
         } else {
@@ -47,11 +56,10 @@ impl Bvh {
     }
 }
 
+#[inline]
 fn item(id: usize, corners: &[Point; 3]) -> Item {
-    let aabb = Aabb::of_points(corners);
     Item {
-        aabb,
-        center: aabb.center(),
+        aabb: Aabb::of_points(corners),
         id: id as u32,
     }
 }
@@ -61,13 +69,14 @@ fn item(id: usize, corners: &[Point; 3]) -> Item {
 fn subtree(items: &mut [Item], first: usize) -> Vec<Node> {
     let mut nodes = Vec::with_capacity(items.len());
     if items.len() < PARALLEL_ITEMS {
-        subdivide(items, first, &mut nodes);
+        let mut spare = Vec::with_capacity(items.len());
+        subdivide(items, first, &mut nodes, &mut spare);
         return nodes;
     }
     let aabb = items
         .iter()
         .fold(Aabb::EMPTY, |sum, item| sum.union(&item.aabb));
-    let middle = partition(items);
+    let middle = partition(items, &mut Vec::new());
     let (left, right) = items.split_at_mut(middle);
     let (left, right) = rayon::join(|| subtree(left, first), || subtree(right, first + middle));
     nodes.push(Node {
@@ -96,8 +105,9 @@ fn append_shifted(nodes: &mut Vec<Node>, tree: &[Node]) {
     }));
 }
 
-/// Appends the tree over `items`, whose first triangle is number `first` of the whole.
-fn subdivide(items: &mut [Item], first: usize, nodes: &mut Vec<Node>) {
+/// Appends the tree over `items`, whose first triangle is number `first` of the whole. `spare` is
+/// room to reorder them in.
+fn subdivide(items: &mut [Item], first: usize, nodes: &mut Vec<Node>, spare: &mut Vec<Item>) {
     let aabb = items
         .iter()
         .fold(Aabb::EMPTY, |sum, item| sum.union(&item.aabb));
@@ -110,29 +120,35 @@ fn subdivide(items: &mut [Item], first: usize, nodes: &mut Vec<Node>) {
     if items.len() <= LEAF_SIZE {
         return;
     }
-    let middle = partition(items);
+    let middle = partition(items, spare);
     let (left, right) = items.split_at_mut(middle);
     nodes[index].count = 0;
-    subdivide(left, first, nodes);
+    subdivide(left, first, nodes, spare);
     nodes[index].first = nodes.len() as u32;
-    subdivide(right, first + middle, nodes);
+    subdivide(right, first + middle, nodes, spare);
 }
 
-/// Reorders the items into two parts and returns the size of the first.
-fn partition(items: &mut [Item]) -> usize {
+/// Reorders the items into two parts and returns the size of the first. `spare` is room for that.
+fn partition(items: &mut [Item], spare: &mut Vec<Item>) -> usize {
     let centers = items
         .iter()
-        .fold(Aabb::EMPTY, |sum, item| sum.grown_over(&item.center));
+        .fold(Aabb::EMPTY, |sum, item| sum.grown_over(&item.aabb.center()));
     let axis = centers.size().imax();
     let (low, extent) = (centers.min[axis], centers.size()[axis]);
     let bin_of =
-        |item: &Item| (((item.center[axis] - low) / extent * BINS as f64) as usize).min(BINS - 1);
+        |item: &Item| (((item.center(axis) - low) / extent * BINS as f64) as usize).min(BINS - 1);
     if let Some(split) = (extent > 0.0).then(|| best_split(items, bin_of)).flatten() {
-        let mut ordered: Vec<Item> = Vec::with_capacity(items.len());
-        ordered.extend(items.iter().filter(|item| bin_of(item) < split));
-        let middle = ordered.len();
-        ordered.extend(items.iter().filter(|item| bin_of(item) >= split));
-        items.copy_from_slice(&ordered);
+        spare.clear();
+        let mut middle = 0;
+        for index in 0..items.len() {
+            if bin_of(&items[index]) < split {
+                items[middle] = items[index];
+                middle += 1;
+            } else {
+                spare.push(items[index]);
+            }
+        }
+        items[middle..].copy_from_slice(spare);
         return middle;
     }
     items.len() / 2
@@ -173,6 +189,7 @@ fn suffix_costs(bins: &[(Aabb, usize); BINS]) -> [f64; BINS] {
 }
 
 /// Returns half the surface area of a box; zero if it is empty.
+#[inline]
 fn half_area(aabb: &Aabb) -> f64 {
     if aabb.is_empty() {
         return 0.0;

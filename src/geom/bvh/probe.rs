@@ -13,12 +13,14 @@ pub(super) struct Probe<'a> {
 }
 
 impl<'a> Probe<'a> {
+    #[inline]
     pub(super) fn new(corners: &'a [Point; 3]) -> Self {
         let center = Point::from((corners[0].coords + corners[1].coords + corners[2].coords) / 3.0);
         Self { corners, center }
     }
 
     /// Returns a lower bound of the distance to a box.
+    #[inline]
     pub(super) fn bound(&self, aabb: &Aabb) -> f64 {
         let nearest = self
             .center
@@ -29,11 +31,13 @@ impl<'a> Probe<'a> {
     }
 
     /// Returns a lower bound of the distance to a triangle.
+    #[inline]
     fn triangle_bound(&self, other: &[Point; 3]) -> f64 {
         self.tangent_bound_from(self.center - closest_on_triangle(&self.center, other).point)
     }
 
     /// Returns true if another triangle is nearer than `limit_mm`.
+    #[inline]
     pub(super) fn is_within(&self, other: &[Point; 3], limit_mm: f64) -> bool {
         let bound = self.triangle_bound(other);
         if bound >= limit_mm {
@@ -48,6 +52,7 @@ impl<'a> Probe<'a> {
     }
 
     /// Returns the tangent bound of a convex set whose nearest point is at `center - offset`.
+    #[inline]
     fn tangent_bound_from(&self, offset: Vector) -> f64 {
         let distance = offset.norm();
         if distance <= 0.0 {

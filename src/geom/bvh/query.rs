@@ -293,7 +293,8 @@ impl Search {
 }
 
 /// Returns the squared distance between two boxes, mm²; zero if they overlap.
-fn gap_squared(a: &Aabb, b: &Aabb) -> f64 {
+#[inline]
+pub(super) fn gap_squared(a: &Aabb, b: &Aabb) -> f64 {
     let gap = (a.min - b.max).sup(&(b.min - a.max)).sup(&Vector::zeros());
     gap.norm_squared()
 }

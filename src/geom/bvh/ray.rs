@@ -4,6 +4,7 @@ use crate::geom::{Aabb, Point, Vector};
 
 /// Returns the point at which the segment from `a` along 1/`inverse` enters the box, as a share of
 /// its length. `None` if it misses the box. The slab test of Kay and Kajiya (1986).
+#[inline]
 pub(super) fn box_entry(a: &Point, inverse: &Vector, aabb: &Aabb) -> Option<f64> {
     let low = (aabb.min - a).component_mul(inverse);
     let high = (aabb.max - a).component_mul(inverse);
@@ -15,6 +16,7 @@ pub(super) fn box_entry(a: &Point, inverse: &Vector, aabb: &Aabb) -> Option<f64>
 
 /// Returns the point at which the segment from `a` along `along` passes through the triangle, as a
 /// share of its length. `None` if it does not (Möller and Trumbore, 1997).
+#[inline]
 pub(super) fn triangle_crossing(a: &Point, along: &Vector, [p, q, r]: &[Point; 3]) -> Option<f64> {
     let (first, second) = (q - p, r - p);
     let normal = along.cross(&second);
@@ -29,6 +31,7 @@ pub(super) fn triangle_crossing(a: &Point, along: &Vector, [p, q, r]: &[Point; 3
 }
 
 /// Returns true if the ray from `p` along +z may meet the box.
+#[inline]
 pub(super) fn is_above(p: &Point, aabb: &Aabb) -> bool {
     aabb.max.z >= p.z
         && aabb.min.x <= p.x
@@ -41,6 +44,7 @@ pub(super) fn is_above(p: &Point, aabb: &Aabb) -> bool {
 ///
 /// Computes the projected triangle's winding about `p` by half-open edge crossings. So a ray
 /// through a common edge of triangles counts exactly once.
+#[inline]
 pub(super) fn crossing(p: &Point, corners: &[Point; 3]) -> i32 {
     let winding: i32 = (0..3)
         .map(|i| edge_crossing(p, &corners[i], &corners[(i + 1) % 3]))
@@ -72,6 +76,7 @@ pub(super) fn crossing(p: &Point, corners: &[Point; 3]) -> i32 {
 
 /// Returns the crossing of the ray from `p` along +x, in the plane, with an edge: +1 upward, −1
 /// downward.
+#[inline]
 fn edge_crossing(p: &Point, from: &Point, to: &Point) -> i32 {
     let upward = from.y <= p.y && p.y < to.y;
     let downward = to.y <= p.y && p.y < from.y;

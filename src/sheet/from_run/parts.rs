@@ -1,5 +1,7 @@
 //! The rows of the written parts.
 
+use rayon::prelude::*;
+
 use super::facts::Facts;
 use super::finished::cup_mm3;
 use super::hardware::{half_of, halves};
@@ -23,7 +25,7 @@ pub fn part_rows(facts: &Facts) -> Vec<PartRow> {
     let surfaces = Surfaces::of(facts.made);
     let is_vat = is_printed_in_vat(facts.placed);
     let wall_mm = facts.placed.minimum_wall_mm();
-    let parts = facts.made.parts.iter().zip(&facts.judgement.parts);
+    let parts = facts.made.parts.par_iter().zip(&facts.judgement.parts);
     let row = |(written, measured): (&WrittenPart, &PartFacts)| {
         let (part, plan) = (&written.part, &facts.made.plan);
         let pins: Vec<Peg> = part.pins.iter().map(|site| pin(site, plan)).collect();

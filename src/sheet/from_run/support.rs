@@ -2,9 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use crate::geom::{Plane, Point, Vector};
+use crate::geom::{Bvh, Plane, Point, Vector};
+use crate::mesh::TriMesh;
 use crate::mesh::union_find::UnionFind;
-use crate::mesh::{MeshDistance, TriMesh};
 use crate::poses::{Columns, Shape, Support, SupportRule};
 use crate::repair::weld;
 use crate::run::{Made, Placed, WrittenPart};
@@ -36,8 +36,8 @@ enum Side {
 
 /// The surfaces that tell the kind of a place, model frame.
 pub struct Surfaces {
-    outer: MeshDistance,
-    voids: MeshDistance,
+    outer: Bvh,
+    voids: Bvh,
     cuts: Vec<Plane>,
 }
 
@@ -50,8 +50,8 @@ impl Surfaces {
             .iter()
             .fold(TriMesh::default(), |all, void| all.joined(void.mesh()));
         Self {
-            outer: MeshDistance::new(hollowed.outer.mesh()),
-            voids: MeshDistance::new(&voids),
+            outer: Bvh::new(hollowed.outer.mesh().iter_corners()),
+            voids: Bvh::new(voids.iter_corners()),
             cuts: made
                 .plan
                 .cuts
@@ -63,8 +63,7 @@ impl Surfaces {
 
     /// Returns the kind of surface at a point of a part.
     fn side(&self, at: &Point, [pins, sockets]: [&[Peg]; 2]) -> Side {
-        let is_on =
-            |surface: &MeshDistance| surface.bvh().closest(at, ON_SURFACE_MM, &[]).is_some();
+        let is_on = |surface: &Bvh| surface.closest(at, ON_SURFACE_MM, &[]).is_some();
         let is_in = |peg: &Peg| is_in_peg(peg, at);
         if sockets.iter().any(is_in) {
             Side::Bridged
