@@ -19,6 +19,7 @@ impl Aabb {
     };
 
     /// Returns the smallest box that contains every point.
+    #[inline]
     pub fn of_points<'a>(points: impl IntoIterator<Item = &'a Point>) -> Self {
         points
             .into_iter()
@@ -26,6 +27,7 @@ impl Aabb {
     }
 
     /// Returns this box, grown just enough to contain `point`.
+    #[inline]
     pub fn grown_over(&self, point: &Point) -> Self {
         Self {
             min: self.min.inf(point),
@@ -34,6 +36,7 @@ impl Aabb {
     }
 
     /// Returns the smallest box that contains both.
+    #[inline]
     pub fn union(&self, other: &Self) -> Self {
         Self {
             min: self.min.inf(&other.min),
@@ -42,6 +45,7 @@ impl Aabb {
     }
 
     /// Returns this box with every face moved outward by `margin_mm` (inward if negative).
+    #[inline]
     pub fn inflated(&self, margin_mm: f64) -> Self {
         let margin = Vector::repeat(margin_mm);
         Self {
@@ -51,16 +55,19 @@ impl Aabb {
     }
 
     /// Returns the edge lengths along x, y and z, mm.
+    #[inline]
     pub fn size(&self) -> Vector {
         self.max - self.min
     }
 
     /// Returns the centre of the box.
+    #[inline]
     pub fn center(&self) -> Point {
         nalgebra::center(&self.min, &self.max)
     }
 
     /// Returns the squared distance from `point` to the box, mm²; zero inside.
+    #[inline]
     pub fn distance_squared(&self, point: &Point) -> f64 {
         let below = self.min - point;
         let above = point - self.max;
@@ -68,6 +75,7 @@ impl Aabb {
     }
 
     /// Returns true if the box contains no point.
+    #[inline]
     pub fn is_empty(&self) -> bool {
         self.min.x > self.max.x || self.min.y > self.max.y || self.min.z > self.max.z
     }

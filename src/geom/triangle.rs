@@ -67,6 +67,7 @@ pub fn closest_on_triangle(p: &Point, corners: &[Point; 3]) -> TrianglePoint {
     closest_on_edges(p, corners)
 }
 
+#[inline]
 fn at_vertex(corners: &[Point; 3], i: u8) -> TrianglePoint {
     TrianglePoint {
         point: corners[i as usize],
@@ -74,6 +75,7 @@ fn at_vertex(corners: &[Point; 3], i: u8) -> TrianglePoint {
     }
 }
 
+#[inline]
 fn at_edge(point: Point, i: u8) -> TrianglePoint {
     TrianglePoint {
         point,
@@ -113,6 +115,7 @@ pub fn closest_on_segment(p: &Point, a: &Point, b: &Point) -> Point {
 }
 
 /// Returns the squared distance between two segments, mm². Ericson 2005, §5.1.9.
+#[inline]
 pub fn segment_segment_distance_squared(p: [&Point; 2], q: [&Point; 2]) -> f64 {
     let (d1, d2, r) = (p[1] - p[0], q[1] - q[0], p[0] - q[0]);
     let (a, e) = (d1.norm_squared(), d2.norm_squared());
@@ -147,6 +150,7 @@ fn segment_pierces(a: &Point, b: &Point, corners: &[Point; 3]) -> bool {
 }
 
 /// Returns the side of the plane through `a`, `b` and `c` on which `d` lies: −1, 0 or 1.
+#[inline]
 fn side(a: &Point, b: &Point, c: &Point, d: &Point) -> i32 {
     let [a, b, c, d] = [a, b, c, d].map(|p| robust::Coord3D {
         x: p.x,

@@ -75,8 +75,8 @@ impl Bvh {
         let aabb = Aabb::of_points(corners);
         let limit_squared = limit_mm.max(0.0).powi(2);
         let bound = |other: &Aabb| {
-            let is_apart =
-                gap_squared(&aabb, other) >= limit_squared || probe.bound(other) >= limit_mm;
+            let is_apart = gap_squared(&aabb, other) >= limit_squared
+                || probe.is_clear_of_box(other, limit_mm);
             if is_apart { f64::INFINITY } else { 0.0 }
         };
         self.visit(
@@ -293,6 +293,7 @@ impl Search {
 }
 
 /// Returns the squared distance between two boxes, mm²; zero if they overlap.
+#[inline]
 fn gap_squared(a: &Aabb, b: &Aabb) -> f64 {
     let gap = (a.min - b.max).sup(&(b.min - a.max)).sup(&Vector::zeros());
     gap.norm_squared()

@@ -42,6 +42,7 @@ impl Bvh {
     }
 
     /// Returns the range of a leaf's triangles, in leaf order.
+    #[inline]
     pub(super) fn leaf_range(node: &Node) -> std::ops::Range<usize> {
         let first = node.first as usize;
         first..first + node.count as usize
