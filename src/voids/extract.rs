@@ -8,9 +8,8 @@ use super::lattice::{Across, Links};
 use super::march::{Piece, cap, piece};
 use super::nodes::{Nodes, Numbers};
 use super::octree::{CIRCUMRADIUS, FINEST_UNITS, Octree};
-use super::roots::{Roots, VertexKey, is_crossing};
+use super::roots::{Named, Roots, Vertex, VertexKey, is_crossing, vertex_of};
 use super::runs::{flat_map_in_runs, map_in_runs, runs};
-use super::table::IndexMap;
 use crate::base::watch::{Cancelled, Watch};
 use crate::geom::{Aabb, Point};
 use crate::mesh::TriMesh;
@@ -20,6 +19,9 @@ use crate::mesh::TriMesh;
 /// requires.
 const CREASE_COSINE: f64 = 0.94;
 
+/// The number of a vertex that has none yet.
+const UNNUMBERED: u32 = u32::MAX;
+
 /// The surface of a function's positive region while it is being refined.
 pub(super) struct Extractor<'a, F> {
     field: &'a F,
@@ -28,21 +30,21 @@ pub(super) struct Extractor<'a, F> {
     nodes: Nodes,
     roots: Roots,
     /// For each cell, the pieces of surface in its tetrahedra.
-    pieces: Vec<Vec<PlacedPiece>>,
+    pieces: Vec<Vec<PlacedPiece<Vertex>>>,
     watch: &'a Watch,
 }
 
 /// A piece of surface, and the two leaves in which it lies.
 #[derive(Debug, Clone, Copy)]
-struct PlacedPiece {
-    piece: Piece,
+struct PlacedPiece<V> {
+    piece: Piece<V>,
     leaves: [u32; 2],
 }
 
-/// A triangle by the names of its vertices, and the two leaves in which it lies.
+/// A triangle by the numbers of its vertices, and the two leaves in which it lies.
 #[derive(Debug, Clone, Copy)]
 struct PlacedTriangle {
-    keys: [VertexKey; 3],
+    vertices: [Vertex; 3],
     leaves: [u32; 2],
 }
 
@@ -104,12 +106,8 @@ impl<'a, F: Field> Extractor<'a, F> {
     ) -> Result<Vec<u32>, Cancelled> {
         let refused_in = |i: usize| {
             let triangles = self.triangles_of(leaves[i]).into_iter();
-            let refused = triangles.filter(|triangle| {
-                let [a, b, c] = triangle
-                    .keys
-                    .map(|key| self.roots.vertex(&self.nodes, key).map(|known| known.at));
-                matches!((a, b, c), (Some(a), Some(b), Some(c)) if !allows(&[a, b, c]))
-            });
+            let refused = triangles
+                .filter(|triangle| !allows(&triangle.vertices.map(|vertex| self.known(vertex).at)));
             refused
                 .flat_map(|triangle| self.to_divide(triangle.leaves))
                 .collect::<Vec<u32>>()
@@ -146,7 +144,7 @@ impl<'a, F: Field> Extractor<'a, F> {
         let triangles_in = |i: usize| self.triangles_of(leaves[i]);
         let triangles: Vec<PlacedTriangle> =
             flat_map_in_runs(leaves.len(), self.watch, triangles_in)?;
-        self.number_vertices(&triangles)
+        self.mesh_of(&triangles)
     }
 
     /// Returns the leaves to divide if a triangle between these two is not good enough: the larger
@@ -174,19 +172,30 @@ impl<'a, F: Field> Extractor<'a, F> {
         let (tree, nodes) = (&self.tree, &mut self.nodes);
         let numbers = nodes.prepare(tree, &linked, self.field, watch)?;
         let march = |i: usize| self.march(leaves[i], &linked[i].1, &numbers[i]);
-        let marched: Vec<Vec<PlacedPiece>> = map_in_runs(count, watch, march)?;
-        let keys: Vec<VertexKey> = flat_map_in_runs(count, watch, |i| crossings_of(&marched[i]))?;
+        let marched: Vec<Vec<PlacedPiece<VertexKey>>> = map_in_runs(count, watch, march)?;
+        let keys: Vec<Vec<VertexKey>> = map_in_runs(count, watch, |i| crossings_of(&marched[i]))?;
         let (nodes, roots) = (&self.nodes, &mut self.roots);
-        roots.prepare(nodes, keys.into_iter(), self.field, watch)?;
+        let all = keys.iter().flatten().copied();
+        let found = roots.prepare(nodes, all, self.field, watch)?;
+        let ends = running_ends(&keys);
+        let number = |i: usize| {
+            let named = Named {
+                keys: &keys[i],
+                numbers: &found[ends[i] - keys[i].len()..ends[i]],
+            };
+            let numbered = |&placed| number_vertices(placed, named);
+            marched[i].iter().map(numbered).collect()
+        };
+        let numbered: Vec<Vec<PlacedPiece<Vertex>>> = map_in_runs(count, watch, number)?;
         self.pieces.resize(self.tree.cells().len(), Vec::new());
-        for (&leaf, pieces) in leaves.iter().zip(marched) {
+        for (&leaf, pieces) in leaves.iter().zip(numbered) {
             self.pieces[leaf as usize] = pieces;
         }
         Ok(())
     }
 
     /// Returns the pieces of surface in a leaf's tetrahedra.
-    fn march(&self, leaf: u32, links: &Links, numbers: &Numbers) -> Vec<PlacedPiece> {
+    fn march(&self, leaf: u32, links: &Links, numbers: &Numbers) -> Vec<PlacedPiece<VertexKey>> {
         let mut pieces = Vec::new();
         links.for_each(|tetrahedron| {
             let corners = tetrahedron.slots.map(|slot| numbers.at(slot));
@@ -219,7 +228,10 @@ impl<'a, F: Field> Extractor<'a, F> {
         let mut triangles = Vec::new();
         for &PlacedPiece { piece, leaves } in &self.pieces[leaf as usize] {
             match piece {
-                Piece::Triangle(t) => triangles.push(PlacedTriangle { keys: t, leaves }),
+                Piece::Triangle(t) => triangles.push(PlacedTriangle {
+                    vertices: t,
+                    leaves,
+                }),
                 Piece::Quad([a, b, c, d]) => {
                     let is_first = self.bend(a, c).abs() <= self.bend(b, d).abs();
                     let halves = if is_first {
@@ -227,21 +239,20 @@ impl<'a, F: Field> Extractor<'a, F> {
                     } else {
                         [[a, b, d], [b, c, d]]
                     };
-                    triangles.extend(halves.map(|keys| PlacedTriangle { keys, leaves }));
+                    triangles.extend(halves.map(|vertices| PlacedTriangle { vertices, leaves }));
                 }
             }
         }
         triangles
     }
 
-    fn bend(&self, a: VertexKey, b: VertexKey) -> f64 {
-        match (
-            self.roots.vertex(&self.nodes, a),
-            self.roots.vertex(&self.nodes, b),
-        ) {
-            (Some(a), Some(b)) => bend_mm(a, b),
-            _ => 0.0,
-        }
+    #[inline]
+    fn known(&self, vertex: Vertex) -> &Known {
+        self.roots.vertex(&self.nodes, vertex)
+    }
+
+    fn bend(&self, a: Vertex, b: Vertex) -> f64 {
+        bend_mm(self.known(a), self.known(b))
     }
 
     /// Returns the leaves to divide because a triangle's side strays too far from the surface.
@@ -256,7 +267,7 @@ impl<'a, F: Field> Extractor<'a, F> {
         flat_map_in_runs(leaves.len(), self.watch, bent_in)
     }
 
-    fn bent_leaves_of(&self, PlacedTriangle { keys, leaves }: PlacedTriangle) -> Vec<u32> {
+    fn bent_leaves_of(&self, PlacedTriangle { vertices, leaves }: PlacedTriangle) -> Vec<u32> {
         let divisible: Vec<u32> = self.to_divide(leaves).collect();
         let Some(size_mm) = divisible
             .first()
@@ -264,10 +275,8 @@ impl<'a, F: Field> Extractor<'a, F> {
         else {
             return Vec::new();
         };
-        let is_bent = (0..3).any(|i| {
-            let ends = [keys[i], keys[(i + 1) % 3]].map(|key| self.roots.vertex(&self.nodes, key));
-            matches!(ends, [Some(a), Some(b)] if self.is_bent(a, b, size_mm))
-        });
+        let corners = vertices.map(|vertex| self.known(vertex));
+        let is_bent = (0..3).any(|i| self.is_bent(corners[i], corners[(i + 1) % 3], size_mm));
         if is_bent { divisible } else { Vec::new() }
     }
 
@@ -295,38 +304,56 @@ impl<'a, F: Field> Extractor<'a, F> {
     }
 
     /// Builds the mesh; its vertices are numbered in the order in which the triangles name them.
-    fn number_vertices(&self, triangles: &[PlacedTriangle]) -> Result<TriMesh, VoidError> {
-        let mut index = IndexMap::default();
+    fn mesh_of(&self, triangles: &[PlacedTriangle]) -> Result<TriMesh, VoidError> {
+        let mut index = vec![UNNUMBERED; self.roots.len() + self.nodes.len()];
         let mut vertices: Vec<Point> = Vec::new();
-        let mut number = |key: VertexKey| {
-            *index.entry(key).or_insert_with(|| {
-                vertices.extend(self.roots.vertex(&self.nodes, key).map(|known| known.at));
-                vertices.len() as u32 - 1
-            })
+        let mut number = |vertex: Vertex| {
+            let place = vertex.place(self.roots.len());
+            if index[place] == UNNUMBERED {
+                index[place] = vertices.len() as u32;
+                vertices.push(self.known(vertex).at);
+            }
+            index[place]
         };
         let mut numbered = Vec::with_capacity(triangles.len());
         for run in runs(triangles.len()) {
             self.watch.check()?;
-            let keys = triangles[run].iter().map(|triangle| triangle.keys);
-            numbered.extend(keys.map(|keys| keys.map(&mut number)));
+            let run = triangles[run].iter();
+            numbered.extend(run.map(|triangle| triangle.vertices.map(&mut number)));
         }
         Ok(TriMesh::new(vertices, numbered)?)
     }
 }
 
 /// Returns the crossings that pieces of surface name, each once.
-fn crossings_of(pieces: &[PlacedPiece]) -> Vec<VertexKey> {
+fn crossings_of(pieces: &[PlacedPiece<VertexKey>]) -> Vec<VertexKey> {
     let mut keys: Vec<VertexKey> = Vec::with_capacity(4 * pieces.len());
-    for placed in pieces {
-        match &placed.piece {
-            Piece::Triangle(t) => keys.extend(t),
-            Piece::Quad(q) => keys.extend(q),
-        }
-    }
+    let named = pieces.iter().map(|placed| placed.piece.vertices());
+    named.for_each(|vertices| keys.extend(vertices));
     keys.retain(|&key| is_crossing(key));
     keys.sort_unstable();
     keys.dedup();
     keys
+}
+
+/// Returns a piece of surface with the numbers of its vertices.
+fn number_vertices(placed: PlacedPiece<VertexKey>, named: Named) -> PlacedPiece<Vertex> {
+    PlacedPiece {
+        piece: placed.piece.renamed(|key| vertex_of(key, named)),
+        leaves: placed.leaves,
+    }
+}
+
+/// Returns for each list the end of its items if all lists stand one after the other.
+fn running_ends<T>(lists: &[Vec<T>]) -> Vec<usize> {
+    let mut end = 0;
+    let lengths = lists.iter().map(Vec::len);
+    lengths
+        .map(|length| {
+            end += length;
+            end
+        })
+        .collect()
 }
 
 /// Returns an estimate of the surface's distance from the chord between two of its points, mm;
@@ -334,6 +361,7 @@ fn crossings_of(pieces: &[PlacedPiece]) -> Vec<VertexKey> {
 ///
 /// A single crease between two planes that meet the chord at angles α and β strays by |ab|
 /// αβ/(α+β). This is at most |ab| (α+β)/4, the value returned. An arc strays by half of it.
+#[inline]
 fn bend_mm(a: &Known, b: &Known) -> f64 {
     (a.sample.gradient - b.sample.gradient).dot(&(b.at - a.at)) / 4.0
 }

@@ -30,6 +30,7 @@ impl Sample {
     }
 
     /// Returns whether the point belongs to the region.
+    #[inline]
     pub fn is_positive(&self) -> bool {
         self.value > 0.0
     }
@@ -60,6 +61,12 @@ pub(super) trait Field: Sync {
 
     /// Returns whether the ball about a sampled point certainly holds no zero of the function.
     fn is_free(&self, center: &Known, radius_mm: f64) -> bool;
+
+    /// Returns whether the function falls and rises along its gradient by as much as the way.
+    /// Gradients then lead to its zeros.
+    fn is_distance(&self) -> bool {
+        false
+    }
 
     /// Returns whether a cell that may hold the surface must be divided, whatever its triangles are
     /// like.

@@ -15,11 +15,13 @@ pub(super) type Key = u64;
 const KEY_BITS: u32 = 21;
 
 /// Returns a grid position packed into one word.
+#[inline]
 pub(super) fn key(grid: Grid) -> Key {
     grid.iter().fold(0, |key, &c| key << KEY_BITS | c as u64)
 }
 
 /// Returns the grid position of a packed one.
+#[inline]
 pub(super) fn grid(key: Key) -> Grid {
     let mask = (1 << KEY_BITS) - 1;
     [2, 1, 0].map(|i| (key >> (i * KEY_BITS) & mask) as i32)
@@ -145,12 +147,14 @@ impl Links {
 }
 
 /// Returns the axis of a face, and whether the face is at its upper end.
+#[inline]
 fn axis(face: usize) -> (usize, bool) {
     (face / 2, face % 2 == 1)
 }
 
 /// Returns the ends of a face's edge, ordered so that the leaf's centre, the far end and these two
 /// are positively oriented.
+#[inline]
 fn ends(face: usize, i: usize) -> [Slot; 2] {
     let (axis, is_up) = axis(face);
     let slot = |ring: [i32; 2]| {
@@ -163,6 +167,7 @@ fn ends(face: usize, i: usize) -> [Slot; 2] {
 }
 
 /// Returns the grid vector with the components u and v along the two axes that follow `axis`.
+#[inline]
 fn in_face(axis: usize, [u, v]: [i32; 2]) -> Grid {
     let mut steps = [0; 3];
     steps[(axis + 1) % 3] = u;
@@ -190,17 +195,31 @@ fn across(tree: &Octree, cell: &Cell, face: usize) -> Across {
     }
 }
 
+/// Number of cells in a block of three by three by three.
+const PLACES_AROUND: usize = 27;
+
+/// Returns the place of the neighbour in a direction, in a block of three by three by three cells.
+#[inline]
+fn place_around([x, y, z]: Grid) -> usize {
+    (13 + x + 3 * y + 9 * z) as usize
+}
+
 /// Returns the edges that a finer leaf touches, as bits like those of [`Links`]. Of the four places
 /// around an edge only the two beyond the pair of leaves can be divided.
 fn find_halved_edges(tree: &Octree, cell: &Cell) -> u32 {
+    let mut divided = [false; PLACES_AROUND];
+    for direction in NEIGHBOURS {
+        let corner = cell.neighbour_corner(direction);
+        divided[place_around(direction)] = tree.is_divided(corner, cell.size);
+    }
     let mut bits = 0;
     for face in 0..6 {
         let (axis, is_up) = axis(face);
         for (i, &beyond) in BEYOND.iter().enumerate() {
             let mut direction = in_face(axis, beyond);
-            let beside = tree.is_divided(cell.neighbour_corner(direction), cell.size);
+            let beside = divided[place_around(direction)];
             direction[axis] = if is_up { 1 } else { -1 };
-            let is_halved = beside || tree.is_divided(cell.neighbour_corner(direction), cell.size);
+            let is_halved = beside || divided[place_around(direction)];
             bits |= u32::from(is_halved) << (4 * face + i);
         }
     }

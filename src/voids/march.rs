@@ -20,17 +20,37 @@ const PAIR_FIRST: [[usize; 4]; 6] = [
 ];
 
 /// A triangle or a quadrilateral of surface, counter-clockwise as seen from outside the region.
+///
+/// Its vertices are known by a name of the type `V`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Piece {
+pub(super) enum Piece<V> {
     /// Three vertices.
-    Triangle([VertexKey; 3]),
+    Triangle([V; 3]),
     /// Four vertices, not in one plane; either diagonal stays in the tetrahedron.
-    Quad([VertexKey; 4]),
+    Quad([V; 4]),
+}
+
+impl<V: Copy> Piece<V> {
+    /// Returns the vertices.
+    pub fn vertices(&self) -> &[V] {
+        match self {
+            Self::Triangle(t) => t,
+            Self::Quad(q) => q,
+        }
+    }
+
+    /// Returns the piece with other names for its vertices.
+    pub fn renamed<W>(self, rename: impl FnMut(V) -> W) -> Piece<W> {
+        match self {
+            Self::Triangle(t) => Piece::Triangle(t.map(rename)),
+            Self::Quad(q) => Piece::Quad(q.map(rename)),
+        }
+    }
 }
 
 /// Returns the piece of surface that separates the positive corners of a positively oriented
 /// tetrahedron from the others. `None` if all are alike.
-pub(super) fn piece(corners: [u32; 4], positive: [bool; 4]) -> Option<Piece> {
+pub(super) fn piece(corners: [u32; 4], positive: [bool; 4]) -> Option<Piece<VertexKey>> {
     let cross = |i: usize, j: usize| crossing_key(corners[i], corners[j]);
     match positive.iter().filter(|&&p| p).count() {
         0 | 4 => None,

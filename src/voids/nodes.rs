@@ -46,6 +46,7 @@ pub(super) struct Numbers {
 
 impl Numbers {
     /// Returns the number of the corner in a slot, which must be in use.
+    #[inline]
     pub fn at(&self, slot: Slot) -> u32 {
         let before = self.used & ((1 << slot) - 1);
         self.numbers[before.count_ones() as usize]
@@ -61,12 +62,19 @@ struct Need {
 }
 
 impl Nodes {
+    /// Returns the number of corners.
+    pub fn len(&self) -> usize {
+        self.nodes.len()
+    }
+
     /// Returns a corner by its number.
+    #[inline]
     pub fn node(&self, number: u32) -> &Node {
         &self.nodes[number as usize]
     }
 
     /// Returns whether a corner lies in the region.
+    #[inline]
     pub fn is_positive(&self, number: u32) -> bool {
         self.positive[number as usize]
     }

@@ -60,11 +60,13 @@ pub(super) struct Cell {
 
 impl Cell {
     /// Returns the grid position of the centre.
+    #[inline]
     pub fn center_grid(&self) -> Grid {
         self.corner.map(|c| c + self.size / 2)
     }
 
     /// Returns the corner of the neighbour of the same size in a direction.
+    #[inline]
     pub fn neighbour_corner(&self, direction: Grid) -> Grid {
         [0, 1, 2].map(|i| self.corner[i] + direction[i] * self.size)
     }
@@ -122,27 +124,32 @@ impl Octree {
     }
 
     /// Returns the cell of this number.
+    #[inline]
     pub fn cell(&self, index: u32) -> &Cell {
         &self.cells[index as usize]
     }
 
     /// Returns the side of the root, units.
+    #[inline]
     pub fn root_size(&self) -> i32 {
         self.cells[0].size
     }
 
     /// Returns a length given in units, mm.
+    #[inline]
     pub fn length_mm(&self, units: i32) -> f64 {
         f64::from(units) * self.unit_mm
     }
 
     /// Returns the point at a grid position.
+    #[inline]
     pub fn point(&self, grid: Grid) -> Point {
         self.origin + crate::geom::Vector::from(grid.map(f64::from)) * self.unit_mm
     }
 
     /// Returns the cell of this size at this corner, or the leaf that holds it. `None` outside the
     /// root.
+    #[inline]
     pub fn at(&self, corner: Grid, size: i32) -> Option<u32> {
         let root = self.root_size();
         if corner.iter().any(|&c| c < 0 || c >= root) {
@@ -161,11 +168,13 @@ impl Octree {
     }
 
     /// Returns whether a cell has no children.
+    #[inline]
     pub fn is_leaf(&self, index: u32) -> bool {
         self.children[index as usize] == 0
     }
 
     /// Returns whether the cell of this size at this corner is divided.
+    #[inline]
     pub fn is_divided(&self, corner: Grid, size: i32) -> bool {
         self.at(corner, size)
             .is_some_and(|index| !self.is_leaf(index))

@@ -25,6 +25,10 @@ const SINGULAR_MM: f64 = 0.5;
 /// Margin of the region around the box, mm, so that its own faces stay clear of the box's contents.
 const MARGIN_MM: f64 = 1.0;
 
+/// Steps to which the region's box is rounded, mm, so that rounding errors of the body's surface do
+/// not move the lattice. They are far above these errors and far below the margin.
+const SNAP_MM: f64 = 1.0 / 64.0;
+
 /// Largest stray of the drawn triangles' sides from the quadric, as a share of the tolerance. With
 /// the simplification it makes half the tolerance, as a triangle's middle strays 4/3 as far as its
 /// sides.
@@ -84,7 +88,8 @@ pub(super) fn positive_region(
             Region::Nothing
         });
     }
-    let mesh = draw(&field, &aabb.inflated(MARGIN_MM), tolerance_mm, watch)?;
+    let room = snapped(&aabb.inflated(MARGIN_MM));
+    let mesh = draw(&field, &room, tolerance_mm, watch)?;
     if mesh.triangles().is_empty() {
         return Ok(Region::Nothing);
     }
@@ -102,6 +107,15 @@ pub(super) fn positive_region(
         watch,
     )?;
     Ok(Region::Part(Box::new(Csg::of_mesh(&simple)?)))
+}
+
+/// Returns the box with its sides rounded to [`SNAP_MM`].
+fn snapped(aabb: &Aabb) -> Aabb {
+    let snap = |x: f64| (x / SNAP_MM).round() * SNAP_MM;
+    Aabb {
+        min: aabb.min.map(snap),
+        max: aabb.max.map(snap),
+    }
 }
 
 fn draw(

@@ -12,6 +12,7 @@ pub(super) type IndexMap = HashMap<u64, u32, BuildHasherDefault<MixHasher>>;
 pub(super) struct MixHasher(u64);
 
 impl Hasher for MixHasher {
+    #[inline]
     fn finish(&self) -> u64 {
         self.0
     }
@@ -22,6 +23,7 @@ impl Hasher for MixHasher {
             .for_each(|&byte| self.write_u64(u64::from(byte)));
     }
 
+    #[inline]
     fn write_u64(&mut self, word: u64) {
         let mut z = (self.0 ^ word).wrapping_add(0x9e37_79b9_7f4a_7c15);
         z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);

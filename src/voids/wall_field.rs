@@ -84,6 +84,10 @@ impl Field for WallField<'_> {
         center.sample.value.abs() > radius_mm
     }
 
+    fn is_distance(&self) -> bool {
+        true
+    }
+
     fn is_too_coarse(&self, _center: &Known, size_mm: f64) -> bool {
         size_mm > self.coarse_mm * (1.0 + 1e-9)
     }

@@ -10,13 +10,24 @@ use crate::geom::{Aabb, Point, Vector};
 pub(super) struct Probe<'a> {
     corners: &'a [Point; 3],
     center: Point,
+    /// The corners seen from the centre.
+    steps: [Vector; 3],
+    /// Largest distance of a corner from the centre, mm.
+    radius_mm: f64,
 }
 
 impl<'a> Probe<'a> {
     #[inline]
     pub(super) fn new(corners: &'a [Point; 3]) -> Self {
         let center = Point::from((corners[0].coords + corners[1].coords + corners[2].coords) / 3.0);
-        Self { corners, center }
+        let steps = corners.map(|corner| corner - center);
+        let radius_squared = steps.iter().map(Vector::norm_squared).fold(0.0, f64::max);
+        Self {
+            corners,
+            center,
+            steps,
+            radius_mm: radius_squared.sqrt(),
+        }
     }
 
     /// Returns a lower bound of the distance to a box.
@@ -30,25 +41,40 @@ impl<'a> Probe<'a> {
         self.tangent_bound_from(self.center.coords - nearest)
     }
 
-    /// Returns a lower bound of the distance to a triangle.
+    /// Returns whether no point of a box is certainly nearer than `limit_mm`.
     #[inline]
-    fn triangle_bound(&self, other: &[Point; 3]) -> f64 {
-        self.tangent_bound_from(self.center - closest_on_triangle(&self.center, other).point)
+    pub(super) fn is_clear_of_box(&self, aabb: &Aabb, limit_mm: f64) -> bool {
+        let center = &self.center.coords;
+        let nearest = center.sup(&aabb.min.coords).inf(&aabb.max.coords);
+        self.is_clear(&(center - nearest), limit_mm)
+    }
+
+    /// Returns whether a convex set whose point nearest to the centre is at `center - offset` is
+    /// certainly no nearer than `limit_mm`, by the tangent bound.
+    #[inline]
+    fn is_clear(&self, offset: &Vector, limit_mm: f64) -> bool {
+        let squared = offset.norm_squared();
+        let reach_mm = limit_mm + self.radius_mm;
+        if squared >= reach_mm * reach_mm {
+            return true;
+        }
+        let falls = self.steps.map(|step| offset.dot(&step));
+        squared > 0.0 && squared + falls[0].min(falls[1]).min(falls[2]) >= limit_mm * squared.sqrt()
     }
 
     /// Returns true if another triangle is nearer than `limit_mm`.
     #[inline]
     pub(super) fn is_within(&self, other: &[Point; 3], limit_mm: f64) -> bool {
-        let bound = self.triangle_bound(other);
-        if bound >= limit_mm {
+        let offset = self.center - closest_on_triangle(&self.center, other).point;
+        if limit_mm <= 0.0 || self.is_clear(&offset, limit_mm) {
             return false;
         }
-        let gap = if bound > 0.0 {
+        let gap = if self.is_clear(&offset, 0.0) {
             disjoint_triangles_distance_squared
         } else {
             triangle_triangle_distance_squared
         };
-        limit_mm > 0.0 && gap(self.corners, other) < limit_mm * limit_mm
+        gap(self.corners, other) < limit_mm * limit_mm
     }
 
     /// Returns the tangent bound of a convex set whose nearest point is at `center - offset`.

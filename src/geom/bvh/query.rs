@@ -75,8 +75,8 @@ impl Bvh {
         let aabb = Aabb::of_points(corners);
         let limit_squared = limit_mm.max(0.0).powi(2);
         let bound = |other: &Aabb| {
-            let is_apart =
-                gap_squared(&aabb, other) >= limit_squared || probe.bound(other) >= limit_mm;
+            let is_apart = gap_squared(&aabb, other) >= limit_squared
+                || probe.is_clear_of_box(other, limit_mm);
             if is_apart { f64::INFINITY } else { 0.0 }
         };
         self.visit(

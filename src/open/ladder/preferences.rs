@@ -191,7 +191,8 @@ impl<'a> Ladder<'a> {
     /// Places the pins of a draft, or of one with fewer parts in its place.
     ///
     /// That is taken if it costs next to nothing of the goal's figure. It may cost more if all its
-    /// joints have pins, and those of the other have neither pins nor jigs. Else the sheet offers it.
+    /// joints have pins, and some of the other have neither pins nor jigs. Else the sheet offers
+    /// it.
     pub(super) fn join_parts(&mut self, usual: Way<'a>) -> Result<Way<'a>, Error> {
         let Some(fewer) = self.draft_fewer_parts(&usual)? else {
             return self.finish(usual);

@@ -35,6 +35,8 @@ struct Scratch {
     others: Vec<u32>,
     ring: Vec<u32>,
     points: Vec<u32>,
+    /// Edges that may be merged, with their squared lengths, mm².
+    near: Vec<(f64, u32)>,
     new_triangles: Vec<NewTriangle>,
     nearest: Vec<usize>,
 }
@@ -44,6 +46,8 @@ struct NewTriangle {
     triangle: u32,
     corners: [Point; 3],
     normal: Vector,
+    /// For each side, a vector in the plane that points across it into the triangle.
+    inward: [Vector; 3],
     /// Height above the vertex that vanishes, mm; negative inside the body.
     outside_mm: f64,
 }
@@ -53,6 +57,13 @@ impl NewTriangle {
     /// everything inside it.
     fn is_inside(&self) -> bool {
         self.outside_mm <= FLAT_MM
+    }
+
+    /// Returns whether a point lies straight above or below the triangle, no farther away than
+    /// `limit_mm`.
+    fn is_beside(&self, p: &Point, limit_mm: f64) -> bool {
+        self.normal.dot(&(p - self.corners[0])).abs() <= limit_mm
+            && (0..3).all(|i| self.inward[i].dot(&(p - self.corners[i])) >= 0.0)
     }
 }
 
@@ -75,29 +86,29 @@ impl Patch {
         if !self.fan(v, &mut scratch.fan) {
             return;
         }
-        let mut near: Vec<(f64, u32)> = scratch
-            .fan
-            .iter()
-            .map(|&edge| {
-                (
-                    (self.points[self.end(edge) as usize] - self.points[v as usize]).norm_squared(),
-                    edge,
-                )
-            })
-            .filter(|&(squared, _)| {
-                squared <= length_mm * length_mm && squared > self.tried[v as usize]
-            })
-            .collect();
+        let at = self.points[v as usize];
+        let with_length = |&edge: &u32| {
+            let squared = (self.points[self.end(edge) as usize] - at).norm_squared();
+            (squared, edge)
+        };
+        let is_due = |&(squared, _): &(f64, u32)| {
+            squared <= length_mm * length_mm && squared > self.tried[v as usize]
+        };
+        scratch.near.clear();
+        let near = scratch.fan.iter().map(with_length).filter(is_due);
+        scratch.near.extend(near);
         self.tried[v as usize] = self.tried[v as usize].max(length_mm * length_mm);
-        if near.is_empty() {
+        if scratch.near.is_empty() {
             return;
         }
-        near.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        let by_length = |a: &(f64, u32), b: &(f64, u32)| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1));
+        scratch.near.sort_unstable_by(by_length);
         self.collect_points(v, scratch);
         if scratch.points.len() > POINTS_MAX {
             return;
         }
-        for &(_, edge) in near.iter().take(TRIES) {
+        for i in 0..scratch.near.len().min(TRIES) {
+            let (_, edge) = scratch.near[i];
             if self.is_link_simple(edge, scratch)
                 && self.make_triangles(edge, scratch)
                 && self.assign_points(rules.stray, scratch)
@@ -186,6 +197,7 @@ impl Patch {
                 triangle: leaving / 3,
                 corners,
                 normal,
+                inward: inward(&corners, &normal),
                 outside_mm,
             });
         }
@@ -265,6 +277,13 @@ impl Patch {
 /// Returns the new triangle nearest to an old vertex, or `None` if the surface strays too far from
 /// it. A vertex above the triangle means that the surface now runs inside the body.
 fn nearest_triangle(p: &Point, new_triangles: &[NewTriangle], stray: Stray) -> Option<usize> {
+    let close_mm = stray.inside_mm.min(stray.outside_mm);
+    let straight = new_triangles
+        .iter()
+        .position(|new| new.is_beside(p, close_mm));
+    if straight.is_some() {
+        return straight;
+    }
     let mut best = (f64::INFINITY, 0, Vector::zeros());
     for (i, candidate) in new_triangles.iter().enumerate() {
         let offset = p - closest_on_triangle(p, &candidate.corners).point;
@@ -281,6 +300,11 @@ fn nearest_triangle(p: &Point, new_triangles: &[NewTriangle], stray: Stray) -> O
         stray.outside_mm
     };
     (squared <= limit_mm * limit_mm).then_some(i)
+}
+
+/// Returns for each side of a triangle a vector in its plane that points across it inward.
+fn inward([a, b, c]: &[Point; 3], normal: &Vector) -> [Vector; 3] {
+    [b - a, c - b, a - c].map(|side| normal.cross(&side))
 }
 
 fn longest_squared([a, b, c]: &[Point; 3]) -> f64 {

@@ -35,11 +35,13 @@ pub(super) struct Patch {
 }
 
 /// Returns the next half-edge of the same triangle.
+#[inline]
 pub(super) fn next(edge: u32) -> u32 {
     if edge % 3 == 2 { edge - 2 } else { edge + 1 }
 }
 
 /// Returns the previous half-edge of the same triangle.
+#[inline]
 pub(super) fn last(edge: u32) -> u32 {
     if edge.is_multiple_of(3) {
         edge + 2
@@ -49,6 +51,7 @@ pub(super) fn last(edge: u32) -> u32 {
 }
 
 /// Returns twice the area vector of a triangle.
+#[inline]
 pub(super) fn area_vector([a, b, c]: &[Point; 3]) -> Vector {
     (b - a).cross(&(c - a))
 }
@@ -141,12 +144,14 @@ impl Patch {
     }
 
     /// Lets a triangle stand for a removed vertex.
+    #[inline]
     pub fn give(&mut self, triangle: u32, point: u32) {
         self.next_point[point as usize] = self.first_point[triangle as usize];
         self.first_point[triangle as usize] = point;
     }
 
     /// Returns the removed vertices that a triangle stands for.
+    #[inline]
     pub fn points_of(&self, triangle: u32) -> impl Iterator<Item = u32> + '_ {
         let some = |point: u32| (point != NIL).then_some(point);
         std::iter::successors(some(self.first_point[triangle as usize]), move |&point| {
@@ -155,12 +160,14 @@ impl Patch {
     }
 
     /// Returns the vertex at which a half-edge ends.
+    #[inline]
     pub fn end(&self, edge: u32) -> u32 {
         self.start[next(edge) as usize]
     }
 
     /// Writes the half-edges that leave a vertex, clockwise, into `fan`. Returns false if the
     /// vertex is on the border.
+    #[inline]
     pub fn fan(&self, v: u32, fan: &mut Vec<u32>) -> bool {
         fan.clear();
         let first = self.leaving[v as usize];
@@ -179,6 +186,7 @@ impl Patch {
     }
 
     /// Writes the neighbours of a vertex, also of one on the border, into `found`.
+    #[inline]
     pub fn neighbours(&self, v: u32, found: &mut Vec<u32>) {
         let is_closed = self.fan(v, found);
         let first = found[0];

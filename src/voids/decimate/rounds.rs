@@ -21,7 +21,7 @@ const LATER_SLABS: usize = 2;
 /// the slabs of the next.
 const ROUNDS: usize = 3;
 
-/// A slab before its vertices are merge: everything on which the outcome depends.
+/// A slab before its vertices are merged: everything on which the outcome depends.
 #[derive(PartialEq)]
 struct Slab {
     parts: Parts,
@@ -39,7 +39,19 @@ struct Done {
 pub struct Decimation<'a> {
     mesh: &'a TriMesh,
     rules: Rules<'a>,
+    first: FirstRound,
     rounds: Vec<Round>,
+}
+
+/// The first round, which always starts from the same triangles: of a slab only the locked vertices
+/// can have changed.
+struct FirstRound {
+    start: State,
+    slabs: Slabs,
+    /// The vertices that were locked in the last run.
+    locked: Vec<bool>,
+    /// The slabs' results of the last run; none before it.
+    done: Vec<Parts>,
 }
 
 /// A round: the positions of its cuts, and the slabs and results of the last run.
@@ -71,7 +83,8 @@ impl<'a> Decimation<'a> {
         Self {
             mesh,
             rules,
-            rounds: (0..ROUNDS).map(round).collect(),
+            first: FirstRound::new(mesh, &round(0)),
+            rounds: (1..ROUNDS).map(round).collect(),
         }
     }
 
@@ -80,18 +93,10 @@ impl<'a> Decimation<'a> {
     /// The result is closed and 2-manifold; it may intersect itself where sheets are nearer than
     /// the tolerance. It does not depend on the number of threads, nor on earlier runs.
     pub fn run(&mut self, locked: &[bool], watch: &Watch) -> Result<Vec<[u32; 3]>, Cancelled> {
-        let triangles = self.mesh.triangles();
-        let parts = Parts {
-            triangles: triangles.to_vec(),
-            points: Vec::new(),
-            ends: vec![0; triangles.len()],
-        };
-        let mut state = State {
-            parts,
-            is_open: vec![true; self.mesh.vertices().len()],
-        };
+        let vertices = self.mesh.vertices();
+        let mut state = self.first.run(vertices, locked, self.rules, watch)?;
         for round in &mut self.rounds {
-            let slabs = Slabs::new(&state, self.mesh.vertices(), round);
+            let slabs = Slabs::new(&state, vertices, round);
             let is_locked = |v: u32| locked[v as usize] || slabs.of_vertex[v as usize] == SEVERAL;
             let mut known = std::mem::take(&mut round.done);
             known.resize_with(slabs.triangles.len(), Done::none);
@@ -101,7 +106,7 @@ impl<'a> Decimation<'a> {
                 if before == known.before {
                     return Ok(known);
                 }
-                let mut patch = Patch::new(&state, self.mesh.vertices(), slab, &is_locked);
+                let mut patch = Patch::new(&state, vertices, slab, &is_locked);
                 patch.decimate(self.rules);
                 Ok(Done {
                     before,
@@ -109,9 +114,73 @@ impl<'a> Decimation<'a> {
                 })
             });
             round.done = done.collect::<Result<_, Cancelled>>()?;
-            state = slabs.merge(&round.done);
+            state = slabs.merge(round.done.iter().map(|done| &done.after));
         }
         Ok(state.parts.triangles)
+    }
+}
+
+impl FirstRound {
+    fn new(mesh: &TriMesh, round: &Round) -> Self {
+        let parts = Parts {
+            triangles: mesh.triangles().to_vec(),
+            points: Vec::new(),
+            ends: vec![0; mesh.triangles().len()],
+        };
+        let start = State {
+            parts,
+            is_open: vec![true; mesh.vertices().len()],
+        };
+        Self {
+            slabs: Slabs::new(&start, mesh.vertices(), round),
+            start,
+            locked: Vec::new(),
+            done: Vec::new(),
+        }
+    }
+
+    /// Decimates the slabs whose locked vertices have changed since the last run.
+    fn run(
+        &mut self,
+        vertices: &[Point],
+        locked: &[bool],
+        rules: Rules,
+        watch: &Watch,
+    ) -> Result<State, Cancelled> {
+        let slabs = &self.slabs;
+        let is_locked = |v: u32| locked[v as usize] || slabs.of_vertex[v as usize] == SEVERAL;
+        let mut known = std::mem::take(&mut self.done).into_iter().map(Some);
+        let known: Vec<Option<Parts>> = slabs
+            .triangles
+            .iter()
+            .map(|slab| {
+                known
+                    .next()
+                    .flatten()
+                    .filter(|_| self.is_as_before(slab, locked))
+            })
+            .collect();
+        let done = slabs.triangles.par_iter().zip(known).map(|(slab, known)| {
+            watch.check()?;
+            Ok(known.unwrap_or_else(|| {
+                let mut patch = Patch::new(&self.start, vertices, slab, &is_locked);
+                patch.decimate(rules);
+                patch.into_parts()
+            }))
+        });
+        self.done = done.collect::<Result<_, Cancelled>>()?;
+        self.locked = locked.to_vec();
+        Ok(self.slabs.merge(self.done.iter()))
+    }
+
+    /// Returns whether the same vertices of a slab are locked as in the last run.
+    fn is_as_before(&self, slab: &[u32], locked: &[bool]) -> bool {
+        let corners = slab
+            .iter()
+            .flat_map(|&t| self.start.parts.triangles[t as usize]);
+        corners
+            .map(|v| v as usize)
+            .all(|v| locked[v] == self.locked[v])
     }
 }
 
@@ -196,9 +265,9 @@ impl Slabs {
     }
 
     /// Returns the slabs' results as one mesh.
-    fn merge(&self, done: &[Done]) -> State {
+    fn merge<'p>(&self, done: impl Iterator<Item = &'p Parts>) -> State {
         let mut parts = Parts::default();
-        done.iter().for_each(|done| parts.append(&done.after));
+        done.for_each(|done| parts.append(done));
         let mut state = State {
             parts,
             is_open: self.of_vertex.iter().map(|&slab| slab == SEVERAL).collect(),
