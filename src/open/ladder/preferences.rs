@@ -209,12 +209,7 @@ impl<'a> Ladder<'a> {
         }
         let usual = self.finish(usual)?;
         let is_worth = is_as_good && loss_ratio <= self.policy.aligned_loss_ratio;
-        let is_loose = if self.policy.jigs_first {
-            usual.count_unaligned()? > 0
-        } else {
-            !usual.is_full()
-        };
-        if is_worth && is_loose {
+        if is_worth && usual.count_unaligned()? > 0 {
             let fewer = self.finish(fewer.clone())?;
             if fewer.is_full() {
                 self.request = fewer.request.clone();
