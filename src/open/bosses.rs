@@ -74,14 +74,6 @@ impl Bossed {
         }
     }
 
-    /// Returns voids and a plan with the bosses of these rounds in them.
-    pub fn with(voids: Voids, plan: CutPlan, rounds: Vec<BossRound>) -> Self {
-        Self {
-            rounds,
-            ..Self::without(voids, plan)
-        }
-    }
-
     /// Returns whether joints lack only bosses that cost too much.
     pub fn has_dear(&self) -> bool {
         !self.failed.dear_ones().is_empty()

@@ -57,9 +57,8 @@ pub struct Keep {
 /// Voids are corrected in the end alone: corrections move surfaces by micrometres, which changes
 /// nothing of what is seen.
 ///
-/// The cuts of the first draft are held, of its own or of one that it starts from. Chosen anew in
-/// each round, cuts would wander to where more and more stays solid, and take most of the time.
-/// They are chosen anew only where the goal would be lost.
+/// The cuts of a draft that it starts from are held. Chosen anew in each round, cuts that weigh
+/// what they leave unclean would wander to where more and more stays solid.
 ///
 /// It stops, with what is not clean yet, as soon as `is_lost` says that the voids have lost too
 /// much: further rounds only lose more. The voids then have their last solution, and the surfaces
@@ -73,18 +72,17 @@ pub fn clean(
     let placed = resolver.placed();
     let mut rounds = Vec::new();
     let mut request = request.clone();
-    let is_held = start.draft.is_some();
-    let (mut voids, mut held) = (start.voids, start.draft);
+    let Start {
+        mut voids,
+        draft: held,
+    } = start;
     loop {
         resolver.watch().check()?;
         let plan = match &held {
             Some(first) if rounds.is_empty() => Verdict::Found(first.clone()),
-            Some(first) if is_held => draft_again(&voids.hollowed, &request, first)?,
-            _ => draft_as_before(placed, &voids, &request, held.as_ref())?,
+            Some(first) => draft_again(&voids.hollowed, &request, first)?,
+            None => draft_once(placed, &voids, &request)?,
         };
-        if let (false, Verdict::Found(plan)) = (is_held, &plan) {
-            held = Some(plan.clone());
-        }
         let round = Round {
             placed,
             voids: &voids,
@@ -116,7 +114,7 @@ pub fn clean(
                 rounds.push(round);
             }
             // Rather any further cut, however seen, than a goal that cannot be met.
-            (None, Verdict::Found(_)) if !is_held && allow_more_cuts(&mut request) => held = None,
+            (None, Verdict::Found(_)) if held.is_none() && allow_more_cuts(&mut request) => {}
             (None, plan) => {
                 rounds.push(round);
                 let plan = plan.or_error::<CutError>()?;
@@ -128,23 +126,6 @@ pub fn clean(
             }
         }
     }
-}
-
-/// Drafts the cuts of the round before, if there are any and they still open every void; else
-/// others. What stays solid may close an end of a void that the cuts opened.
-fn draft_as_before(
-    placed: &Placed,
-    voids: &Voids,
-    request: &PlanRequest,
-    before: Option<&CutPlan>,
-) -> Result<Verdict<CutPlan, Obstacle>, CutError> {
-    if let Some(before) = before {
-        let again = draft_again(&voids.hollowed, request, before)?;
-        if matches!(again, Verdict::Found(_)) {
-            return Ok(again);
-        }
-    }
-    draft_once(placed, voids, request)
 }
 
 /// Allows cuts that were too dear until now: first any number, then seams wherever they are seen.

@@ -5,7 +5,7 @@ use super::bosses::{Bossed, add_bosses, pay_for_bosses};
 use super::clean::Start;
 use super::drain::clean_and_drain;
 use super::ground::Ground;
-use super::plan::{finish_once, is_planned};
+use super::plan::finish_once;
 use super::refused::unless_refused;
 use super::request::request;
 use super::resolve::Resolver;
@@ -14,7 +14,20 @@ use super::way::{Candidate, Way};
 use crate::base::watch::{Phase, Watch};
 use crate::cut::{CutError, CutPlan, PlanRequest, find_ends_beyond_unpinned_joints};
 use crate::error::Error;
-use crate::run::{KeptCause, Placed, Policy, Remark, Rung, Tendency, Voids};
+use crate::job::CutMode;
+use crate::run::{KeptCause, Placed, Policy, Remark, Rung, Solved, Tendency, Voids};
+
+/// Opens the voids of a solution, on the lowest rung that gives every joint its pins.
+///
+/// Returns the plans worth making, best first and never none. The later ones do less for the pins:
+/// they are for a kit that breaks a promise with the first. Cuts that a person ordered stay.
+pub fn climb<'a>(
+    placed: &'a Placed,
+    solved: Solved,
+    watch: &Watch,
+) -> Result<Vec<Candidate<'a>>, Error> {
+    Ladder::new(placed, solved, watch)?.climb()
+}
 
 /// Counts the joints of the best plan that neither pins nor a jig align.
 fn count_unaligned_in_best(candidates: &[Candidate]) -> Result<usize, CutError> {
@@ -42,10 +55,11 @@ pub(super) struct Ladder<'a> {
 
 impl<'a> Ladder<'a> {
     /// Draws the voids, without what the job's plan keeps solid.
-    pub(super) fn new(mut resolver: Resolver<'a>) -> Result<Self, Error> {
-        let (placed, watch) = (resolver.placed(), &resolver.watch().clone());
-        watch.enter(Phase::Voids);
+    pub(super) fn new(placed: &'a Placed, solved: Solved, watch: &Watch) -> Result<Self, Error> {
+        watch.enter(Phase::Shell);
         let request = request(placed, watch)?;
+        let mut resolver = Resolver::new(placed, solved, watch)?;
+        watch.enter(Phase::Voids);
         let voids = resolver.draw()?;
         let ground = Ground {
             resolver,
@@ -162,7 +176,7 @@ impl<'a> Ladder<'a> {
 
     /// Returns whether the planner may choose other cuts.
     fn is_free(&self) -> bool {
-        is_planned(self.placed)
+        self.placed.job.plan.is_none() && self.placed.job.cut == CutMode::Auto
     }
 
     /// Returns whether a rung beyond the usual plan is worth trying after those before it.

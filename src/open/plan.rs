@@ -57,7 +57,7 @@ pub fn finish_once(
 }
 
 /// Returns whether the planner chooses the cuts.
-pub fn is_planned(placed: &Placed) -> bool {
+fn is_planned(placed: &Placed) -> bool {
     placed.job.plan.is_none() && placed.job.cut == CutMode::Auto
 }
 

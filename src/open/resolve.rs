@@ -1,8 +1,6 @@
 //! Solving again: voids are drawn, measured, and solved for again until they meet the goal
 //! ([`crate::guide::theory`]).
 
-use std::sync::Arc;
-
 use rayon::prelude::*;
 
 use super::defect::defect_ratio;
@@ -13,7 +11,7 @@ use crate::error::Error;
 use crate::geom::{Aabb, Point};
 use crate::hollow::{Solution, TopCourse};
 use crate::mass::{Moments, moments_of_mesh};
-use crate::mesh::{Csg, Solid, TriMesh};
+use crate::mesh::{Solid, TriMesh};
 use crate::run::{HeightProof, Placed, Solved, Voids};
 use crate::voids::{Cavity, CavitySpec, VoidError, grow_bodies, without_slivers};
 
@@ -33,20 +31,7 @@ pub struct Resolver<'a> {
     refused_mm3: f64,
     /// Volume of bosses that could have been emptied, mm³.
     bosses_mm3: f64,
-    /// The bodies that were taken out of what may be emptied, margins included.
-    kept: Vec<Arc<TriMesh>>,
     watch: Watch,
-}
-
-/// What a search has kept solid, to be kept solid in another copy of the body.
-#[derive(Debug, Clone)]
-pub struct Kept {
-    /// The bodies, margins included. They may touch.
-    bodies: Vec<Arc<TriMesh>>,
-    /// The solution for the rest.
-    solution: Solution,
-    refused_mm3: f64,
-    bosses_mm3: f64,
 }
 
 /// Closed bodies that are to be kept solid.
@@ -71,16 +56,6 @@ impl<'a> Resolver<'a> {
             let mut jackets = solved.load.jackets();
             jackets.try_fold(whole, |rest, jacket| rest.without(&jacket.mesh()))?
         };
-        Self::of_cavity(placed, solved, cavity, watch)
-    }
-
-    /// Takes a cavity as the region that may be emptied.
-    fn of_cavity(
-        placed: &'a Placed,
-        solved: Solved,
-        cavity: Cavity,
-        watch: &Watch,
-    ) -> Result<Self, Error> {
         Ok(Self {
             placed,
             first_value: solved.solution.certificate.value,
@@ -89,48 +64,8 @@ impl<'a> Resolver<'a> {
             given: Hollowed::of_solid(placed.solid()).map_err(VoidError::from)?,
             refused_mm3: 0.0,
             bosses_mm3: 0.0,
-            kept: Vec::new(),
             watch: watch.clone(),
         })
-    }
-
-    /// Returns a resolver for a coarse copy of the body, with a surface of its region that strays
-    /// by at most `stray_mm` more.
-    pub fn coarsened<'b>(
-        &self,
-        placed: &'b Placed,
-        solved: Solved,
-        stray_mm: f64,
-    ) -> Result<Resolver<'b>, Error> {
-        let cavity = self.cavity.coarsened(stray_mm, &self.watch)?;
-        Resolver::of_cavity(placed, solved, cavity, &self.watch)
-    }
-
-    /// Returns what was kept solid, and the solution for the rest.
-    pub fn kept(&self) -> Kept {
-        Kept {
-            bodies: self.kept.clone(),
-            solution: self.solved.solution.clone(),
-            refused_mm3: self.refused_mm3,
-            bosses_mm3: self.bosses_mm3,
-        }
-    }
-
-    /// Keeps solid what was kept solid in another copy of the body, solves and draws once.
-    pub fn keep(&mut self, kept: &Kept) -> Result<Voids, Error> {
-        let bodies = kept.bodies.iter().map(|body| Csg::of_mesh(body));
-        let mut bodies = bodies.collect::<Result<Vec<_>, _>>()?.into_iter();
-        if let Some(first) = bodies.next() {
-            let all = bodies.try_fold(first, |all, body| all.union(&body))?;
-            self.exclude(&all.to_mesh()?)?;
-        }
-        (self.refused_mm3, self.bosses_mm3) = (kept.refused_mm3, kept.bosses_mm3);
-        let Solved { fixed, columns, .. } = &self.solved;
-        let known = Some(&kept.solution);
-        let solution = self.placed.solve(columns, *fixed, known, &self.watch);
-        self.solved.solution = solution.clone();
-        let fixed = self.solved.fixed;
-        self.voids(solution, fixed, 0)
     }
 
     /// Returns the goal in its model.
@@ -332,7 +267,6 @@ impl<'a> Resolver<'a> {
         );
         self.cavity = cavity?;
         self.solved.columns = columns?;
-        self.kept.push(Arc::new(solid.clone()));
         Ok(())
     }
 }

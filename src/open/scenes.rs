@@ -242,7 +242,6 @@ pub(super) fn solve(placed: &Placed) -> Solved {
         columns,
         height_proof: None,
         course: TopCourse::default(),
-        coarse: None,
     }
 }
 

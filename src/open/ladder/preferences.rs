@@ -190,9 +190,8 @@ impl<'a> Ladder<'a> {
 
     /// Places the pins of a draft, or of one with fewer parts in its place.
     ///
-    /// That is taken if it costs next to nothing of the goal's figure. It may cost more if all its
-    /// joints have pins, and some of the other have neither pins nor jigs. Else the sheet offers
-    /// it.
+    /// That is taken if it costs next to nothing of the goal's figure. It may cost a little if all
+    /// its joints have pins and those of the other lack them. Else the sheet offers it.
     pub(super) fn join_parts(&mut self, usual: Way<'a>) -> Result<Way<'a>, Error> {
         let Some(fewer) = self.draft_fewer_parts(&usual)? else {
             return self.finish(usual);
@@ -208,8 +207,7 @@ impl<'a> Ladder<'a> {
             return self.finish(fewer);
         }
         let usual = self.finish(usual)?;
-        let is_worth = is_as_good && loss_ratio <= self.policy.aligned_loss_ratio;
-        if is_worth && usual.count_unaligned()? > 0 {
+        if is_as_good && loss_ratio <= self.policy.aligned_loss_ratio && !usual.is_full() {
             let fewer = self.finish(fewer.clone())?;
             if fewer.is_full() {
                 self.request = fewer.request.clone();

@@ -36,7 +36,7 @@ fn dumbbell() -> Placed {
 }
 
 fn climb_silently(placed: &Placed) -> Vec<Candidate<'_>> {
-    ladder_of(placed).climb().unwrap()
+    climb(placed, solve(placed), &Watch::silent()).unwrap()
 }
 
 #[test]
@@ -205,8 +205,7 @@ fn a_run_cancelled_on_a_rung_ends_and_is_no_fault() {
     // The usual plan, that of wide joints, and the first of the last rung.
     for number in 0..3 {
         let watch = watch_that_stops_at_plan(number);
-        let resolver = Resolver::new(&placed, solve(&placed), &watch).unwrap();
-        let climbed = Ladder::new(resolver).and_then(Ladder::climb);
+        let climbed = climb(&placed, solve(&placed), &watch);
         assert!(watch.is_cancelled(), "plan {number} was begun");
         assert!(matches!(climbed, Err(Error::Cancelled)), "plan {number}");
     }
