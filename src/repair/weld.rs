@@ -7,46 +7,20 @@ use crate::mesh::TriMesh;
 use crate::mesh::edges::{EdgeKind, EdgeTable};
 use crate::mesh::union_find::UnionFind;
 
-/// Slots of the table of places for each vertex: below 2 long runs of slots are taken.
-const LEAST_SLOTS: usize = 2;
-/// The mark of a slot without a vertex; a mesh has fewer.
-const FREE: u32 = u32::MAX;
-/// An odd number without a pattern, the golden ratio's digits (Knuth, TAOCP 3, §6.4), and the
-/// rotation between coordinates, bits.
-const MULTIPLIER: u64 = 0x9e37_79b9_7f4a_7c15;
-const ROTATION: u32 = 23;
-
 /// Merges the vertices whose coordinates are equal numbers (−0.0 equals 0.0; NaN equals its own
 /// bits).
 ///
 /// The vertices keep the order of their first appearance and the triangles keep theirs, so a second
-/// weld changes nothing. Costs time linear in the vertices.
+/// weld changes nothing. Costs time linear in the vertices. No file makes it slower: nobody can
+/// foretell the hashes of the standard library.
 #[must_use]
 pub fn weld(mesh: &TriMesh) -> TriMesh {
-    let places = mesh.vertices();
-    let mask = (places.len() * LEAST_SLOTS).next_power_of_two() - 1;
-    let mut firsts = vec![FREE; mask + 1];
-    let first_there = |(v, place): (usize, &Point)| {
-        let key = place_key(place);
-        let mut slot = spread(key) & mask;
-        while firsts[slot] != FREE && place_key(&places[firsts[slot] as usize]) != key {
-            slot = (slot + 1) & mask;
-        }
-        if firsts[slot] == FREE {
-            firsts[slot] = v as u32;
-        }
-        firsts[slot]
-    };
-    let same_as: Vec<u32> = places.iter().enumerate().map(first_there).collect();
+    let mut firsts: HashMap<[u64; 3], u32> = HashMap::with_capacity(mesh.vertices().len());
+    let keys = (0..).zip(mesh.vertices().iter().map(place_key));
+    let same_as: Vec<u32> = keys
+        .map(|(v, key)| *firsts.entry(key).or_insert(v))
+        .collect();
     merge_vertices(mesh, &same_as)
-}
-
-/// Returns a number in which all bits of a key are mixed.
-fn spread(key: [u64; 3]) -> usize {
-    let mixed = key.into_iter().fold(0u64, |mixed, bits| {
-        (mixed.rotate_left(ROTATION) ^ bits).wrapping_mul(MULTIPLIER)
-    });
-    (mixed ^ (mixed >> (u64::BITS / 2))) as usize
 }
 
 /// Returns a key that is equal for equal places: the bits of the coordinates, with 0.0 for −0.0.

@@ -48,7 +48,7 @@ pub enum Remark {
         parts: [usize; 2],
         /// The figure of the certificate.
         figure: Figure,
-        /// Its values in both.
+        /// Its values in both before pins are placed: bosses about pins may cost some of it.
         values: [f64; 2],
     },
     /// Another plan hides its seams better, and was taken or not.
@@ -123,7 +123,7 @@ impl fmt::Display for Remark {
                 let fewer = format_count(*fewer, "part");
                 write!(
                     f,
-                    "{fewer} in place of {parts}: it then {then}; this kit {now}"
+                    "{fewer} in place of {parts}: before pins are placed it {then}, and this plan {now}"
                 )
             }
             Self::Seams {
@@ -327,6 +327,24 @@ impl fmt::Display for AxisChoice {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn an_offer_of_fewer_parts_compares_both_plans_before_pins() {
+        let remark = Remark::FewerParts {
+            parts: [4, 5],
+            figure: Figure::TopplingAngleRad,
+            values: [9.6_f64, 11.0].map(f64::to_radians),
+        };
+        let words = remark.to_string();
+        assert!(
+            words.starts_with("4 parts in place of 5: before pins are placed it "),
+            "{words}"
+        );
+        assert!(
+            words.contains("9.6°") && words.contains("this plan "),
+            "{words}"
+        );
+    }
 
     #[test]
     fn a_remark_says_which_joint_and_why() {

@@ -37,7 +37,7 @@ struct Comparer {
     misstatements: Vec<String>,
 }
 
-/// What was found about the files of a kit.
+/// The judgement of a kit with the fingerprints and shells of its files.
 pub(super) struct Findings<'a> {
     evidence: &'a Evidence,
     judgement: &'a Judgement,

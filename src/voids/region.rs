@@ -25,8 +25,8 @@ const SINGULAR_MM: f64 = 0.5;
 /// Margin of the region around the box, mm, so that its own faces stay clear of the box's contents.
 const MARGIN_MM: f64 = 1.0;
 
-/// Steps to which the region's box is rounded, mm, so that rounding errors of the body's surface do
-/// not move the lattice. They are far above these errors and far below the margin.
+/// Steps to which the region's box is rounded, mm, so that rounding errors of the body's surface
+/// hardly ever move the lattice. They are far above these errors and far below the margin.
 const SNAP_MM: f64 = 1.0 / 64.0;
 
 /// Largest stray of the drawn triangles' sides from the quadric, as a share of the tolerance. With

@@ -41,7 +41,7 @@ impl<'a> Probe<'a> {
         self.tangent_bound_from(self.center.coords - nearest)
     }
 
-    /// Returns whether no point of a box is certainly nearer than `limit_mm`.
+    /// Returns true only if no point of a box is nearer than `limit_mm`; false may be wrong.
     #[inline]
     pub(super) fn is_clear_of_box(&self, aabb: &Aabb, limit_mm: f64) -> bool {
         let center = &self.center.coords;
@@ -49,8 +49,8 @@ impl<'a> Probe<'a> {
         self.is_clear(&(center - nearest), limit_mm)
     }
 
-    /// Returns whether a convex set whose point nearest to the centre is at `center - offset` is
-    /// certainly no nearer than `limit_mm`, by the tangent bound.
+    /// Returns true only if a convex set is no nearer than `limit_mm`, by the tangent bound; false
+    /// may be wrong. The set's point nearest to the centre is at `center - offset`.
     #[inline]
     fn is_clear(&self, offset: &Vector, limit_mm: f64) -> bool {
         let squared = offset.norm_squared();

@@ -274,8 +274,10 @@ impl Patch {
     }
 }
 
-/// Returns the new triangle nearest to an old vertex, or `None` if the surface strays too far from
-/// it. A vertex above the triangle means that the surface now runs inside the body.
+/// Returns the new triangle that stands for an old vertex, or `None` if the surface strays too far
+/// from it. A vertex above the triangle means that the surface now runs inside the body.
+///
+/// It is the first triangle straight beside the vertex and within both limits; else the nearest.
 fn nearest_triangle(p: &Point, new_triangles: &[NewTriangle], stray: Stray) -> Option<usize> {
     let close_mm = stray.inside_mm.min(stray.outside_mm);
     let straight = new_triangles
