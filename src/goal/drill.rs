@@ -2,7 +2,7 @@
 
 use super::site::Site;
 use crate::geom::{Frame, Point};
-use crate::mesh::NearAxis;
+use crate::mesh::{AxialLine, NearAxis};
 
 /// The number of lines around a socket, and the number of depths that are felt.
 const LINES: usize = 16;
@@ -18,13 +18,11 @@ const HELD_RATIO: f64 = 0.5;
 /// The surface of a model near an axis, over a point of it; upright, mm.
 pub(super) struct Drill(NearAxis);
 
-/// A bore to feel for.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Hole {
-    pub radius_mm: f64,
-    /// The wall around it and behind its bottom, mm.
-    pub wall_mm: f64,
-    pub depth_mm: f64,
+/// The lines around a bore and through its bottom, at whatever depth it ends.
+pub(super) struct Bore {
+    around: Vec<AxialLine>,
+    bottom: Vec<AxialLine>,
+    wall_mm: f64,
 }
 
 impl Drill {
@@ -37,19 +35,27 @@ impl Drill {
         Self(NearAxis::new(site.solid.mesh(), &frame, reach_mm))
     }
 
-    /// Returns true if a hole upward from the seat has its wall: at its bottom, behind it, and
-    /// around at least half of its depth.
-    pub fn holds(&self, hole: Hole) -> bool {
-        let around = self.0.ring(LINES, hole.radius_mm + hole.wall_mm, TURN_RAD);
-        let is_walled = |z: f64| around.iter().all(|line| line.is_inside(z));
-        let looks = (0..LOOKS).map(|i| hole.depth_mm * (1.0 - i as f64 / LOOKS as f64));
+    /// Feels for a bore of this radius, with a wall around it and behind its bottom, mm.
+    pub fn bore(&self, radius_mm: f64, wall_mm: f64) -> Bore {
+        let ring = |count, radius_mm| self.0.ring(count, radius_mm, TURN_RAD);
+        Bore {
+            around: ring(LINES, radius_mm + wall_mm),
+            bottom: ring(BOTTOM_LINES, BOTTOM_RATIO * radius_mm),
+            wall_mm,
+        }
+    }
+}
+
+impl Bore {
+    /// Returns true if a hole of this depth, upward from the seat, has its wall. That is wanted at
+    /// its bottom, behind it, and around at least half of its depth.
+    pub fn holds(&self, depth_mm: f64) -> bool {
+        let is_walled = |z: f64| self.around.iter().all(|line| line.is_inside(z));
+        let looks = (0..LOOKS).map(|i| depth_mm * (1.0 - i as f64 / LOOKS as f64));
         let held = looks.filter(|z| is_walled(*z)).count();
-        let behind_mm = hole.depth_mm + hole.wall_mm;
-        let bottom = self
-            .0
-            .ring(BOTTOM_LINES, BOTTOM_RATIO * hole.radius_mm, TURN_RAD);
-        is_walled(hole.depth_mm)
-            && bottom.iter().all(|line| line.is_inside(behind_mm))
+        let behind_mm = depth_mm + self.wall_mm;
+        is_walled(depth_mm)
+            && self.bottom.iter().all(|line| line.is_inside(behind_mm))
             && held as f64 >= HELD_RATIO * LOOKS as f64
     }
 }

@@ -1,6 +1,6 @@
 //! Stock pins for the tip of a top: as short, thin and light as the promised lean allows.
 
-use super::drill::{Drill, Hole};
+use super::drill::Drill;
 use super::hardware::{Rod, STEEL_G_CM3};
 use super::lean::least_height_mm;
 use super::site::Site;
@@ -82,17 +82,11 @@ impl TipPlace<'_> {
     /// Returns the shortest stock pin that stands out by `out_mm` and is held in its socket.
     fn pin(&self, drill: &Drill, diameter_mm: f64, out_mm: f64) -> Option<Rod> {
         let least_depth_mm = (LEAST_DEPTH_DIAMETERS * diameter_mm).max(LEAST_DEPTH_RATIO * out_mm);
-        let is_held = |depth_mm: f64| {
-            drill.holds(Hole {
-                radius_mm: 0.5 * diameter_mm + CLEARANCE_MM,
-                wall_mm: self.wall_mm,
-                depth_mm,
-            })
-        };
+        let bore = drill.bore(0.5 * diameter_mm + CLEARANCE_MM, self.wall_mm);
         let depths = LENGTHS_MM.iter().map(|length_mm| length_mm - out_mm);
         let depth_mm = depths
             .filter(|depth_mm| *depth_mm >= least_depth_mm)
-            .find(|depth_mm| is_held(*depth_mm))?;
+            .find(|depth_mm| bore.holds(*depth_mm))?;
         Some(Rod {
             diameter: Length::from_mm(diameter_mm).ok()?,
             length: Some(Length::from_mm(out_mm + depth_mm).ok()?),
