@@ -72,6 +72,15 @@ fn the_best_axis_spins_at_a_lower_speed_than_the_upright_one_and_is_named() {
 }
 
 #[test]
+fn inspect_asks_for_the_size_of_a_model_in_another_unit_before_anything_else() {
+    let output = equipoise(&["inspect", ELLIPSOID, "--scale", "0.001"]);
+    assert_exit(&output, 0);
+    let said = text(&output.stdout);
+    assert!(said.contains("--size=100mm") && said.contains("once its size is known"));
+    assert!(!said.contains("hollowed with a wall"), "{said}");
+}
+
+#[test]
 fn inspect_lists_what_the_model_could_become() {
     let options = "--size 60mm --printer objet-connex350 --wall 1.5mm";
     let arguments = [&["inspect", ELLIPSOID][..], &words(options)].concat();

@@ -84,7 +84,8 @@ struct Findings {
     can_be_redrawn: bool,
     not_one_body: Option<String>,
     solid: Option<Mass>,
-    /// The goals it could reach with a wall; `None` if it is not a solid of one body.
+    /// The goals it could reach with a wall; `None` if it is not a solid of one body, or if nobody
+    /// prints its size.
     could_become: Option<Becoming>,
 }
 
@@ -140,7 +141,9 @@ pub fn inspect(
     }
     let mut findings = findings(&facts, mended.repairs.to_string(), &solid);
     findings.not_one_body = refusal.map(|why| why.to_string());
-    if let (Ok(solid), None) = (&solid, &findings.not_one_body) {
+    // Without its size, walls and speeds would be those of another object.
+    let is_sized = findings.size_hint.is_none() || args.wall.is_some();
+    if let (Ok(solid), None, true) = (&solid, &findings.not_one_body, is_sized) {
         findings.could_become = Some(becoming(args, solid)?);
     }
     if voice.json {
@@ -250,7 +253,13 @@ fn text(findings: &Findings) -> String {
         findings.repairs,
     );
     text += &findings.size_hint.as_ref().map_or(String::new(), |hint| {
-        format!("warning: {}\n", with_flags(hint))
+        let is_waited_for = findings.could_become.is_none();
+        let later = "what it could become is worked out once its size is known\n";
+        format!(
+            "warning: {}\n{}",
+            with_flags(hint),
+            if is_waited_for { later } else { "" }
+        )
     });
     for (count, what) in [
         (
