@@ -2,6 +2,7 @@
 
 use super::bosses::Bossed;
 use super::clean::{Start, clean};
+use super::plan::finish_once;
 use super::request::request;
 use super::resolve::Resolver;
 use super::way::Way;
@@ -12,7 +13,7 @@ use crate::geom::Point;
 use crate::goal::{GoalKind, Objective, PrintStock, Request, place_in_material};
 use crate::hollow::{Fill, TopCourse};
 use crate::interior::Columns;
-use crate::job::{Effort, IdStyle, Job, ModelChoice, ModelUnit, PrinterChoice, Scaling};
+use crate::job::{IdStyle, Job, ModelChoice, ModelUnit, PrinterChoice, Scaling};
 use crate::mesh::{Csg, Solid, TriMesh, primitives};
 use crate::printer::{Printer, Quantity, Support, WallChoice};
 use crate::repair::Repairs;
@@ -169,7 +170,6 @@ fn job(goal: Request) -> Job {
     Job {
         ids: IdStyle::None,
         seam: SeamStyle::Short,
-        effort: Effort::Normal,
         least_part: LeastPart::NONE,
         ..Job::new(model, printer, goal)
     }
@@ -242,7 +242,6 @@ pub(super) fn solve(placed: &Placed) -> Solved {
         columns,
         height_proof: None,
         course: TopCourse::default(),
-        coarse: None,
     }
 }
 
@@ -263,10 +262,7 @@ pub(super) fn plan_walls(placed: &Placed) -> Way<'_> {
     let (mut resolver, voids) = draw(placed);
     let request = unwatched(placed);
     let cleaned = clean(&mut resolver, Start::of(voids), &request, &|_| false).unwrap();
-    let finished = resolver
-        .planner()
-        .finish(&cleaned.voids, &request, cleaned.plan);
-    let plan = finished.unwrap();
+    let plan = finish_once(placed, &cleaned.voids, &request, cleaned.plan).unwrap();
     Way {
         rung: Rung::Walls,
         resolver,
