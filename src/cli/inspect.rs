@@ -253,13 +253,7 @@ fn text(findings: &Findings) -> String {
         findings.repairs,
     );
     text += &findings.size_hint.as_ref().map_or(String::new(), |hint| {
-        let is_waited_for = findings.could_become.is_none();
-        let later = "what it could become is worked out once its size is known\n";
-        format!(
-            "warning: {}\n{}",
-            with_flags(hint),
-            if is_waited_for { later } else { "" }
-        )
+        format!("warning: {}\n", with_flags(hint))
     });
     for (count, what) in [
         (
@@ -286,10 +280,14 @@ fn text(findings: &Findings) -> String {
         }
         _ => {}
     }
-    text + &findings
-        .could_become
-        .as_ref()
-        .map_or(String::new(), becoming_text)
+    let is_sound = findings.solid.is_some() && findings.not_one_body.is_none();
+    text + &match &findings.could_become {
+        Some(becoming) => becoming_text(becoming),
+        None if is_sound => {
+            "what it could become is worked out once its size is known\n".to_owned()
+        }
+        None => String::new(),
+    }
 }
 
 /// Returns the natural up, and a line for each goal with what to type, the best first.
