@@ -299,6 +299,7 @@ impl Scene {
         let spec = CavitySpec {
             wall_mm: self.wall_mm(),
             tolerance_mm: TOLERANCE_PIXELS * x_mm.min(y_mm),
+            quadric_tolerance_mm: TOLERANCE_PIXELS * x_mm.min(y_mm),
             keeps: &self.placement().keeps,
             min_void_mm: PRINTED_BY.min_opening_mm.value,
         };

@@ -1,6 +1,7 @@
 //! The whole input of a run as plain data. `job.toml` replays the run exactly.
 
 mod choices;
+mod effort;
 mod filling;
 pub mod telescope;
 
@@ -9,6 +10,7 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Deserializer, Serialize, de::Error as _};
 
 pub use choices::{CutMode, IdStyle, ModelUnit, PartFormat, PinStyle};
+pub use effort::Effort;
 pub use filling::Filling;
 
 use crate::ballast::Order;
@@ -60,6 +62,9 @@ pub struct Job {
     /// The marking of parts with their ids; engraved into cut faces if the key is missing.
     #[serde(default = "default_ids", skip_serializing_if = "IdStyle::is_engraved")]
     pub ids: IdStyle,
+    /// The effort of the search for cuts and pins; the usual one if the key is missing.
+    #[serde(default = "default_effort", skip_serializing_if = "Effort::is_normal")]
+    pub effort: Effort,
     /// The greatest share of the goal's figure that joints may cost; the policy's own if `None`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub joint_price_ratio: Option<f64>,
@@ -216,6 +221,7 @@ impl Job {
             least_part: default_least_part(),
             pins: PinStyle::Printed,
             ids: IdStyle::Engraved,
+            effort: Effort::Normal,
             joint_price_ratio: None,
             thicken: false,
             format: PartFormat::Both,
@@ -287,6 +293,10 @@ fn default_seam() -> SeamStyle {
     SeamStyle::Hidden
 }
 
+fn default_effort() -> Effort {
+    Effort::Normal
+}
+
 fn default_least_part() -> LeastPart {
     LeastPart::USUAL
 }
@@ -352,6 +362,7 @@ mod tests {
         other.pitch = Some("0.1".parse().unwrap());
         other.cut = CutMode::Never;
         other.seam = SeamStyle::Level;
+        other.effort = Effort::Thorough;
         other.least_part = "5%".parse().unwrap();
         other.repair = "remesh:0.1mm,fill".parse().unwrap();
         other.keep_clear = vec!["1,2.5,-3,4".parse().unwrap(), "0,0,9,1".parse().unwrap()];

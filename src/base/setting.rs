@@ -33,6 +33,8 @@ choice! {
         Pins = "pins",
         /// The marking of parts with their ids.
         Ids = "ids",
+        /// The effort of the search for cuts and pins.
+        Effort = "effort",
         /// The greatest share of the goal's figure that joints may cost.
         JointPrice = "joint_price_ratio",
         /// The order to thicken thin features of the model.

@@ -4,7 +4,7 @@
 use std::path::Path;
 
 use super::bars::words as stage_name;
-use super::flags::{NO_BOSSES, OTHER_PLANS};
+use super::flags::{NO_BOSSES, OTHER_PLANS, with_flags};
 use super::show::{GREEN, RED, paint, table, verdict};
 use super::voice::Manner;
 use crate::base::numbers::{measured, measured_extent, quantity as figure};
@@ -51,9 +51,14 @@ pub fn ten_lines(checklist: &Checklist, out: &Path, manner: Manner) -> String {
     table(&rows).replace('\u{a0}', " ") + &broken(&checklist.checks, manner)
 }
 
-/// Returns the first offer of another plan; `None` if there is none.
+/// Returns the offers of other plans; `None` if there is none.
 fn offer(checklist: &Checklist) -> Option<String> {
-    checklist.offers.first().cloned()
+    let offers: Vec<String> = checklist
+        .offers
+        .iter()
+        .map(|offer| with_flags(offer))
+        .collect();
+    (!offers.is_empty()).then(|| offers.join("; "))
 }
 
 /// Returns what the object does, and for a top on what it spins.

@@ -18,7 +18,9 @@
 //! | When does a plan give way to one with hidden seams? | `hide_seams` in `open/ladder/preferences.rs`, within `seam_loss_ratio` of `run/policy.rs` |
 //! | Where is the pin's diameter decided? | `size_pairs` in `cut/joints/pin_size.rs`, from the profile by `cut/for_printer.rs` |
 //! | What happens if no cut opens a void? | `Obstacle::Unopenable` of `cut/planner/search.rs` makes `open/clean.rs` keep the void solid and solve again |
-//! | What happens if a joint has no room for pins? | `climb` in `open/ladder.rs` tries each `Rung` of `run/policy.rs` |
+//! | On what are plans compared, and on what are they built? | `open/search.rs` climbs on a coarse copy of the body (`open/proxy.rs`); `open/build.rs` builds what it finds |
+//! | When does a search for plans end? | `Budget` in `open/budget.rs` counts work, `Effort` in `job/effort.rs` limits it |
+//! | What happens if a joint has no room for pins? | `Ladder::climb` in `open/ladder.rs` tries each `Rung` of `run/policy.rs` |
 //! | Who holds the parts while glue sets if pins do not? | `jigs` in `cut/joints/jig.rs`, judged by `measure_jigs` in `verify/jigs.rs` |
 //! | Which ends of voids would catch resin in a vat, and what becomes of them? | `find_hollow_cups` in `cut/pieces/cups.rs` finds them in the best pose, `clean_and_drain` in `open/drain.rs` keeps them solid |
 //! | Where do the files of the parts come from? | `make` in `make/parts.rs` writes, reads back and corrects them |

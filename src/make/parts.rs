@@ -11,7 +11,7 @@ use crate::cut::{
 use crate::error::Error;
 use crate::mass::{Moments, moments_of_mesh};
 use crate::mesh::TriMesh;
-use crate::open::{Candidate, Resolver, defect_ratio, finish, plan_once};
+use crate::open::{Candidate, Planner, Resolver, defect_ratio, finish};
 use crate::run::{BossRound, KeptBoss, Made, Placed, Voids, WrittenPart};
 use crate::verify::{PartEvidence, assembly_moments};
 
@@ -173,7 +173,7 @@ impl Corrector<'_, '_> {
         let (parts, plan) = match parts_and_faces(&voids.hollowed, &plan, self.request)? {
             Verdict::No(Obstacle::ClosedCavity { .. }) => {
                 let solid = std::mem::take(&mut plan.solid);
-                let anew = plan_once(self.placed, voids, self.request)?;
+                let anew = Planner::of(self.placed).plan(voids, self.request)?;
                 let anew = anew.or_error::<CutError>()?;
                 let anew = CutPlan { solid, ..anew };
                 parts_and_faces(&voids.hollowed, &anew, self.request)?

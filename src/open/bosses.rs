@@ -111,7 +111,7 @@ pub fn add_bosses(
         search.pay(ordered_loss_ratio)?;
     }
     let mut state = search.state;
-    let ordered = ordered_pins(resolver);
+    let ordered = resolver.planner().pins();
     if let Some(pins) = ordered.filter(|pins| pins.len() > state.plan.pins.len()) {
         // Some pin has no place, and the error says which.
         let order = CutOrder {
@@ -136,17 +136,12 @@ pub fn pay_for_bosses(
     Ok(search.state)
 }
 
-/// Returns the pins that the job orders.
-fn ordered_pins<'a>(resolver: &Resolver<'a>) -> Option<&'a [PinSite]> {
-    let order = resolver.placed().job.plan.as_ref();
-    order.and_then(|order| order.pins.as_deref())
-}
-
 /// The search for bosses from one state.
 struct Search<'r, 'a> {
     resolver: &'r mut Resolver<'a>,
     request: &'r PlanRequest,
-    ordered: Option<&'a [PinSite]>,
+    /// The pins that are ordered.
+    ordered: Option<Vec<PinSite>>,
     policy: Policy,
     state: Bossed,
 }
@@ -154,7 +149,7 @@ struct Search<'r, 'a> {
 impl<'r, 'a> Search<'r, 'a> {
     fn new(resolver: &'r mut Resolver<'a>, state: Bossed, request: &'r PlanRequest) -> Self {
         Self {
-            ordered: ordered_pins(resolver),
+            ordered: resolver.planner().pins().map(<[_]>::to_vec),
             policy: resolver.placed().policy,
             resolver,
             request,
@@ -190,7 +185,7 @@ impl<'r, 'a> Search<'r, 'a> {
             hollowed: &voids.hollowed,
             request: self.request,
             plan,
-            ordered: self.ordered,
+            ordered: self.ordered.as_deref(),
             given_up: &failed.given_up,
             refused: &failed.places,
             price: MaterialPrice {
@@ -204,7 +199,7 @@ impl<'r, 'a> Search<'r, 'a> {
 
     /// Tries bosses all at once with nothing else kept solid, else joint by joint.
     fn try_found(&mut self, found: &[Boss]) -> Result<(), Error> {
-        let joints: Vec<&[Boss]> = match self.ordered {
+        let joints: Vec<&[Boss]> = match &self.ordered {
             Some(_) => vec![found],
             None => found.chunk_by(|a, b| a.joint() == b.joint()).collect(),
         };
@@ -217,7 +212,7 @@ impl<'r, 'a> Search<'r, 'a> {
         }
         let cheap = Price::cheap(&self.policy);
         // An ordered pattern is the joint's only one.
-        let patterns = match self.ordered {
+        let patterns = match &self.ordered {
             Some(_) => 1,
             None => self.policy.boss_patterns,
         };
@@ -259,8 +254,8 @@ impl<'r, 'a> Search<'r, 'a> {
     /// Keeps bosses solid and settles; if that is refused, state and resolver stay as they were.
     fn attempt(&mut self, found: &[Boss], price: Price) -> Result<Verdict<(), Refusal>, Error> {
         let held = self.held_with(found);
-        let pins = match self.ordered {
-            Some(pins) => pins.to_vec(),
+        let pins = match &self.ordered {
+            Some(pins) => pins.clone(),
             None => held.iter().map(|boss| boss.pin.clone()).collect(),
         };
         let state = &self.state;
@@ -297,7 +292,7 @@ impl<'r, 'a> Search<'r, 'a> {
 
     /// Returns the greatest loss that all bosses together may cost.
     fn max_price_ratio(&self, price: Price) -> f64 {
-        let most = match self.ordered {
+        let most = match &self.ordered {
             Some(_) => self.policy.ordered_loss_ratio,
             None => self.policy.dear_loss_ratio,
         };

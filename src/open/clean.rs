@@ -1,10 +1,12 @@
 //! Cleaning: what no cut lets be cleaned is kept solid, and the rest solved for again.
 
-use super::plan::draft_once;
+use super::budget::Work;
+use super::plan::Planner;
 use super::resolve::{Refused, Resolver};
 use crate::base::verdict::Verdict;
 use crate::cut::{
-    CutError, CutPlan, Obstacle, PlanRequest, SolidEnd, Unclean, VoidId, draft_again, find_unclean,
+    CutError, CutPlan, Obstacle, PlanRequest, SolidEnd, Unclean, VoidId, draft_again, find_closed,
+    find_unclean,
 };
 use crate::error::Error;
 use crate::job::CutMode;
@@ -78,12 +80,14 @@ pub fn clean(
     } = start;
     loop {
         resolver.watch().check()?;
+        spend(resolver, &voids, held.is_none());
         let plan = match &held {
             Some(first) if rounds.is_empty() => Verdict::Found(first.clone()),
             Some(first) => draft_again(&voids.hollowed, &request, first)?,
-            None => draft_once(placed, &voids, &request)?,
+            None => resolver.planner().draft(&voids, &request)?,
         };
         let round = Round {
+            planner: resolver.planner(),
             placed,
             voids: &voids,
             request: &request,
@@ -128,6 +132,16 @@ pub fn clean(
     }
 }
 
+/// Counts the work of a round on these voids.
+fn spend(resolver: &Resolver, voids: &Voids, drafts: bool) {
+    let bodies = voids.hollowed.voids.iter();
+    let triangles = bodies.map(|void| void.mesh().triangles().len()).sum();
+    if drafts {
+        resolver.budget().spend(Work::Draft(triangles));
+    }
+    resolver.budget().spend(Work::Look(triangles));
+}
+
 /// Allows cuts that were too dear until now: first any number, then seams wherever they are seen.
 /// Returns false if nothing was forbidden any more.
 fn allow_more_cuts(request: &mut PlanRequest) -> bool {
@@ -143,6 +157,7 @@ fn allow_more_cuts(request: &mut PlanRequest) -> bool {
 
 /// A round of cleaning before it is done.
 struct Round<'a> {
+    planner: &'a Planner,
     placed: &'a Placed,
     voids: &'a Voids,
     request: &'a PlanRequest,
@@ -153,6 +168,7 @@ struct Round<'a> {
 /// Finds what must be kept solid because a plan does not let it be cleaned.
 fn find_uncleanable(round: &Round, plan: &Verdict<CutPlan, Obstacle>) -> Result<Keep, Error> {
     let Round {
+        planner,
         placed,
         voids,
         request,
@@ -173,6 +189,10 @@ fn find_uncleanable(round: &Round, plan: &Verdict<CutPlan, Obstacle>) -> Result<
             let keep = keep_unopenable(voids, closed, policy.refused_margin_openings);
             return Ok(keep);
         }
+        Verdict::No(Obstacle::ClosedCavity { .. }) => (
+            find_little_closed(voids, planner, policy.max_void_loss_ratio)?,
+            policy.cleaning_margin_openings,
+        ),
         _ => (Vec::new(), policy.cleaning_margin_openings),
     };
     let kept = |unclean: &Unclean| KeptSolid {
@@ -186,6 +206,29 @@ fn find_uncleanable(round: &Round, plan: &Verdict<CutPlan, Obstacle>) -> Result<
             .flat_map(|unclean| unclean.bodies)
             .collect(),
         margin_openings,
+    })
+}
+
+/// Returns the voids that no ordered cut meets, or none if no cut is ordered at all. If they are
+/// more than this share of all voids, it returns none either, and the order is refused.
+fn find_little_closed(
+    voids: &Voids,
+    planner: &Planner,
+    max_ratio: f64,
+) -> Result<Vec<Unclean>, CutError> {
+    let cuts = planner.order().map(|order| &order.cuts[..]);
+    let Some(cuts) = cuts.filter(|cuts| !cuts.is_empty()) else {
+        return Ok(Vec::new());
+    };
+    let closed = find_closed(&voids.hollowed, cuts)?;
+    let bodies = closed.iter().flat_map(|unclean| &unclean.bodies);
+    let closed_mm3: f64 = bodies.map(TriMesh::signed_volume_mm3).sum();
+    let all = voids.hollowed.voids.iter();
+    let all_mm3: f64 = all.map(|void| void.mesh().signed_volume_mm3()).sum();
+    Ok(if closed_mm3 <= max_ratio * all_mm3 {
+        closed
+    } else {
+        Vec::new()
     })
 }
 

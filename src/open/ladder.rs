@@ -1,33 +1,27 @@
 //! The ladder: rungs are tried in order until one gives every joint its pins; the best are kept.
 
+mod joined;
+mod preferences;
+mod rungs;
+
+use joined::Joined;
+
 use super::aligned::count_unaligned;
-use super::bosses::{Bossed, add_bosses, pay_for_bosses};
+use super::bosses::{Bossed, add_bosses};
+use super::budget::Budget;
 use super::clean::Start;
 use super::drain::clean_and_drain;
 use super::ground::Ground;
-use super::plan::finish_once;
+use super::plan::Planner;
 use super::refused::unless_refused;
 use super::request::request;
-use super::resolve::Resolver;
+use super::resolve::{Kept, Resolver};
 use super::tendency::lean;
 use super::way::{Candidate, Way};
 use crate::base::watch::{Phase, Watch};
-use crate::cut::{CutError, CutPlan, PlanRequest, find_ends_beyond_unpinned_joints};
+use crate::cut::{CutError, CutOrder, CutPlan, PlanRequest};
 use crate::error::Error;
-use crate::job::CutMode;
-use crate::run::{KeptCause, Placed, Policy, Remark, Rung, Solved, Tendency, Voids};
-
-/// Opens the voids of a solution, on the lowest rung that gives every joint its pins.
-///
-/// Returns the plans worth making, best first and never none. The later ones do less for the pins:
-/// they are for a kit that breaks a promise with the first. Cuts that a person ordered stay.
-pub fn climb<'a>(
-    placed: &'a Placed,
-    solved: Solved,
-    watch: &Watch,
-) -> Result<Vec<Candidate<'a>>, Error> {
-    Ladder::new(placed, solved, watch)?.climb()
-}
+use crate::run::{KeptCause, Opened, Policy, Remark, Rung, Tendency, Untried, Voids};
 
 /// Counts the joints of the best plan that neither pins nor a jig align.
 fn count_unaligned_in_best(candidates: &[Candidate]) -> Result<usize, CutError> {
@@ -40,7 +34,6 @@ fn count_unaligned_in_best(candidates: &[Candidate]) -> Result<usize, CutError> 
 /// The ladder from one set of voids.
 #[derive(Clone)]
 pub(super) struct Ladder<'a> {
-    placed: &'a Placed,
     policy: Policy,
     watch: Watch,
     ground: Ground<'a>,
@@ -55,11 +48,10 @@ pub(super) struct Ladder<'a> {
 
 impl<'a> Ladder<'a> {
     /// Draws the voids, without what the job's plan keeps solid.
-    pub(super) fn new(placed: &'a Placed, solved: Solved, watch: &Watch) -> Result<Self, Error> {
-        watch.enter(Phase::Shell);
-        let request = request(placed, watch)?;
-        let mut resolver = Resolver::new(placed, solved, watch)?;
+    pub(super) fn new(mut resolver: Resolver<'a>) -> Result<Self, Error> {
+        let (placed, watch) = (resolver.placed(), &resolver.watch().clone());
         watch.enter(Phase::Voids);
+        let request = request(placed, watch)?;
         let voids = resolver.draw()?;
         let ground = Ground {
             resolver,
@@ -68,7 +60,8 @@ impl<'a> Ladder<'a> {
             solid: Vec::new(),
             rounds: Vec::new(),
         };
-        let ordered = placed.job.plan.as_ref().map(|plan| &plan.solid[..]);
+        let planner = ground.resolver.planner().clone();
+        let ordered = planner.order().map(|order| &order.solid[..]);
         let (ground, note) = match ordered.filter(|solid| !solid.is_empty()) {
             Some(solid) => match ground.without(solid, &KeptCause::Ordered)? {
                 Some(less) => (less, None),
@@ -76,16 +69,44 @@ impl<'a> Ladder<'a> {
             },
             None => (ground, None),
         };
-        Ok(Self {
-            placed,
+        Ok(Self::from(ground, request, note.into_iter().collect()))
+    }
+
+    /// Starts from what was kept solid on a copy of the body for this plan. `None` if the goal is
+    /// missed with it.
+    pub(super) fn after(
+        mut resolver: Resolver<'a>,
+        planned: &Opened,
+        kept: &Kept,
+    ) -> Result<Option<Self>, Error> {
+        let (placed, watch) = (resolver.placed(), resolver.watch().clone());
+        watch.enter(Phase::Voids);
+        let request = request(placed, &watch)?;
+        let voids = resolver.keep(kept)?;
+        let ground = Ground {
+            resolver,
+            voids,
+            draft: None,
+            solid: planned.plan.solid.clone(),
+            rounds: planned.cleaning.clone(),
+        };
+        let is_usable = ground.voids.solution.is_usable();
+        let ladder = || Self::from(ground, request, Vec::new());
+        Ok(is_usable.then(ladder))
+    }
+
+    /// Starts from a ground, with remarks on what a person ordered.
+    fn from(ground: Ground<'a>, request: PlanRequest, notes: Vec<Remark>) -> Self {
+        let placed = ground.resolver.placed();
+        Self {
             policy: placed.policy,
-            watch: watch.clone(),
-            ground,
-            request,
-            notes: note.into_iter().collect(),
+            watch: ground.resolver.watch().clone(),
             hides_seams: placed.job.seam.is_hidden(),
             joins_parts: true,
-        })
+            ground,
+            request,
+            notes,
+        }
     }
 
     /// Climbs it. Returns the plans worth making, best first and never none.
@@ -100,6 +121,9 @@ impl<'a> Ladder<'a> {
         };
         let walls = self.hide_seams(drafted.clone())?;
         let (usual, walls) = self.place_pins(walls)?;
+        if self.planner().pins().is_some() {
+            return Ok(self.candidates(None, usual, walls, Vec::new()));
+        }
         if !self.policy.jigs_first {
             return self.climb_beyond(usual, walls);
         }
@@ -134,9 +158,12 @@ impl<'a> Ladder<'a> {
     /// Places the pins of a draft, in its walls and in bosses that cost little. Returns the way
     /// with bosses, and the one without.
     fn place_pins(&mut self, drafted: Way<'a>) -> Result<(Way<'a>, Way<'a>), Error> {
-        let walls = self.join_parts(drafted)?;
+        let Joined { walls, fewer } = self.join_parts(drafted)?;
         let usual = self.add_bosses(walls.clone(), Rung::Bosses)?;
-        Ok((usual, walls))
+        match fewer {
+            Some(fewer) => self.weigh_fewer_parts((usual, walls), fewer),
+            None => Ok((usual, walls)),
+        }
     }
 
     /// Climbs the rungs beyond the usual plan.
@@ -145,7 +172,8 @@ impl<'a> Ladder<'a> {
         let mut faults: Vec<Remark> = Vec::new();
         for rung in Rung::BEYOND_USUAL {
             self.watch.check()?;
-            if !self.needs(rung, &usual, &ways) {
+            let is_needed = self.needs(rung, &usual, &ways);
+            if !(is_needed && self.budget().allows(Untried::MorePins)) {
                 continue;
             }
             match self.try_rung(rung, &usual, &ways) {
@@ -174,63 +202,26 @@ impl<'a> Ladder<'a> {
         }
     }
 
+    /// Returns the ladder with these cuts ordered.
+    pub(super) fn by_order(&self, order: CutOrder) -> Self {
+        let mut ladder = self.clone();
+        ladder.ground.resolver = self.ground.resolver.by_order(order);
+        ladder
+    }
+
+    /// Returns what is left of the search's work.
+    fn budget(&self) -> &Budget {
+        self.ground.resolver.budget()
+    }
+
+    /// Returns what decides on the cuts.
+    fn planner(&self) -> &Planner {
+        self.ground.resolver.planner()
+    }
+
     /// Returns whether the planner may choose other cuts.
     fn is_free(&self) -> bool {
-        self.placed.job.plan.is_none() && self.placed.job.cut == CutMode::Auto
-    }
-
-    /// Returns whether a rung beyond the usual plan is worth trying after those before it.
-    fn needs(&self, rung: Rung, usual: &Way, ways: &[Way]) -> bool {
-        let is_solved = ways.iter().any(|way| way.solves(usual, &self.policy));
-        let is_cheap = |way: &Way| way.loss_ratio(usual) <= self.policy.cheap_loss_ratio;
-        let mut solving = ways.iter().filter(|way| way.solves(usual, &self.policy));
-        if usual.is_full() {
-            return false;
-        }
-        match rung {
-            Rung::Walls | Rung::Bosses | Rung::SeenSeams => false,
-            Rung::FewerCuts => self.is_free() && usual.bossed.plan.cuts.len() > 1,
-            Rung::WideJoints | Rung::SolidEnds => self.is_free() && !is_solved,
-            Rung::DearBosses => usual.bossed.has_dear() && !solving.any(is_cheap),
-            // What is too dear for all joints may leave some of them their pins.
-            Rung::SomeBosses => ways
-                .iter()
-                .any(|way| way.rung == Rung::DearBosses && !way.is_worth(usual, &self.policy)),
-        }
-    }
-
-    /// Tries a rung beyond the usual plan; none if the planner finds no plan on it.
-    fn try_rung(
-        &self,
-        rung: Rung,
-        usual: &Way<'a>,
-        ways: &[Way<'a>],
-    ) -> Result<Vec<Way<'a>>, Error> {
-        let spare = PlanRequest {
-            min_opening_mm: self.policy.spare_opening_ratio * self.request.min_opening_mm,
-            ..self.request.clone()
-        };
-        let way = match rung {
-            Rung::Walls | Rung::Bosses | Rung::SeenSeams => None,
-            Rung::FewerCuts => {
-                let fewer = PlanRequest {
-                    worth_ratio: 1.0,
-                    ..spare
-                };
-                self.plan_with_bosses(&self.ground, &fewer, rung)?
-            }
-            Rung::WideJoints => {
-                let wide = PlanRequest {
-                    wants_wide_joints: true,
-                    ..spare
-                };
-                self.plan_with_bosses(&self.ground, &wide, rung)?
-            }
-            Rung::DearBosses => self.pay(usual, rung, self.policy.dear_loss_ratio)?,
-            Rung::SomeBosses => self.pay(usual, rung, self.policy.partial_loss_ratio)?,
-            Rung::SolidEnds => return self.end_voids_before_joints(usual, ways),
-        };
-        Ok(way.into_iter().collect())
+        self.planner().is_free()
     }
 
     /// Drafts cuts. Stops at voids that are lost: such a way is not worth taking.
@@ -268,7 +259,7 @@ impl<'a> Ladder<'a> {
     /// Places pins in a draft, where the walls have room for them.
     fn finish(&self, mut way: Way<'a>) -> Result<Way<'a>, Error> {
         let Bossed { voids, plan, .. } = way.bossed;
-        let plan = finish_once(self.placed, &voids, &way.request, plan)?;
+        let plan = self.planner().finish(&voids, &way.request, plan)?;
         way.bossed = Bossed::without(voids, plan);
         Ok(way)
     }
@@ -278,81 +269,6 @@ impl<'a> Ladder<'a> {
         self.watch.enter(Phase::Bosses);
         way.bossed = add_bosses(&mut way.resolver, way.bossed, &way.request)?;
         Ok(Way { rung, ..way })
-    }
-
-    /// Plans cuts and pins, with bosses; `None` if the planner finds no such plan.
-    fn plan_with_bosses(
-        &self,
-        ground: &Ground<'a>,
-        request: &PlanRequest,
-        rung: Rung,
-    ) -> Result<Option<Way<'a>>, Error> {
-        let way = self.plan_in_walls(ground, request, rung, &|_| false);
-        let finished = way.and_then(|way| self.finish(way));
-        unless_refused(finished.and_then(|way| self.add_bosses(way, rung)))
-    }
-
-    /// Adds the bosses that are too dear for the usual plan.
-    fn pay(&self, usual: &Way<'a>, rung: Rung, max: f64) -> Result<Option<Way<'a>>, Error> {
-        self.watch.enter(Phase::Bosses);
-        let mut way = usual.clone();
-        let paid = pay_for_bosses(&mut way.resolver, way.bossed, &self.request, max);
-        let paid = unless_refused(paid)?;
-        Ok(paid.map(|bossed| Way {
-            rung,
-            bossed,
-            resolver: way.resolver,
-            request: way.request,
-            cleaning: way.cleaning,
-        }))
-    }
-
-    /// Ends the voids before joints without pins, starting from each way so far, until one does.
-    fn end_voids_before_joints(
-        &self,
-        usual: &Way<'a>,
-        ways: &[Way<'a>],
-    ) -> Result<Vec<Way<'a>>, Error> {
-        let mut ended: Vec<Way> = Vec::new();
-        for base in std::iter::once(usual).chain(ways) {
-            if !ended.iter().any(|way| way.solves(usual, &self.policy)) {
-                ended.extend(self.end_voids_of(base)?);
-            }
-        }
-        Ok(ended)
-    }
-
-    /// Ends the voids before the joints of a way that lack pins, and before those that then do.
-    fn end_voids_of(&self, base: &Way<'a>) -> Result<Vec<Way<'a>>, Error> {
-        let mut ended: Vec<Way> = Vec::new();
-        let mut solid = Vec::new();
-        for _ in 0..self.policy.max_ends {
-            let last = ended.last().unwrap_or(base);
-            let margin_mm = self.policy.ends_margin_openings * self.request.min_opening_mm;
-            let ends = find_ends_beyond_unpinned_joints(
-                &last.bossed.voids.hollowed,
-                &last.bossed.plan,
-                margin_mm,
-                &self.watch,
-            );
-            let ends = unless_refused(ends.map_err(Error::from))?.unwrap_or_default();
-            if ends.is_empty() {
-                break;
-            }
-            solid.extend(ends);
-            let ground = unless_refused(self.ground.without(&solid, &KeptCause::BeyondJoint))?;
-            let Some(ground) = ground.flatten() else {
-                break;
-            };
-            let way = self.plan_with_bosses(&ground, &base.request, Rung::SolidEnds)?;
-            let Some(way) = way else { break };
-            let is_full = way.is_full();
-            ended.push(way);
-            if is_full {
-                break;
-            }
-        }
-        Ok(ended)
     }
 
     /// Returns the way that leaves the fewest joints without pins, of several the cheapest; `None`
@@ -386,7 +302,7 @@ impl<'a> Ladder<'a> {
         let stepped = [Remark::SteppedDown(Rung::Walls)];
         let walls = has_bosses.then(|| walls.into_candidate(notes().chain(stepped)));
         let mut all: Vec<Candidate> = best.into_iter().chain([usual]).chain(walls).collect();
-        if self.placed.has_ordered_pins() {
+        if self.planner().pins().is_some() {
             all.truncate(1);
         }
         for candidate in &mut all {
@@ -396,6 +312,5 @@ impl<'a> Ladder<'a> {
     }
 }
 
-mod preferences;
 #[cfg(test)]
 mod tests;

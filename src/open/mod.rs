@@ -7,6 +7,8 @@
 
 mod aligned;
 mod bosses;
+mod budget;
+mod build;
 mod clean;
 mod defect;
 mod drain;
@@ -15,9 +17,11 @@ mod ground;
 mod ladder;
 mod plan;
 mod plans;
+mod proxy;
 mod refused;
 mod request;
 mod resolve;
+mod search;
 mod settle;
 mod tendency;
 mod way;
@@ -26,8 +30,8 @@ mod way;
 mod scenes;
 
 pub use defect::defect_ratio;
-pub use ladder::climb;
-pub use plan::plan_once;
+pub use plan::Planner;
 pub use plans::{Leaning, climb_by_tendency};
 pub use resolve::{Resolver, finish};
+pub use search::{Candidates, climb};
 pub use way::Candidate;

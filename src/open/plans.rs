@@ -1,11 +1,14 @@
 //! Several plans for one solution, each by another tendency.
 
+use super::build::{Planned, build_found};
 use super::ladder::Ladder;
+use super::proxy::Bodies;
 use super::refused::unless_refused;
 use super::resolve::Resolver;
 use super::tendency::have_same_cuts;
+use super::way::Candidate;
 use crate::base::watch::Watch;
-use crate::cut::{self, SeamNote};
+use crate::cut::{self, PlanRequest, SeamNote};
 use crate::error::Error;
 use crate::run::{Opened, Placed, Solved, Tendency};
 
@@ -17,8 +20,30 @@ pub fn climb_by_tendency<'a>(
     count: usize,
     watch: &Watch,
 ) -> Result<Vec<Leaning<'a>>, Error> {
-    let ladder = Ladder::new(placed, solved, watch)?;
-    let mut found: Vec<Leaning> = Vec::new();
+    let bodies = Bodies::new(placed, solved, watch)?;
+    let copied = Ladder::new(bodies.copy()?)?;
+    let mut built = Vec::new();
+    for (tendency, found) in lean_each(&copied, count)? {
+        if let Some(best) = build_found(&bodies, &Planned::of(found))? {
+            built.push(Leaning::new(tendency, best, &copied.request)?);
+        }
+    }
+    if !built.is_empty() {
+        return Ok(built);
+    }
+    drop(copied);
+    let ladder = Ladder::new(bodies.whole)?;
+    let leanings = lean_each(&ladder, count)?.into_iter();
+    let leanings = leanings.map(|(tendency, best)| Leaning::new(tendency, best, &ladder.request));
+    leanings.collect()
+}
+
+/// Climbs a ladder by each tendency until `count` plans with different cuts are found.
+fn lean_each<'a>(
+    ladder: &Ladder<'a>,
+    count: usize,
+) -> Result<Vec<(Tendency, Candidate<'a>)>, Error> {
+    let mut found: Vec<(Tendency, Candidate)> = Vec::new();
     for tendency in Tendency::ALL {
         if found.len() >= count {
             break;
@@ -27,16 +52,10 @@ pub fn climb_by_tendency<'a>(
         let Some(best) = candidates.and_then(|candidates| candidates.into_iter().next()) else {
             continue;
         };
-        let is_known = |known: &Leaning| have_same_cuts(&known.opened.plan, &best.opened.plan);
+        let plan = &best.opened.plan;
+        let is_known = |(_, known): &(_, Candidate)| have_same_cuts(&known.opened.plan, plan);
         if !found.iter().any(is_known) {
-            let request = &ladder.request;
-            let outer = best.opened.voids.hollowed.outer.mesh();
-            found.push(Leaning {
-                tendency,
-                seams: cut::seams(outer, &best.opened.plan, request).map_err(Error::from)?,
-                opened: best.opened,
-                resolver: best.resolver,
-            });
+            found.push((tendency, best));
         }
     }
     Ok(found)
@@ -52,4 +71,17 @@ pub struct Leaning<'a> {
     pub seams: Vec<SeamNote>,
     /// The resolver as the search left it.
     pub resolver: Resolver<'a>,
+}
+
+impl<'a> Leaning<'a> {
+    /// Looks at the seams of a plan by the usual plan's request.
+    fn new(tendency: Tendency, best: Candidate<'a>, request: &PlanRequest) -> Result<Self, Error> {
+        let outer = best.opened.voids.hollowed.outer.mesh();
+        Ok(Self {
+            tendency,
+            seams: cut::seams(outer, &best.opened.plan, request)?,
+            opened: best.opened,
+            resolver: best.resolver,
+        })
+    }
 }

@@ -1,17 +1,21 @@
 //! Solving again: voids are drawn, measured, and solved for again until they meet the goal
 //! ([`crate::guide::theory`]).
 
+use std::sync::Arc;
+
 use rayon::prelude::*;
 
+use super::budget::{Budget, Work};
 use super::defect::defect_ratio;
+use super::plan::Planner;
 use crate::ballast::{Load, PlacedPart, Pocket};
 use crate::base::watch::Watch;
-use crate::cut::{Hollowed, Seat, SolidEnd, Void};
+use crate::cut::{CutOrder, Hollowed, Seat, SolidEnd, Void};
 use crate::error::Error;
 use crate::geom::{Aabb, Point};
 use crate::hollow::{Solution, TopCourse};
 use crate::mass::{Moments, moments_of_mesh};
-use crate::mesh::{Solid, TriMesh};
+use crate::mesh::{Csg, Solid, TriMesh};
 use crate::run::{HeightProof, Placed, Solved, Voids};
 use crate::voids::{Cavity, CavitySpec, VoidError, grow_bodies, without_slivers};
 
@@ -31,7 +35,23 @@ pub struct Resolver<'a> {
     refused_mm3: f64,
     /// Volume of bosses that could have been emptied, mm³.
     bosses_mm3: f64,
+    /// The bodies that were taken out of what may be emptied, margins included.
+    kept: Vec<Arc<TriMesh>>,
+    /// What decides on the cuts.
+    planner: Planner,
+    budget: Budget,
     watch: Watch,
+}
+
+/// What a search has kept solid, to be kept solid in another copy of the body.
+#[derive(Debug, Clone)]
+pub struct Kept {
+    /// The bodies, margins included. They may touch.
+    bodies: Vec<Arc<TriMesh>>,
+    /// The solution for the rest.
+    solution: Solution,
+    refused_mm3: f64,
+    bosses_mm3: f64,
 }
 
 /// Closed bodies that are to be kept solid.
@@ -56,6 +76,16 @@ impl<'a> Resolver<'a> {
             let mut jackets = solved.load.jackets();
             jackets.try_fold(whole, |rest, jacket| rest.without(&jacket.mesh()))?
         };
+        Self::of_cavity(placed, solved, cavity, watch)
+    }
+
+    /// Takes a cavity as the region that may be emptied.
+    pub fn of_cavity(
+        placed: &'a Placed,
+        solved: Solved,
+        cavity: Cavity,
+        watch: &Watch,
+    ) -> Result<Self, Error> {
         Ok(Self {
             placed,
             first_value: solved.solution.certificate.value,
@@ -64,8 +94,67 @@ impl<'a> Resolver<'a> {
             given: Hollowed::of_solid(placed.solid()).map_err(VoidError::from)?,
             refused_mm3: 0.0,
             bosses_mm3: 0.0,
+            kept: Vec::new(),
+            planner: Planner::of(placed),
+            budget: Budget::of(placed.job.effort),
             watch: watch.clone(),
         })
+    }
+
+    /// Returns a coarse surface of the region that may be emptied, which strays by at most
+    /// `stray_mm` more.
+    pub fn coarse_cavity(&self, stray_mm: f64) -> Result<Cavity, Error> {
+        Ok(self.cavity.coarsened(stray_mm, &self.watch)?)
+    }
+
+    /// Returns what was kept solid, and the solution for the rest.
+    pub fn kept(&self) -> Kept {
+        Kept {
+            bodies: self.kept.clone(),
+            solution: self.solved.solution.clone(),
+            refused_mm3: self.refused_mm3,
+            bosses_mm3: self.bosses_mm3,
+        }
+    }
+
+    /// Keeps solid what was kept solid in another copy of the body, solves and draws once.
+    pub fn keep(&mut self, kept: &Kept) -> Result<Voids, Error> {
+        let bodies = kept.bodies.iter().map(|body| Csg::of_mesh(body));
+        let mut bodies = bodies.collect::<Result<Vec<_>, _>>()?.into_iter();
+        if let Some(first) = bodies.next() {
+            let all = bodies.try_fold(first, |all, body| all.union(&body))?;
+            self.exclude(&all.to_mesh()?)?;
+        }
+        (self.refused_mm3, self.bosses_mm3) = (kept.refused_mm3, kept.bosses_mm3);
+        let fixed = self.solved.fixed;
+        let known = Some(&kept.solution);
+        let columns = &self.solved.columns;
+        let solution = self.placed.solve(columns, fixed, known, &self.watch);
+        self.solved.solution = solution.clone();
+        self.voids(solution, fixed, 0)
+    }
+
+    /// Returns a resolver in which these cuts are ordered.
+    pub fn by_order(&self, order: CutOrder) -> Self {
+        Self {
+            planner: Planner::Ordered(Arc::new(order)),
+            ..self.clone()
+        }
+    }
+
+    /// Returns the outside of the model, and the cavities that it came with.
+    pub fn given(&self) -> &Hollowed {
+        &self.given
+    }
+
+    /// Returns what is left of the search's work.
+    pub fn budget(&self) -> &Budget {
+        &self.budget
+    }
+
+    /// Returns what decides on the cuts.
+    pub fn planner(&self) -> &Planner {
+        &self.planner
     }
 
     /// Returns the goal in its model.
@@ -206,6 +295,7 @@ impl<'a> Resolver<'a> {
     /// surfaces.
     fn solve_undrawn(&mut self, voids: &Voids, fixed: Moments) -> Result<Voids, Error> {
         self.watch.check()?;
+        self.budget.spend(Work::Solve(self.solved.columns.len()));
         self.solved.solution = self.solved.solve_again(self.placed, fixed, &self.watch);
         Ok(Voids {
             solution: self.solved.solution.clone(),
@@ -220,6 +310,8 @@ impl<'a> Resolver<'a> {
     /// come and go from round to round.
     fn voids(&mut self, solution: Solution, fixed: Moments, rounds: usize) -> Result<Voids, Error> {
         self.watch.check()?;
+        let triangles = self.cavity.mesh().triangles().len();
+        self.budget.spend(Work::Draw(triangles));
         let goal = self.placed.goal();
         let bodies = self
             .cavity
@@ -267,6 +359,7 @@ impl<'a> Resolver<'a> {
         );
         self.cavity = cavity?;
         self.solved.columns = columns?;
+        self.kept.push(Arc::new(solid.clone()));
         Ok(())
     }
 }

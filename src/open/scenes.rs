@@ -2,7 +2,6 @@
 
 use super::bosses::Bossed;
 use super::clean::{Start, clean};
-use super::plan::finish_once;
 use super::request::request;
 use super::resolve::Resolver;
 use super::way::Way;
@@ -13,7 +12,7 @@ use crate::geom::Point;
 use crate::goal::{GoalKind, Objective, PrintStock, Request, place_in_material};
 use crate::hollow::{Fill, TopCourse};
 use crate::interior::Columns;
-use crate::job::{IdStyle, Job, ModelChoice, ModelUnit, PrinterChoice, Scaling};
+use crate::job::{Effort, IdStyle, Job, ModelChoice, ModelUnit, PrinterChoice, Scaling};
 use crate::mesh::{Csg, Solid, TriMesh, primitives};
 use crate::printer::{Printer, Quantity, Support, WallChoice};
 use crate::repair::Repairs;
@@ -170,6 +169,7 @@ fn job(goal: Request) -> Job {
     Job {
         ids: IdStyle::None,
         seam: SeamStyle::Short,
+        effort: Effort::Normal,
         least_part: LeastPart::NONE,
         ..Job::new(model, printer, goal)
     }
@@ -242,6 +242,7 @@ pub(super) fn solve(placed: &Placed) -> Solved {
         columns,
         height_proof: None,
         course: TopCourse::default(),
+        coarse: None,
     }
 }
 
@@ -262,7 +263,10 @@ pub(super) fn plan_walls(placed: &Placed) -> Way<'_> {
     let (mut resolver, voids) = draw(placed);
     let request = unwatched(placed);
     let cleaned = clean(&mut resolver, Start::of(voids), &request, &|_| false).unwrap();
-    let plan = finish_once(placed, &cleaned.voids, &request, cleaned.plan).unwrap();
+    let finished = resolver
+        .planner()
+        .finish(&cleaned.voids, &request, cleaned.plan);
+    let plan = finished.unwrap();
     Way {
         rung: Rung::Walls,
         resolver,

@@ -19,6 +19,8 @@ use crate::shell::Shell;
 pub const COARSE_COLUMNS: usize = 100;
 /// Columns a side of the middle level, on which an impossible goal is proved.
 const MIDDLE_COLUMNS: usize = 400;
+/// Place of the middle level among three. Plans are compared on it where there is a finer one.
+const MIDDLE_LEVEL: usize = 1;
 
 /// The best void, or why no hollowing meets the goal.
 pub type Answer = Verdict<Solved, Impossible>;
@@ -51,7 +53,9 @@ pub fn with_load(placed: &Placed, load: Load, watch: &Watch) -> Result<Answer, E
             return Ok(Verdict::No(impossible(placed, &solution)));
         }
         let load = load.clone();
+        let middle = coarser.clone().filter(|_| level > MIDDLE_LEVEL);
         coarser = Some(Solved {
+            coarse: middle.map(Box::new),
             height_proof: height_proof(&columns, &solution)
                 .or(coarser.as_ref().and_then(|level| level.height_proof)),
             course: coarser.map_or_else(

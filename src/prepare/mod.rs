@@ -59,12 +59,12 @@ pub fn prepare(job: &Job, watch: &Watch) -> Result<Outcome, Error> {
 
 /// Drafts kits in order until one keeps every promise; else returns the last.
 fn first_that_passes<'a>(
-    candidates: Vec<Candidate<'a>>,
+    candidates: impl Iterator<Item = Result<Candidate<'a>, Error>>,
     mut draft: impl FnMut(Candidate<'a>) -> Result<Draft, Error>,
 ) -> Result<Draft, Error> {
     let mut last = Err(Error::Cancelled);
     for candidate in candidates {
-        last = Ok(draft(candidate)?);
+        last = Ok(draft(candidate?)?);
         if last.as_ref().is_ok_and(Draft::passes) {
             break;
         }

@@ -46,7 +46,7 @@ pub fn goal(job: &Job, model: Model, shop: Shop, watch: &Watch) -> Result<Placed
     bound.model.sha256 = Some(model.sha256.clone());
     let placed = Placed {
         fill: fill(job, stock.density_g_cm3)?,
-        policy: Policy::with_joint_price(bound.joint_price_ratio),
+        policy: Policy::with_joint_price(bound.joint_price_ratio).with_effort(bound.effort),
         job: bound,
         model,
         shop,

@@ -5,6 +5,7 @@
 use std::fmt;
 
 use crate::cut::PlanRequest;
+use crate::job::Effort;
 
 /// A rung of the ladder to a plan in which every joint has its pins.
 ///
@@ -79,6 +80,9 @@ pub struct Policy {
     /// Greatest share of the voids that may become solid for pins. Some figures hardly tell: a
     /// toppling angle barely changes when all voids are lost.
     pub max_void_loss_ratio: f64,
+    /// Loss of the goal's figure up to which a plan is built as if a person had ordered it. The
+    /// plan in the kit then makes the same kit again.
+    pub replay_loss_ratio: f64,
     /// Margin around void ends that are kept solid beyond joints.
     pub ends_margin_openings: f64,
     /// Times that void ends are given up beyond joints: the cuts that follow may lack pins, too.
@@ -150,6 +154,20 @@ impl Policy {
         }
     }
 
+    /// Returns the policy of a search with this effort. A thorough one compares more seams and more
+    /// places for bosses.
+    pub fn with_effort(self, effort: Effort) -> Self {
+        let [hidden_rounds, boss_patterns] = match effort {
+            Effort::Quick | Effort::Normal => [self.hidden_rounds, self.boss_patterns],
+            Effort::Thorough => [2 * self.hidden_rounds, 3 * self.boss_patterns],
+        };
+        Self {
+            hidden_rounds,
+            boss_patterns,
+            ..self
+        }
+    }
+
     /// The policy of every run.
     pub const STANDARD: Self = Self {
         cheap_loss_ratio: 0.1,
@@ -159,6 +177,7 @@ impl Policy {
         jigs_first: true,
         pin_spread_ratio: PlanRequest::SPREAD_RATIO,
         max_void_loss_ratio: 0.5,
+        replay_loss_ratio: 0.002,
         ends_margin_openings: 0.25,
         max_ends: 3,
         spare_opening_ratio: 1.03,

@@ -10,6 +10,7 @@ use crate::base::units::format_count;
 use crate::cut::{PartId, UncleanCause};
 use crate::goal::{Request, ShaftAxis, Up};
 use crate::hollow::Figure;
+use crate::job::Effort;
 
 /// A note for the job sheet.
 #[derive(Debug, Clone, PartialEq)]
@@ -48,7 +49,7 @@ pub enum Remark {
         parts: [usize; 2],
         /// The figure of the certificate.
         figure: Figure,
-        /// Its values in both before pins are placed: bosses about pins may cost some of it.
+        /// Its values in both, as planned with their pins.
         values: [f64; 2],
     },
     /// Another plan hides its seams better, and was taken or not.
@@ -63,6 +64,38 @@ pub enum Remark {
     SeamsAligned,
     /// The solid regions of the ordered plan leave too little for the goal.
     OrderTooSolid,
+    /// The search ended before everything was tried.
+    Untried {
+        /// What was not tried.
+        untried: Vec<Untried>,
+        /// The effort that tries more.
+        next: Effort,
+    },
+}
+
+/// What a search did not try, as its work was spent.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Untried {
+    /// Cuts whose seams are seen less.
+    HiddenSeams,
+    /// Cuts whose seams are seen, where nothing else aligns a joint.
+    SeenSeams,
+    /// A plan with fewer parts.
+    FewerParts,
+    /// Other cuts and bosses that give joints their pins.
+    MorePins,
+}
+
+impl fmt::Display for Untried {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str(match self {
+            Self::HiddenSeams => "seams that are seen less",
+            Self::SeenSeams => "joints that are easier to align",
+            Self::FewerParts => "fewer parts",
+            Self::MorePins => "pins in more joints",
+        })
+    }
 }
 
 impl Remark {
@@ -74,7 +107,7 @@ impl Remark {
     /// Returns whether it tells of another plan that a person may prefer.
     pub fn is_offer(&self) -> bool {
         match self {
-            Self::FewerParts { .. } => true,
+            Self::FewerParts { .. } | Self::Untried { .. } => true,
             Self::Seams {
                 loss_ratio,
                 is_taken,
@@ -123,7 +156,7 @@ impl fmt::Display for Remark {
                 let fewer = format_count(*fewer, "part");
                 write!(
                     f,
-                    "{fewer} in place of {parts}: before pins are placed it {then}, and this plan {now}"
+                    "{fewer} in place of {parts}: as planned it {then}, and this plan {now}"
                 )
             }
             Self::Seams {
@@ -136,6 +169,11 @@ impl fmt::Display for Remark {
             Self::OrderTooSolid => f.write_str(
                 "the regions that the plan keeps solid leave too little for the goal: they are not kept solid",
             ),
+            Self::Untried { untried, next } => {
+                let untried: Vec<String> = untried.iter().map(Untried::to_string).collect();
+                let next = Setting::new(Key::Effort, next);
+                write!(f, "a longer search (`{next}`) also looks for {}", untried.join(", "))
+            }
         }
     }
 }
@@ -329,7 +367,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn an_offer_of_fewer_parts_compares_both_plans_before_pins() {
+    fn an_offer_of_fewer_parts_compares_both_plans() {
         let remark = Remark::FewerParts {
             parts: [4, 5],
             figure: Figure::TopplingAngleRad,
@@ -337,12 +375,25 @@ mod tests {
         };
         let words = remark.to_string();
         assert!(
-            words.starts_with("4 parts in place of 5: before pins are placed it "),
+            words.starts_with("4 parts in place of 5: as planned it "),
             "{words}"
         );
         assert!(
             words.contains("9.6°") && words.contains("this plan "),
             "{words}"
+        );
+    }
+
+    #[test]
+    fn a_search_that_ended_early_says_what_a_longer_one_looks_for() {
+        let remark = Remark::Untried {
+            untried: vec![Untried::FewerParts, Untried::MorePins],
+            next: Effort::Thorough,
+        };
+        assert!(remark.is_offer());
+        assert_eq!(
+            remark.to_string(),
+            "a longer search (`effort = \"thorough\"`) also looks for fewer parts, pins in more joints"
         );
     }
 

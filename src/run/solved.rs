@@ -23,6 +23,8 @@ pub struct Solved {
     /// The course of the answer on the coarsest columns: the ascent from nothing, and for tops the
     /// speed by height.
     pub course: TopCourse,
+    /// The answer on coarser columns, for a search among plans; `None` if the finest are few.
+    pub coarse: Option<Box<Solved>>,
 }
 
 /// A bound on the critical speed of tops with their centre of mass at any other height.

@@ -1,5 +1,6 @@
 //! The cavity of a model, and the voids that a quadric cuts out of it.
 
+use super::coarsen::coarsen;
 use super::error::VoidError;
 use super::offset::{CavitySpec, draw_offset_surface};
 use super::region::{Canvas, Region, positive_region};
@@ -8,6 +9,10 @@ use crate::base::watch::Watch;
 use crate::geom::{Aabb, Bvh, Frame, Point, Quadric};
 use crate::mesh::{Csg, MeshDistance, Solid, TriMesh, bodies, primitives};
 use crate::repair::unfold;
+
+/// Tolerance of quadrics in a coarse cavity, in strays of its surface. They are drawn within half
+/// of it, and far from any wall.
+const QUADRIC_STRAYS: f64 = 3.0;
 
 /// The cavity: the whole region that may be emptied.
 ///
@@ -20,7 +25,7 @@ pub struct Cavity {
     body: Csg,
     mesh: TriMesh,
     bvh: Bvh,
-    tolerance_mm: f64,
+    quadric_tolerance_mm: f64,
     min_void_mm: f64,
 }
 
@@ -43,7 +48,7 @@ impl Cavity {
             body: body?,
             bvh,
             mesh,
-            tolerance_mm: spec.tolerance_mm,
+            quadric_tolerance_mm: spec.quadric_tolerance_mm,
             min_void_mm: spec.min_void_mm,
         })
     }
@@ -86,7 +91,7 @@ impl Cavity {
     ) -> Result<Voids, VoidError> {
         let canvas = Canvas {
             body: &self.bvh,
-            tolerance_mm: self.tolerance_mm,
+            tolerance_mm: self.quadric_tolerance_mm,
             watch,
         };
         let parts = match positive_region(quadric, frame, canvas)? {
@@ -95,6 +100,19 @@ impl Cavity {
             Region::Part(region) => self.body.intersect(&region)?.to_mesh()?,
         };
         split_into_voids(&parts, self.min_void_mm, watch)
+    }
+
+    /// Returns the cavity with a coarse surface, which strays by at most `stray_mm` more. It is for
+    /// a search: its wall is not kept.
+    pub fn coarsened(&self, stray_mm: f64, watch: &Watch) -> Result<Self, VoidError> {
+        let mesh = coarsen(&self.mesh, stray_mm, watch)?;
+        Ok(Self {
+            body: Csg::of_mesh(&mesh)?,
+            bvh: Bvh::new(mesh.iter_corners()),
+            mesh,
+            quadric_tolerance_mm: self.quadric_tolerance_mm.max(QUADRIC_STRAYS * stray_mm),
+            ..*self
+        })
     }
 
     /// Returns the cavity less `solid`: one body, or several whose surfaces do not touch. The wall

@@ -26,6 +26,7 @@ mod runs;
 mod table;
 
 // Fewer triangles, checked for self-intersection.
+mod coarsen;
 mod crossing;
 mod decimate;
 mod simplify;
@@ -45,6 +46,7 @@ mod shapes;
 mod tests;
 
 pub use cavity::{Cavity, without_slivers};
+pub use coarsen::coarsen;
 pub use error::VoidError;
 pub use grow::grow_bodies;
 pub use offset::CavitySpec;

@@ -61,6 +61,8 @@ pub struct CavitySpec<'a> {
     /// Largest distance between the drawn surface and the true one, mm, on flat and smoothly curved
     /// places.
     pub tolerance_mm: f64,
+    /// Tolerance of voids' surfaces on quadrics, mm. They are true within half of it.
+    pub quadric_tolerance_mm: f64,
     /// Other regions that stay solid.
     pub keeps: &'a [Keep],
     /// Diameter of the smallest ball that a void must hold, mm; smaller voids are left solid. This

@@ -8,7 +8,7 @@ use clap::Args;
 
 use super::values::{share, words};
 use crate::cut::{CutOrder, KeepClear, LeastPart, SeamStyle};
-use crate::job::{CutMode, IdStyle, PinStyle, PlanError};
+use crate::job::{CutMode, Effort, IdStyle, PinStyle, PlanError};
 
 /// The arguments for cutting the object and joining its parts.
 #[derive(Debug, Clone, Args)]
@@ -37,6 +37,10 @@ pub struct CutArgs {
     /// [default: engraved]
     #[arg(long, value_name = "engraved|none")]
     pub ids: Option<IdStyle>,
+    /// Take the first plan that works (quick), compare plans for a while (normal), or compare all
+    /// that can be thought of (thorough) [default: normal]
+    #[arg(long, value_parser = words::<Effort>(Effort::WORDS))]
+    pub effort: Option<Effort>,
     /// Share of the goal's figure that joints may cost at most [default: 15%]. A printed jig holds
     /// those that would cost more
     #[arg(long, value_name = "RATIO", value_parser = share)]

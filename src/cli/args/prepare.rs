@@ -175,7 +175,7 @@ pub struct PrepareArgs {
 pub const DEFAULT_PLANS: u8 = 3;
 
 /// The arguments that a replayed job decides.
-const DECIDED_BY_JOB: [&str; 36] = [
+const DECIDED_BY_JOB: [&str; 37] = [
     "printer",
     "material",
     "wall",
@@ -207,6 +207,7 @@ const DECIDED_BY_JOB: [&str; 36] = [
     "least_part",
     "pins",
     "ids",
+    "effort",
     "joint_price",
     "format",
     "ballast",
@@ -295,6 +296,7 @@ impl PrepareArgs {
             least_part: self.cutting.least_part.unwrap_or(default.least_part),
             pins: self.cutting.pins.unwrap_or(default.pins),
             ids: self.cutting.ids.unwrap_or(default.ids),
+            effort: self.cutting.effort.unwrap_or(default.effort),
             joint_price_ratio: self.cutting.joint_price,
             thicken: self.thicken,
             format: self.format.unwrap_or(default.format),

@@ -319,10 +319,12 @@ fn the_rules_for_seams_reach_the_job() {
     let plain = request(PREPARE).job;
     assert_eq!((plain.seam.word(), plain.keep_clear.len()), ("hidden", 0));
     assert_eq!(plain.least_part.to_string(), "2%");
-    let line = "--seam level --least-part 5% --keep-clear -1,2,3,4 --keep-clear=0,0,9,1.5";
+    assert_eq!(plain.effort.word(), "normal");
+    let line =
+        "--seam level --least-part 5% --keep-clear -1,2,3,4 --keep-clear=0,0,9,1.5 --effort quick";
     let ruled = request(&format!("{PREPARE} {line}")).job;
     let balls: Vec<String> = ruled.keep_clear.iter().map(ToString::to_string).collect();
-    assert_eq!(ruled.seam.word(), "level");
+    assert_eq!((ruled.seam.word(), ruled.effort.word()), ("level", "quick"));
     assert_eq!(ruled.least_part.to_string(), "5%");
     assert_eq!(balls, ["-1,2,3,4", "0,0,9,1.5"]);
     let refused = parse(&format!("{PREPARE} --keep-clear 1,2,3")).unwrap_err();

@@ -2,11 +2,11 @@
 
 use super::*;
 use crate::base::watch::Watch;
-use crate::cut::{SeamStyle, Seams, UncleanCause};
+use crate::cut::{CutOrder, SeamStyle, Seams, UncleanCause};
 use crate::geom::Vector;
 use crate::open::plan::are_clean;
 use crate::open::scenes::{
-    LEAN, cuboid, draw, lopsided, need_jet, standing, towers, unwatched, volume_mm3,
+    LEAN, along, cuboid, draw, lopsided, need_jet, standing, towers, unwatched, volume_mm3,
 };
 
 /// Returns a wide and a narrow tower on a solid bar.
@@ -189,6 +189,33 @@ fn without_cuts_a_void_stays_closed_and_nothing_is_kept_solid() {
         matches!(obstacle, Obstacle::ClosedCavity { cavities: 2, .. }),
         "{obstacle}"
     );
+}
+
+#[test]
+fn a_void_that_no_ordered_cut_meets_stays_solid_if_little_is_lost_by_it() {
+    let mut placed = unequal_towers();
+    // The cut runs through the wide tower only.
+    let wide = CutOrder {
+        cuts: vec![along(7.0)],
+        ..CutOrder::default()
+    };
+    placed.job.plan = Some(wide);
+    placed.policy.max_void_loss_ratio = 0.5;
+    let before = draw(&placed).1.hollowed.voids.len();
+    let cleaned = clean_up(&placed);
+    assert_eq!((before, cleaned.voids.hollowed.voids.len()), (2, 1));
+    let causes = cleaned.rounds[0].kept.iter().map(|kept| kept.cause);
+    let closed = KeptCause::Uncleanable(UncleanCause::Closed);
+    assert_eq!(causes.collect::<Vec<_>>(), [closed]);
+    // Where it is too much to lose, the order is refused.
+    placed.policy.max_void_loss_ratio = 0.1;
+    let (mut resolver, voids) = draw(&placed);
+    let start = Start::of(voids);
+    let refused = clean(&mut resolver, start, &unwatched(&placed), &|_| false);
+    let Err(Error::Cut(CutError::Obstacle(obstacle))) = refused else {
+        panic!("too much is lost")
+    };
+    assert!(matches!(obstacle, Obstacle::ClosedCavity { .. }));
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! The preferences of a person among plans that open every void: hidden seams, and few parts.
 
 use super::Ladder;
+use super::joined::{Fewer, Joined};
 use crate::base::verdict::Verdict;
 use crate::cut::{Cut, CutError, CutPlan, Drafts, PlanRequest, SeamWeight};
 use crate::error::Error;
@@ -10,7 +11,7 @@ use crate::open::plan::are_clean;
 use crate::open::refused::unless_refused;
 use crate::open::tendency::lean;
 use crate::open::way::{Way, seam_price};
-use crate::run::{Achieved, Policy, Remark, Rung, Tendency, Voids};
+use crate::run::{Achieved, Policy, Remark, Rung, Tendency, Untried, Voids};
 
 /// A draft whose seams are to be seen less than those of the usual plan.
 struct Hidden<'a> {
@@ -140,7 +141,12 @@ impl<'a> Ladder<'a> {
         let Verdict::Found(drafts) = Drafts::new(&self.ground.voids.hollowed, &first)? else {
             return Ok(());
         };
+        // One of them may be clean where the usual plan is not.
+        let is_needed = !are_clean(&choice.usual.bossed.plan, &choice.usual.request);
         for _ in 0..self.policy.hidden_rounds {
+            if !(is_needed || self.budget().allows(Untried::HiddenSeams)) {
+                break;
+            }
             let weight = weight(lack_weight, &tried);
             lack_weight *= self.policy.lack_growth;
             let Verdict::Found(draft) = drafts.draft(&weight)? else {
@@ -190,13 +196,13 @@ impl<'a> Ladder<'a> {
 
     /// Places the pins of a draft, or of one with fewer parts in its place.
     ///
-    /// That is taken if it costs next to nothing of the goal's figure. It may cost a little if all
-    /// its joints have pins and those of the other lack them. Else the sheet offers it.
-    pub(super) fn join_parts(&mut self, usual: Way<'a>) -> Result<Way<'a>, Error> {
+    /// That is taken if it costs next to nothing of the goal's figure. It may cost more if all its
+    /// joints have pins, and some of the other have neither pins nor jigs. Else both are compared
+    /// with their bosses ([`Self::weigh_fewer_parts`]).
+    pub(super) fn join_parts(&mut self, usual: Way<'a>) -> Result<Joined<'a>, Error> {
         let Some(fewer) = self.draft_fewer_parts(&usual)? else {
-            return self.finish(usual);
+            return Ok(Joined::alone(self.finish(usual)?));
         };
-        let [many, few] = [&usual, &fewer].map(|way| way.bossed.plan.count_parts());
         let is_as_clean = are_clean(&fewer.bossed.plan, &fewer.request)
             || !are_clean(&usual.bossed.plan, &usual.request);
         let is_hidden = fewer.seam_price()? <= usual.seam_price()?.max(self.policy.dear_seam_ratio);
@@ -204,30 +210,66 @@ impl<'a> Ladder<'a> {
         let is_as_good = is_as_clean && is_hidden;
         if is_as_good && loss_ratio <= self.policy.part_loss_ratio {
             self.request = fewer.request.clone();
-            return self.finish(fewer);
+            return Ok(Joined::alone(self.finish(fewer)?));
         }
         let usual = self.finish(usual)?;
-        if is_as_good && loss_ratio <= self.policy.aligned_loss_ratio && !usual.is_full() {
+        let is_worth = is_as_good && loss_ratio <= self.policy.aligned_loss_ratio;
+        let is_loose = if self.policy.jigs_first {
+            usual.count_unaligned()? > 0
+        } else {
+            !usual.is_full()
+        };
+        if is_worth && is_loose {
             let fewer = self.finish(fewer.clone())?;
             if fewer.is_full() {
                 self.request = fewer.request.clone();
                 self.notes.push(fewer.price(&usual));
-                return Ok(fewer);
+                return Ok(Joined::alone(fewer));
             }
+        }
+        Ok(Joined {
+            walls: usual,
+            fewer: Some(Fewer {
+                draft: fewer,
+                is_as_good,
+            }),
+        })
+    }
+
+    /// Places the pins of a plan with fewer parts. Of both plans with their pins it takes that one
+    /// if it costs next to nothing of the goal's figure. Else the sheet offers it.
+    ///
+    /// Returns the plan with bosses, and the one without.
+    pub(super) fn weigh_fewer_parts(
+        &mut self,
+        (usual, walls): (Way<'a>, Way<'a>),
+        fewer: Fewer<'a>,
+    ) -> Result<(Way<'a>, Way<'a>), Error> {
+        let placed = self
+            .finish(fewer.draft)
+            .and_then(|walls| Ok((self.add_bosses(walls.clone(), Rung::Bosses)?, walls)));
+        let Some((few, few_walls)) = unless_refused(placed)? else {
+            return Ok((usual, walls));
+        };
+        let is_cheap = fewer.is_as_good && few.loss_ratio(&usual) <= self.policy.part_loss_ratio;
+        if is_cheap && few.count_unaligned()? <= usual.count_unaligned()? {
+            self.request = few.request.clone();
+            return Ok((few, few_walls));
         }
         let certificate = |way: &Way| way.bossed.voids.solution.certificate;
         self.notes.push(Remark::FewerParts {
-            parts: [few, many],
+            parts: [&few, &usual].map(|way| way.bossed.plan.count_parts()),
             figure: certificate(&usual).figure,
-            values: [certificate(&fewer).value, certificate(&usual).value],
+            values: [&few, &usual].map(|way| certificate(way).value),
         });
-        Ok(usual)
+        Ok((usual, walls))
     }
 
     /// Drafts a plan with fewer parts than one with more than two; `None` if there is none.
-    fn draft_fewer_parts(&self, usual: &Way<'a>) -> Result<Option<Way<'a>>, Error> {
+    pub(super) fn draft_fewer_parts(&self, usual: &Way<'a>) -> Result<Option<Way<'a>>, Error> {
         let parts = usual.bossed.plan.count_parts();
-        if !(self.joins_parts && self.is_free() && parts > 2) {
+        let is_sought = self.joins_parts && self.is_free() && parts > 2;
+        if !(is_sought && self.budget().allows(Untried::FewerParts)) {
             return Ok(None);
         }
         let request = lean(self.request.clone(), Tendency::FewerParts);
@@ -241,7 +283,8 @@ impl<'a> Ladder<'a> {
     /// Returns a plan that minds no seam, if pins or jigs align all its joints and it costs little
     /// of the figure; `None` if there is none, or if nobody looks at seams anyway.
     pub(super) fn plan_seen_seams(&self, usual: &Way<'a>) -> Result<Option<Way<'a>>, Error> {
-        if !(self.is_free() && self.hides_seams) {
+        let is_sought = self.is_free() && self.hides_seams;
+        if !(is_sought && self.budget().allows(Untried::SeenSeams)) {
             return Ok(None);
         }
         let request = lean(self.request.clone(), Tendency::Short);

@@ -5,8 +5,10 @@ mod climbing;
 mod jigs_first;
 
 use super::*;
+use crate::base::watch::Watch;
+use crate::job::CutMode;
 use crate::open::scenes::{LEAN, chimneys, cuboid, forbid_bosses, solve, standing};
-use crate::run::Opened;
+use crate::run::{Opened, Placed};
 
 /// Returns a wide and a narrow tower on a bar. Pins of 3 mm have no room in the walls, and no boss
 /// is looked for.
@@ -31,8 +33,12 @@ fn dear_chimneys(count: usize, partial_loss_ratio: f64) -> Placed {
     placed
 }
 
+fn resolver_of(placed: &Placed) -> Resolver<'_> {
+    Resolver::new(placed, solve(placed), &Watch::silent()).unwrap()
+}
+
 fn ladder_of(placed: &Placed) -> Ladder<'_> {
-    Ladder::new(placed, solve(placed), &Watch::silent()).unwrap()
+    Ladder::new(resolver_of(placed)).unwrap()
 }
 
 /// Returns the plan that every ladder begins with.

@@ -23,6 +23,7 @@ fn spec(wall_mm: f64, keeps: &[Keep]) -> CavitySpec<'_> {
     CavitySpec {
         wall_mm,
         tolerance_mm: TOLERANCE_MM,
+        quadric_tolerance_mm: TOLERANCE_MM,
         keeps,
         min_void_mm: 0.0,
     }

@@ -7,7 +7,9 @@ use super::*;
 use crate::base::watch::Progress;
 use crate::cut::SolidEnd;
 use crate::geom::Point;
+use crate::job::Effort;
 use crate::mesh::primitives;
+use crate::open::ladder::joined::Fewer;
 use crate::open::scenes::{LOW, along, cut_towers, lopsided, need_jet, order, thick_box};
 
 /// Returns a box so deep for its jet that it takes two cuts to clean it. Pins of 5 mm have no room
@@ -36,7 +38,7 @@ fn dumbbell() -> Placed {
 }
 
 fn climb_silently(placed: &Placed) -> Vec<Candidate<'_>> {
-    climb(placed, solve(placed), &Watch::silent()).unwrap()
+    ladder_of(placed).climb().unwrap()
 }
 
 #[test]
@@ -95,6 +97,61 @@ fn a_cut_for_cleaning_alone_is_left_out_and_the_hidden_end_stays_solid() {
     };
     assert_eq!(*parts, [2, usual.plan.count_parts()]);
     assert_eq!(*stepped, Remark::SteppedDown(Rung::Bosses));
+}
+
+#[test]
+fn a_quick_search_takes_the_first_plan_and_says_what_it_did_not_try() {
+    let mut placed = deep_box();
+    let longer = placed.clone();
+    let normal = climb_silently(&longer);
+    placed.job.effort = Effort::Quick;
+    let resolver = resolver_of(&placed);
+    let budget = resolver.budget().clone();
+    let quick = Ladder::new(resolver).unwrap().climb().unwrap();
+    assert_eq!(rungs(&quick), [Rung::Bosses]);
+    // It is the plan that the longer search found first.
+    let cuts = |candidate: &Candidate| candidate.opened.plan.cuts.clone();
+    assert_eq!(cuts(&quick[0]), cuts(&normal[1]));
+    let expected = Remark::Untried {
+        untried: vec![Untried::FewerParts, Untried::MorePins],
+        next: Effort::Normal,
+    };
+    assert_eq!(budget.remark(), Some(expected));
+}
+
+#[test]
+fn of_two_plans_with_their_pins_the_one_with_fewer_parts_is_taken_if_it_costs_no_more() {
+    let mut placed = deep_box();
+    placed.policy.part_loss_ratio = 0.0;
+    let ladder = ladder_of(&placed);
+    let usual = usual_of(&ladder);
+    let walls = usual.clone();
+    let draft = ladder.draft_fewer_parts(&usual).unwrap().unwrap();
+    let parts = |way: &Way| way.bossed.plan.count_parts();
+    let weigh = |limit: f64| {
+        let mut ladder = ladder.clone();
+        ladder.policy.part_loss_ratio = limit;
+        let fewer = Fewer {
+            draft: draft.clone(),
+            is_as_good: true,
+        };
+        let both = (usual.clone(), walls.clone());
+        let (taken, _) = ladder.weigh_fewer_parts(both, fewer).unwrap();
+        (parts(&taken), ladder.notes)
+    };
+    let (dear, offers) = weigh(0.0);
+    assert_eq!(dear, parts(&usual));
+    let [
+        Remark::FewerParts {
+            parts: [few, many], ..
+        },
+    ] = offers[..]
+    else {
+        panic!("{offers:?}")
+    };
+    assert_eq!((few, many), (2, dear));
+    let (cheap, offers) = weigh(1.0);
+    assert!(cheap == 2 && offers.is_empty());
 }
 
 #[test]
@@ -205,7 +262,8 @@ fn a_run_cancelled_on_a_rung_ends_and_is_no_fault() {
     // The usual plan, that of wide joints, and the first of the last rung.
     for number in 0..3 {
         let watch = watch_that_stops_at_plan(number);
-        let climbed = climb(&placed, solve(&placed), &watch);
+        let resolver = Resolver::new(&placed, solve(&placed), &watch).unwrap();
+        let climbed = Ladder::new(resolver).and_then(Ladder::climb);
         assert!(watch.is_cancelled(), "plan {number} was begun");
         assert!(matches!(climbed, Err(Error::Cancelled)), "plan {number}");
     }
