@@ -2,9 +2,10 @@
 
 use rayon::prelude::*;
 
+use super::body_points::points_in_sections;
 use super::cradle::{Cradle, SPARE_MM, Slab, View};
-use super::sketch::{Held, Sketch};
-use super::stops::{Sides, stops_at};
+use super::sketch::{Held, Sketch, range};
+use super::stops::{Sides, all_stops_at, stops_at};
 use crate::{
     base::watch::Cancelled,
     cut::{
@@ -68,7 +69,7 @@ const RELIEFS: [f64; 4] = [0.0, 0.35, 0.7, 1.2];
 const REACH_MM: f64 = 1.0;
 
 /// Share of the accepted step that is kept in reserve: a judge measures the cradle by other points.
-const RESERVE_RATIO: f64 = 0.1;
+const RESERVE_RATIO: f64 = 0.05;
 
 /// Share of the accepted step below which a smaller jig is better than a tighter one.
 const TIGHT_RATIO: f64 = 0.6;
@@ -165,7 +166,7 @@ impl<'a> Bench<'a> {
             .filter_map(|(way, found)| Some((least_step_mm(found)?, *way)))
             .filter(|(step_mm, _)| *step_mm <= HOPE_RATIO * self.max_step_mm())
             .collect();
-        let usual = self.choose(usual);
+        let usual = self.choose(usual)?;
         if usual.is_some() {
             return Ok(usual);
         }
@@ -175,7 +176,7 @@ impl<'a> Bench<'a> {
             .flat_map(|(_, way)| WAYS_BETWEEN.map(|between| way + between))
             .collect();
         let extra = self.try_along(&ways, &EXTRA_RIBS_MM, EXTRA_CHEEKS)?;
-        Ok(self.choose(extra))
+        self.choose(extra)
     }
 
     /// Returns the step that a jig may leave, mm.
@@ -211,7 +212,7 @@ impl<'a> Bench<'a> {
         for batch in trials.chunks(BATCH) {
             self.request.watch.check()?;
             let held = batch.par_iter().map(|trial| {
-                let held = stands[trial.stand].hold(&trial.sketch);
+                let held = stands[trial.stand].hold_roughly(&trial.sketch);
                 (trial.stand / ribs.len(), held)
             });
             let held: Vec<(usize, Option<Held>)> = held.collect();
@@ -253,8 +254,7 @@ impl<'a> Bench<'a> {
         let [low, high] = range(rim.iter().map(|spot| spot.y));
         let beside_mm = gap_mm + CHEEK_MM;
         let window = [left - beside_mm, right + beside_mm];
-        let local = |corners: &[Point; 3]| corners.each_ref().map(|p| view.local(p));
-        let surface: Vec<[Point; 3]> = self.outside.iter().map(local).collect();
+        let surface = self.surface(&view);
         // What is beyond a rib's face is no nearer to it than the gap.
         let cradles = [
             [-far - gap_mm, gap_mm - near],
@@ -262,7 +262,7 @@ impl<'a> Bench<'a> {
         ]
         .map(|heights| Slab::of(&surface, heights).cradle(window, gap_mm));
         let points = |side: usize| {
-            let heights = [[-far, -near], [near, far]][side];
+            let heights = heights_of([near, far])[side];
             // No outline is higher than this one.
             let highest = cradles[side].outline(high, 0.0);
             let highest = Sides::of(&highest, REACH_MM + SPARE_MM);
@@ -315,17 +315,38 @@ impl<'a> Bench<'a> {
     }
 
     /// Returns the best of some jigs that hold the parts as well as is asked for.
-    fn choose(&self, held: Vec<Vec<Held>>) -> Option<Held> {
-        let max_step_mm = self.max_step_mm();
-        let mut best: Option<Held> = None;
-        for held in held.into_iter().flatten() {
-            let is_held = held.play.step_mm <= max_step_mm;
-            let is_better = |best: &Held| held.is_better(best, self.tight_mm());
-            if is_held && best.as_ref().is_none_or(is_better) {
-                best = Some(held);
+    ///
+    /// What counts is the play that is left when the body is looked at as closely as a judge does.
+    fn choose(&self, held: Vec<Vec<Held>>) -> Result<Option<Held>, Cancelled> {
+        let is_enough = |held: &Held| held.play.step_mm <= self.max_step_mm();
+        let mut held: Vec<Held> = held.into_iter().flatten().filter(is_enough).collect();
+        held.sort_by(|a, b| a.compare(b, self.tight_mm()));
+        for held in held {
+            self.request.watch.check()?;
+            let closely = self.hold_closely(&held.sketch).filter(is_enough);
+            if closely.is_some() {
+                return Ok(closely);
             }
         }
-        best
+        Ok(None)
+    }
+
+    /// Measures the play of the parts in a jig by more points of the body, and by all their stops.
+    fn hold_closely(&self, sketch: &Sketch) -> Option<Held> {
+        let stand = self.stand(sketch.view, sketch.ribs_mm);
+        let surface = self.surface(&sketch.view);
+        let heights = heights_of(sketch.ribs_mm);
+        stand.hold(sketch, |side| {
+            let mut points = points_in_sections(&surface, heights[side]);
+            points.extend(&stand.points[side]);
+            all_stops_at(&points, &sketch.ribs[side], REACH_MM)
+        })
+    }
+
+    /// Returns the outside near the joint in a view.
+    fn surface(&self, view: &View) -> Vec<[Point; 3]> {
+        let local = |corners: &[Point; 3]| corners.each_ref().map(|p| view.local(p));
+        self.outside.iter().map(local).collect()
     }
 
     /// Returns true if a jig fits the printer, lying or turned by a right angle.
@@ -343,18 +364,27 @@ impl<'a> Bench<'a> {
 }
 
 impl Stand {
-    /// Measures the play of the parts in a jig; `None` if they slide or turn even so.
-    fn hold(&self, sketch: &Sketch) -> Option<Held> {
-        let seat = |side: usize| {
-            let stops = stops_at(&self.points[side], &sketch.ribs[side], REACH_MM);
-            Seat::pressed(&stops, &self.press, self.middle)
-        };
+    /// Estimates the play of the parts in a jig; `None` if they slide or turn even so.
+    fn hold_roughly(&self, sketch: &Sketch) -> Option<Held> {
+        self.hold(sketch, |side| {
+            stops_at(&self.points[side], &sketch.ribs[side], REACH_MM)
+        })
+    }
+
+    /// Measures the play of the parts in a jig with some stops on either side.
+    fn hold(&self, sketch: &Sketch, stops: impl Fn(usize) -> Vec<Stop>) -> Option<Held> {
+        let seat = |side: usize| Seat::pressed(&stops(side), &self.press, self.middle);
         let play = seat(0)?.play_between(&seat(1)?, self.middle, &self.rim);
         Some(Held {
             sketch: sketch.clone(),
             play,
         })
     }
+}
+
+/// Returns the heights of the ribs on either side of a joint, from below, mm.
+fn heights_of([near, far]: [f64; 2]) -> [[f64; 2]; 2] {
+    [[-far, -near], [near, far]]
 }
 
 /// Returns the least step of some jigs, mm.
@@ -365,11 +395,4 @@ fn least_step_mm(held: &[Held]) -> Option<f64> {
 
 fn flat(p: &Point) -> Spot {
     Spot::new(p.x, p.z)
-}
-
-/// Returns the least and the greatest of some values.
-pub(super) fn range(values: impl Iterator<Item = f64>) -> [f64; 2] {
-    values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| {
-        [low.min(value), high.max(value)]
-    })
 }

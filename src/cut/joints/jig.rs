@@ -5,9 +5,9 @@
 //! out. So the jig pulls off in one movement, whatever the body, and prints without support. Both
 //! parts are pressed down into it, and the same gap on both sides lets them meet.
 
-use super::bench::{Bench, range};
+use super::bench::Bench;
 use super::cradle::{View, body_under};
-use super::sketch::Held;
+use super::sketch::{Held, range};
 use crate::{
     cut::{
         error::CutError,

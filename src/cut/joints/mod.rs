@@ -1,6 +1,7 @@
 //! Pins, dowels, bosses and labels of the joints between parts.
 
 pub(crate) mod bench;
+mod body_points;
 pub(crate) mod boss;
 pub(crate) mod boss_maker;
 pub(crate) mod boss_places;

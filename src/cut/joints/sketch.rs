@@ -38,12 +38,19 @@ impl Sketch {
 }
 
 impl Held {
-    /// Returns true if it is smaller than another, or tighter if either is not tight.
-    pub(super) fn is_better(&self, other: &Self, tight_mm: f64) -> bool {
+    /// Returns the order of two jigs, the better first: the tighter one if either is not tight,
+    /// else the smaller one.
+    pub(super) fn compare(&self, other: &Self, tight_mm: f64) -> Ordering {
         let [step_mm, other_mm] = [self, other].map(|held| held.play.step_mm.max(tight_mm));
-        match step_mm.total_cmp(&other_mm) {
-            Ordering::Equal => self.sketch.volume_mm3() < other.sketch.volume_mm3(),
-            order => order == Ordering::Less,
-        }
+        let volumes = || [self, other].map(|held| held.sketch.volume_mm3());
+        let by_volume = || volumes()[0].total_cmp(&volumes()[1]);
+        step_mm.total_cmp(&other_mm).then_with(by_volume)
     }
+}
+
+/// Returns the least and the greatest of some values.
+pub(super) fn range(values: impl Iterator<Item = f64>) -> [f64; 2] {
+    values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| {
+        [low.min(value), high.max(value)]
+    })
 }

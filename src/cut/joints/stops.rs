@@ -13,16 +13,22 @@ const FACING_RATIO: f64 = 0.999;
 /// Steepness up to which a side is a floor; steeper ones are walls.
 const FLOOR_SLOPE: f64 = 1.0;
 
-/// Returns the stops of a body in a cradle: its points near the outline, each with the nearest
+/// Returns all stops of a body in a cradle: its points near the outline, each with the nearest
 /// floor, left wall and right wall.
+pub(super) fn all_stops_at(points: &[Spot], outline: &[Spot], reach_mm: f64) -> Vec<Stop> {
+    let sides = Sides::of(outline, reach_mm);
+    points.iter().flat_map(|at| sides.touched_by(at)).collect()
+}
+
+/// Returns the nearest of these stops in each sector. Motions that only the others stop stay free:
+/// the play of few stops is an estimate.
 pub(super) fn stops_at(points: &[Spot], outline: &[Spot], reach_mm: f64) -> Vec<Stop> {
     let mut nearest: BTreeMap<[i64; 2], Stop> = BTreeMap::new();
     let (Some(first), Some(last)) = (outline.first(), outline.last()) else {
         return Vec::new();
     };
     let width = (last.x - first.x).max(f64::MIN_POSITIVE);
-    let sides = Sides::of(outline, reach_mm);
-    for stop in points.iter().flat_map(|at| sides.touched_by(at)) {
+    for stop in all_stops_at(points, outline, reach_mm) {
         let turn = stop.normal.y.atan2(stop.normal.x) / std::f64::consts::TAU;
         let place = (stop.at.x - first.x) / width;
         let sector = [turn, place].map(|share| (share * SECTORS).floor() as i64);
