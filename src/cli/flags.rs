@@ -68,9 +68,6 @@ pub fn commands_on_coupon_sheet(set: &CouponSet) -> Commands {
 /// The command that writes several plans with their figures.
 pub const OTHER_PLANS: &str = "equipoise cuts";
 
-/// The flag that lets jigs hold the joints in place of bosses around pins.
-pub const NO_BOSSES: &str = "--joint-price 0";
-
 /// The flags of which `printers calibrate` needs one.
 pub const MEASUREMENTS: &str = "--weighed, --clearance, --press, --loose, --pin or --wall";
 

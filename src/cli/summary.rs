@@ -4,7 +4,7 @@
 use std::path::Path;
 
 use super::bars::words as stage_name;
-use super::flags::{NO_BOSSES, OTHER_PLANS, with_flags};
+use super::flags::{OTHER_PLANS, with_flags};
 use super::show::{GREEN, RED, paint, table, verdict};
 use super::voice::Manner;
 use crate::base::numbers::{measured, measured_extent, quantity as figure};
@@ -125,8 +125,7 @@ fn shortfall_words(checklist: &Checklist) -> Option<String> {
     };
     let plans =
         has(Taker::Cleaning).then(|| format!(" Other plans with their figures: {OTHER_PLANS}."));
-    let jigs = has(Taker::Bosses).then(|| format!(" Jigs in place of bosses: {NO_BOSSES}."));
-    Some(words + &plans.unwrap_or_default() + &jigs.unwrap_or_default())
+    Some(words + &plans.unwrap_or_default())
 }
 
 fn balance(checklist: &Checklist) -> Option<String> {

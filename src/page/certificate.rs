@@ -4,6 +4,7 @@
 use maud::{Markup, html};
 
 use super::document::styled_document;
+use super::fields::sentence;
 use super::figure::{Role, figures};
 use super::grid;
 use super::inputs::PageInputs;
@@ -52,6 +53,9 @@ fn facts(sheet: &Checklist) -> Markup {
     html! {
         table class="facts" {
             tr { th scope="row" { "Goal" } td { (words::goal(&sheet.goal)) ". Coordinates are along the model's own axes." } }
+            @if let Some(choice) = &sheet.goal.choice {
+                tr { th scope="row" { "Way up" } td { (sentence(choice)) } }
+            }
             tr {
                 th scope="row" { "Model" }
                 td {

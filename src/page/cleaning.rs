@@ -2,7 +2,7 @@
 
 use maud::{Markup, html};
 
-use super::fields::residue;
+use super::fields::{residue, residue_density_ratio};
 use crate::base::numbers::{measured, quantity};
 use crate::base::units::MM3_PER_CM3;
 use crate::sheet::{Checklist, Process, VoidRow, checks_of_void};
@@ -18,7 +18,6 @@ const ALL_IN_SIGHT_RATIO: f64 = 0.995;
 
 /// Returns the instruction to clean a void, with a box to tick.
 pub(super) fn clean_one(sheet: &Checklist, void: &VoidRow) -> Markup {
-    let full_g = void.volume_mm3 / MM3_PER_CM3 * sheet.material.density_g_cm3;
     html! {
         li {
             strong { (void.id) }
@@ -31,9 +30,20 @@ pub(super) fn clean_one(sheet: &Checklist, void: &VoidRow) -> Markup {
                 @if !check.pass { (broken(check)) " " }
             }
             (void.clean) (hidden_rest(sheet, void))
-            " Left full of " (residue(&sheet.printer.process)) ", it weighs about " (measured(full_g, "g")) " too much."
+            (left_full(sheet, void))
         }
     }
+}
+
+/// Words what is too much if a void is not cleaned. Filament printers fill no hollow with support:
+/// a little is in it at most, which is told with the part's support.
+fn left_full(sheet: &Checklist, void: &VoidRow) -> String {
+    let Some(ratio) = residue_density_ratio(&sheet.printer.process) else {
+        return String::new();
+    };
+    let full_g = ratio * void.volume_mm3 / MM3_PER_CM3 * sheet.material.density_g_cm3;
+    let (residue, full) = (residue(&sheet.printer.process), measured(full_g, "g"));
+    format!(" Left full of {residue}, it weighs about {full} too much.")
 }
 
 fn broken(check: &Check) -> Markup {

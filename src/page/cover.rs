@@ -14,7 +14,10 @@ use crate::base::units::format_count;
 use crate::sheet::{Checklist, Verdict};
 
 /// Micrometres in a millimetre.
-const UM_PER_MM: f64 = 1000.0;
+pub(super) const UM_PER_MM: f64 = 1000.0;
+
+/// Height of a layer below which it is named in micrometres, mm.
+pub(super) const THIN_LAYER_MM: f64 = 0.1;
 
 /// Returns the head of the sheet.
 pub(super) fn cover(inputs: &PageInputs, job: &JobId) -> Markup {
@@ -93,9 +96,6 @@ fn facts(sheet: &Checklist) -> Markup {
     html! {
         table class="facts" {
             @for (name, words) in rows { tr { th scope="row" { (name) } td { (words) } } }
-            @if let Some(choice) = &sheet.goal.choice {
-                tr { th scope="row" { "Way up" } td { (sentence(choice)) } }
-            }
             @if let Some(foot) = words::spins_on(sheet) {
                 tr { th scope="row" { "Spins on" } td { (foot) } }
             }
@@ -106,7 +106,7 @@ fn facts(sheet: &Checklist) -> Markup {
 /// Words the height of a layer, in micrometres if it is thin.
 fn layer(sheet: &Checklist) -> String {
     let mm = sheet.printer.layer_mm;
-    if mm < 0.1 {
+    if mm < THIN_LAYER_MM {
         format!("{:.0}\u{a0}µm ({}\u{a0}mm)", mm * UM_PER_MM, number(mm))
     } else {
         format!("{}\u{a0}mm", number(mm))

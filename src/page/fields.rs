@@ -53,6 +53,20 @@ pub(super) fn half_name(half: Half) -> &'static str {
     }
 }
 
+/// Density of loose powder over that of the sintered material: beds of polyamide are packed to
+/// 0.45–0.5 g/cm³, parts to 0.95–1.01.
+const POWDER_RATIO: f64 = 0.5;
+
+/// Returns the density of what fills an uncleaned void over that of the material; `None` for
+/// filament, of which a lattice at most is left.
+pub(super) fn residue_density_ratio(process: &Process) -> Option<f64> {
+    match process {
+        Process::Fdm => None,
+        Process::Sls | Process::Mjf => Some(POWDER_RATIO),
+        _ => Some(1.0),
+    }
+}
+
 /// Names the residue that a process may leave in a void.
 pub(super) fn residue(process: &Process) -> &'static str {
     match process {

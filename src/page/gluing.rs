@@ -73,15 +73,32 @@ impl Closing<'_> {
         }
     }
 
-    /// Names the two bodies: `P01 + P03`.
+    /// Names the parts of the two bodies that meet: `P01 + P03`.
     fn bodies(&self) -> [String; 2] {
-        self.sides.each_ref().map(|side| side.join(" + "))
+        let meets = |part: &&str| {
+            let mut parts = self.joints.iter().flat_map(|joint| &joint.parts);
+            parts.any(|met| met == part)
+        };
+        self.sides.each_ref().map(|side| {
+            let met: Vec<&str> = side.iter().copied().filter(meets).collect();
+            met.join(" + ")
+        })
     }
 
-    /// Words how the bodies come together: `push P03 onto P01 + P02`.
-    fn movement(&self) -> String {
+    /// Words how the bodies come together, the lighter onto the heavier: `push P03 onto P01`.
+    fn movement(&self, sheet: &Checklist) -> String {
         let [one, other] = self.bodies();
-        format!("push {one} onto {other}")
+        let mass_g = |side: &[&str]| -> f64 {
+            let parts = sheet.parts.iter();
+            let parts = parts.filter(|part| side.contains(&part.id.as_str()));
+            parts.map(|part| part.mass_g).sum()
+        };
+        let [one_g, other_g] = self.sides.each_ref().map(|side| mass_g(side));
+        if one_g <= other_g {
+            format!("push {one} onto {other}")
+        } else {
+            format!("push {other} onto {one}")
+        }
     }
 
     /// Returns the joint whose pins align another that has too few, since both close in one
@@ -128,11 +145,11 @@ impl Closing<'_> {
 pub(super) fn dry_fit(sheet: &Checklist) -> Markup {
     html! {
         (cut_list(sheet))
-        p { "Put everything together without glue first. There must be no gap and no step at a seam." }
+        p { "Put everything together without glue first. There must be no gap at a seam. A step no larger than stated below may be filed off after gluing." }
         ul class="ticks" {
             @for closing in closings(sheet) {
                 li {
-                    strong { (closing.name()) } ": " (closing.movement())
+                    strong { (closing.name()) } ": " (closing.movement(sheet))
                     @if closing.joints.iter().any(|joint| joint.pins > 0) { ", every pin all the way in" }
                     ". "
                     (closing.alignment(sheet))
@@ -161,8 +178,8 @@ fn jig_steps(sheet: &Checklist) -> Markup {
                 @for jig in &sheet.jigs {
                     li {
                         strong { (jig.order.id) } " (" (file_name(&jig.order.file)) "): lay both parts of "
-                        (jig.order.joint) " in the jig, glue them, press them down and together, wipe the seam, "
-                        "let the glue set, and pull the jig off straight."
+                        (jig.order.joint) " in the jig and glue them. Press them down and together by hand until the glue holds: "
+                        "the jig guides them, and does not carry them. Wipe the seam, and pull the jig off straight."
                     }
                 }
             }
@@ -177,7 +194,12 @@ pub(super) fn glue(sheet: &Checklist) -> Markup {
             @if let Some(glue) = &sheet.printer.glue { (glue_words(sheet, glue)) }
             p { (glue_advice(sheet.goal.aim.kind)) }
             @if closings(sheet).len() > 1 {
-                p { "Let each row harden before the next. Joints in the same row: put glue on all of them, then close them together." }
+                p {
+                    "Let each row harden before the next."
+                    @if closings(sheet).iter().any(|closing| closing.joints.len() > 1) {
+                        " Joints in the same row: put glue on all of them, then close them together."
+                    }
+                }
             }
         }
         (jig_steps(sheet))
@@ -191,7 +213,7 @@ pub(super) fn glue(sheet: &Checklist) -> Markup {
                     th scope="col" { "Glued, clamped until" }
                 }
             }
-            tbody { @for closing in closings(sheet) { (line(&closing)) } }
+            tbody { @for closing in closings(sheet) { (line(sheet, &closing)) } }
         }
     }
 }
@@ -212,14 +234,14 @@ fn glue_words(sheet: &Checklist, glue: &GlueRow) -> Markup {
     }
 }
 
-fn line(closing: &Closing) -> Markup {
+fn line(sheet: &Checklist, closing: &Closing) -> Markup {
     let area_mm2 = closing.joints.iter().map(|joint| joint.area_mm2).sum();
     let films = closing.joints.iter().filter_map(|joint| joint.glue);
     let mass_g: f64 = films.map(|film| film.mass_g).sum();
     html! {
         tr {
             th scope="row" { "☐ " (closing.name()) }
-            td data-head="Movement" { (closing.movement()) }
+            td data-head="Movement" { (closing.movement(sheet)) }
             td class="n" data-head="Area" { (measured(area_mm2, "mm²")) }
             td class="n" data-head="Glue" { @if mass_g > 0.0 { (measured(mass_g, "g")) } @else { "a thin film" } }
             td data-head="Glued, clamped until" { (blank()) }

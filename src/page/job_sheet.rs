@@ -11,6 +11,7 @@ use super::job_id::JobId;
 use super::running::style;
 use super::steps::steps;
 use super::view::viewer;
+use crate::sheet::Verdict;
 
 /// Returns the job sheet as a self-contained HTML page with its pictures.
 pub fn job(inputs: &PageInputs) -> String {
@@ -25,7 +26,7 @@ pub fn job(inputs: &PageInputs) -> String {
             @if let Some(view) = inputs.view { (viewer(view)) }
             (steps(sheet, inputs.pictures))
             (hand_over::sign_off(sheet))
-            (hand_over::card(sheet))
+            @if sheet.verdict == Verdict::Pass { (hand_over::card(sheet)) }
         }
     };
     styled_document(&format!("Job sheet: {}", sheet.job), &body, &style(&job))

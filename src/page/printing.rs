@@ -3,6 +3,7 @@
 use maud::{Markup, html};
 
 use super::below;
+use super::cover::{THIN_LAYER_MM, UM_PER_MM};
 use super::fields::{file_name, half_name};
 use super::figure::Picture;
 use super::hardware::bar;
@@ -22,6 +23,9 @@ pub(super) fn print_step(sheet: &Checklist, pictures: &[Picture]) -> Markup {
             li { strong { "Load: " } (load(sheet)) }
             li { strong { "Solid, 100 % infill: " } (solid(sheet)) }
             li { strong { "Support: " } (support::of_all(sheet)) }
+            @if sheet.printer.process == Process::Fdm {
+                li { strong { "Brim: " } "in the 3MF files, on parts that stand on a small spot. Add one if you load STL files, and cut it off flush." }
+            }
             @if sheet.printer.build_volume_mm.is_none() {
                 li { strong { "Room: " } "the build volume of this printer is not known; check by hand that every part fits." }
             }
@@ -127,23 +131,33 @@ fn solid(sheet: &Checklist) -> Markup {
         Process::Fdm => format!(
             "100 % infill, line width {}, layers of {}. Do not change them: the masses depend on them.",
             quantity(printer.pixel_mm[0], "mm"),
-            quantity(printer.layer_mm, "mm")
+            layer(sheet)
         ),
         Process::Sla => format!(
             "no hollowing, no infill and no drain holes by the slicer, in layers of {}.",
-            quantity(printer.layer_mm, "mm")
+            layer(sheet)
         ),
         Process::Polyjet | Process::Mjp => format!(
             "model material all through, no light or sparse filling, in layers of {}.",
-            quantity(printer.layer_mm, "mm")
+            layer(sheet)
         ),
         _ => format!(
             "no hollowing and no lattice by the build software, in layers of {}.",
-            quantity(printer.layer_mm, "mm")
+            layer(sheet)
         ),
     };
     html! {
         (how) " The voids are in the files: they stay empty."
+    }
+}
+
+/// Words the height of a layer as machines name it: in micrometres if it is thin.
+fn layer(sheet: &Checklist) -> String {
+    let layer_mm = sheet.printer.layer_mm;
+    if layer_mm < THIN_LAYER_MM {
+        format!("{:.0}\u{a0}µm", layer_mm * UM_PER_MM)
+    } else {
+        quantity(layer_mm, "mm")
     }
 }
 
@@ -196,7 +210,7 @@ mod tests {
         for process in ["fdm", "sla", "polyjet", "mjp", "sls", "mjf"] {
             let page = page_of(|sheet| sheet.printer.process = process.to_owned().into());
             assert!(
-                page.contains("Solid, 100 % infill") && page.contains("layers of 0.016"),
+                page.contains("Solid, 100 % infill") && page.contains("layers of 16\u{a0}µm"),
                 "{process}"
             );
             assert_eq!(

@@ -101,7 +101,7 @@ fn the_page_says_what_to_do_in_order() {
         "all promises kept",
         "Flush with the water",
         "The last 4\u{a0}% is round a corner",
-        "glue on a tip of that length",
+        "It has no tip",
         "Hang it by a thread",
         "turns a second",
         "Material lot",

@@ -233,7 +233,7 @@ fn tip_line(sheet: &Checklist) -> Option<String> {
     let gap_mm = sheet.goal.contact_gap_mm;
     (gap_mm > 0.0).then(|| {
         let gap = measured(gap_mm, "mm");
-        format!("Its contact point is {gap} below it: glue on a tip of that length, as light as possible; the figures do not include its mass.")
+        format!("It has no tip: its contact point is {gap} below it. It spins as stated only on a support of that height.")
     })
 }
 

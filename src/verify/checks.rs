@@ -255,7 +255,7 @@ fn joint_checks(promise: &Promise, found: &Judgement) -> Vec<Check> {
         Check::new(
             CheckKind::Clearance,
             "pin gap as ordered, on each side; it lacks",
-            lack_mm,
+            lack_mm.map(|lack_mm| lack_mm.max(0.0)),
             Limit::at_most(GAP_TOLERANCE_MM, "mm"),
         )
         .at(tight_at),
@@ -298,7 +298,7 @@ fn jig_checks(jigs: &[JigFacts]) -> Vec<Check> {
     let gap = worst(|jig| jig.ordered_gap_mm - jig.gap_mm).map(|(lack_mm, at)| {
         let words = "every jig keeps its gap from the outside; it lacks";
         let limit = Limit::at_most(GAP_TOLERANCE_MM, "mm");
-        Check::new(CheckKind::JigGap, words, Some(lack_mm), limit).at(at)
+        Check::new(CheckKind::JigGap, words, Some(lack_mm.max(0.0)), limit).at(at)
     });
     let seam = worst(|jig| -jig.seam_mm).map(|(over_mm, at)| {
         let words = "every jig leaves room along its seam of";

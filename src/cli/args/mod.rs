@@ -59,6 +59,9 @@ pub struct Cli {
 /// The usage: a model alone is prepared.
 const USAGE: &str = "equipoise <MODEL|COMMAND> [OPTIONS]";
 
+/// The usage of `cuts`, which takes the arguments of `prepare`.
+const CUTS_USAGE: &str = "equipoise cuts <MODEL> --goal <GOAL> --printer <ID|FILE> [OPTIONS]";
+
 /// The most threads. With far more threads than cores, the waiting ones slow the others down.
 const MAX_THREADS: i64 = 256;
 
@@ -93,6 +96,7 @@ pub enum Command {
     /// Show plans of cuts side by side, to choose one for prepare
     ///
     /// It takes the arguments of prepare, and writes plan1.toml and so on with pictures of each.
+    #[command(override_usage = CUTS_USAGE)]
     Cuts(Box<PrepareArgs>),
     /// Turn a curve into a kit of nested shells that slide open into it
     Telescope(Box<TelescopeArgs>),

@@ -3,9 +3,10 @@
 use rayon::prelude::*;
 
 use super::body_points::points_in_sections;
-use super::cradle::{Cradle, SPARE_MM, Slab, View};
+use super::cradle::{SPARE_MM, Slab, View};
 use super::sketch::{Held, Sketch, range};
-use super::stops::{Sides, all_stops_at, stops_at};
+use super::stand::{REACH_MM, Stand, heights_of};
+use super::stops::{Sides, all_stops_at};
 use crate::{
     base::watch::Cancelled,
     cut::{
@@ -15,7 +16,7 @@ use crate::{
     },
     geom::{
         Plane, Point,
-        play::{Seat, Spot, Stop, Way, corners_of},
+        play::{Spot, Stop, Way, corners_of},
     },
     mesh::TriMesh,
 };
@@ -65,9 +66,6 @@ const HOPE_RATIO: f64 = 2.5;
 /// Slopes of a cradle below which its floor is lowered, so that the body stands on its cheeks.
 const RELIEFS: [f64; 4] = [0.0, 0.35, 0.7, 1.2];
 
-/// Distance within which a corner of the body counts as stopped by the cradle, mm.
-const REACH_MM: f64 = 1.0;
-
 /// Share of the accepted step that is kept in reserve: a judge measures the cradle by other points.
 const RESERVE_RATIO: f64 = 0.05;
 
@@ -86,26 +84,6 @@ pub(super) struct Bench<'a> {
     /// The corners of the joint's rim.
     rim: Vec<Point>,
     pub(super) request: &'a PlanRequest,
-}
-
-/// The body beside a joint, seen along one way out, over ribs of one thickness.
-struct Stand {
-    view: View,
-    /// The distances of the ribs' faces from the joint, mm.
-    ribs_mm: [f64; 2],
-    /// The corners of the joint's rim.
-    rim: Vec<Spot>,
-    /// The least and the greatest height of the rim, mm.
-    heights: [f64; 2],
-    /// The points of the body over either rib that its cradle may stop.
-    points: [Vec<Spot>; 2],
-    cradles: [Cradle; 2],
-    /// The least height of the body beside the joint, mm.
-    under_seam_mm: f64,
-    /// The stop by which the parts are pressed into it.
-    press: Stop,
-    /// The middle of the motions that are compared.
-    middle: Spot,
 }
 
 /// A sketch before its play is measured.
@@ -171,12 +149,22 @@ impl<'a> Bench<'a> {
             return Ok(usual);
         }
         tightest.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let best = tightest.iter().take(BEST_WAYS);
-        let ways: Vec<f64> = best
-            .flat_map(|(_, way)| WAYS_BETWEEN.map(|between| way + between))
+        let best: Vec<f64> = tightest
+            .iter()
+            .take(BEST_WAYS)
+            .map(|(_, way)| *way)
             .collect();
-        let extra = self.try_along(&ways, &EXTRA_RIBS_MM, EXTRA_CHEEKS)?;
-        self.choose(extra)
+        let extra = self.try_along(&best, &EXTRA_RIBS_MM, CHEEKS)?;
+        let extra = self.choose(extra)?;
+        if extra.is_some() {
+            return Ok(extra);
+        }
+        let between = best
+            .iter()
+            .flat_map(|way| WAYS_BETWEEN.map(|between| way + between));
+        let between: Vec<f64> = between.collect();
+        let last = self.try_along(&between, &EXTRA_RIBS_MM, EXTRA_CHEEKS)?;
+        self.choose(last)
     }
 
     /// Returns the step that a jig may leave, mm.
@@ -361,30 +349,6 @@ impl<'a> Bench<'a> {
         let holds = |x: f64, y: f64| size[0] <= x && size[1] <= y;
         size[2] <= room[2] && (holds(room[0], room[1]) || holds(room[1], room[0]))
     }
-}
-
-impl Stand {
-    /// Estimates the play of the parts in a jig; `None` if they slide or turn even so.
-    fn hold_roughly(&self, sketch: &Sketch) -> Option<Held> {
-        self.hold(sketch, |side| {
-            stops_at(&self.points[side], &sketch.ribs[side], REACH_MM)
-        })
-    }
-
-    /// Measures the play of the parts in a jig with some stops on either side.
-    fn hold(&self, sketch: &Sketch, stops: impl Fn(usize) -> Vec<Stop>) -> Option<Held> {
-        let seat = |side: usize| Seat::pressed(&stops(side), &self.press, self.middle);
-        let play = seat(0)?.play_between(&seat(1)?, self.middle, &self.rim);
-        Some(Held {
-            sketch: sketch.clone(),
-            play,
-        })
-    }
-}
-
-/// Returns the heights of the ribs on either side of a joint, from below, mm.
-fn heights_of([near, far]: [f64; 2]) -> [[f64; 2]; 2] {
-    [[-far, -near], [near, far]]
 }
 
 /// Returns the least step of some jigs, mm.

@@ -23,6 +23,7 @@ pub(crate) mod rod;
 pub(crate) mod shelf;
 pub(crate) mod sketch;
 pub(crate) mod socket_wall;
+mod stand;
 mod stops;
 
 #[cfg(test)]

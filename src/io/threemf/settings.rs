@@ -30,7 +30,28 @@ pub struct Subject<'a> {
     pub name: &'a str,
     /// Number of its triangles.
     pub triangles: usize,
+    /// Area of its section just above the plate, mm².
+    pub foot_mm2: f64,
 }
+
+impl Subject<'_> {
+    /// Returns the brim that holds it on the plate; none if its foot is large enough. Both dialects
+    /// have the same words for it.
+    fn brim(&self) -> Vec<Pair> {
+        let brim = [
+            ("brim_type", "outer_only".to_owned()),
+            ("brim_width", BRIM_MM.to_string()),
+        ];
+        let is_needed = self.foot_mm2 < LEAST_FOOT_MM2;
+        brim.into_iter().filter(|_| is_needed).collect()
+    }
+}
+
+/// Area of a foot below which an object has a brim, mm²: a smaller one comes off the plate.
+const LEAST_FOOT_MM2: f64 = 50.0;
+
+/// Width of a brim, mm.
+const BRIM_MM: f64 = 5.0;
 
 /// A setting: its name and its value.
 type Pair = (&'static str, String);
@@ -91,12 +112,13 @@ fn on_or_off(is_on: bool) -> String {
 /// Returns the objects' settings for PrusaSlicer.
 pub fn prusa_xml(objects: &[Subject], settings: &PrintSettings) -> String {
     let mut xml = String::from("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<config>\n");
-    for Subject {
-        id,
-        name,
-        triangles,
-    } in objects
-    {
+    for subject in objects {
+        let Subject {
+            id,
+            name,
+            triangles,
+            ..
+        } = subject;
         let (name, last) = (escape(*name), triangles.saturating_sub(1));
         // Writing into a string cannot fail.
         let _ = write!(
@@ -104,7 +126,7 @@ pub fn prusa_xml(objects: &[Subject], settings: &PrintSettings) -> String {
             "<object id=\"{id}\" instances_count=\"1\">\n\
              <metadata type=\"object\" key=\"name\" value=\"{name}\"/>\n"
         );
-        for (key, value) in settings.for_prusa() {
+        for (key, value) in settings.for_prusa().into_iter().chain(subject.brim()) {
             let _ = writeln!(
                 xml,
                 "<metadata type=\"object\" key=\"{key}\" value=\"{value}\"/>"
@@ -124,13 +146,13 @@ pub fn prusa_xml(objects: &[Subject], settings: &PrintSettings) -> String {
 /// Returns the objects' settings for Bambu Studio and OrcaSlicer.
 pub fn bambu_xml(objects: &[Subject], settings: &PrintSettings) -> String {
     let mut xml = String::from("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<config>\n");
-    for Subject { id, name, .. } in objects {
-        let name = escape(*name);
+    for subject in objects {
+        let (id, name) = (subject.id, escape(subject.name));
         let _ = write!(
             xml,
             "<object id=\"{id}\">\n<metadata key=\"name\" value=\"{name}\"/>\n"
         );
-        for (key, value) in settings.for_bambu() {
+        for (key, value) in settings.for_bambu().into_iter().chain(subject.brim()) {
             let _ = writeln!(xml, "<metadata key=\"{key}\" value=\"{value}\"/>");
         }
         xml.push_str("</object>\n");
@@ -149,12 +171,13 @@ mod tests {
     };
 
     fn box_and_lid() -> [Subject<'static>; 2] {
-        let subject = |id, name| Subject {
+        let subject = |id, name, foot_mm2| Subject {
             id,
             name,
             triangles: 12,
+            foot_mm2,
         };
-        [subject(2, "box <&>"), subject(3, "lid")]
+        [subject(2, "box <&>", 400.0), subject(3, "lid", 0.7)]
     }
 
     #[test]
@@ -172,6 +195,19 @@ mod tests {
             assert_eq!(xml.matches(said).count(), 2, "{said}: {xml}");
         }
         assert!(prusa.contains("box &lt;&amp;&gt;") && bambu.contains("<object id=\"3\">"));
+    }
+
+    #[test]
+    fn only_an_object_that_stands_on_a_point_has_a_brim() {
+        let xmls = [
+            prusa_xml(&box_and_lid(), &SETTINGS),
+            bambu_xml(&box_and_lid(), &SETTINGS),
+        ];
+        for xml in xmls {
+            let (cube, lid) = xml.split_once("</object>").unwrap();
+            let brim = "key=\"brim_width\" value=\"5\"";
+            assert!(!cube.contains("brim") && lid.contains(brim), "{xml}");
+        }
     }
 
     #[test]

@@ -207,6 +207,10 @@ impl<'a> Ladder<'a> {
             || !are_clean(&usual.bossed.plan, &usual.request);
         let is_hidden = fewer.seam_price()? <= usual.seam_price()?.max(self.policy.dear_seam_ratio);
         let loss_ratio = fewer.loss_ratio(&usual);
+        if self.hides_more(&fewer, &usual)? {
+            self.take_hidden(&fewer, &usual);
+            return Ok(Joined::alone(self.finish(fewer)?));
+        }
         let is_as_good = is_as_clean && is_hidden;
         if is_as_good && loss_ratio <= self.policy.part_loss_ratio {
             self.request = fewer.request.clone();
@@ -236,8 +240,31 @@ impl<'a> Ladder<'a> {
         })
     }
 
+    /// Returns whether a plan with fewer parts hides a seam that is seen in the other, at a loss
+    /// that a hidden seam may cost.
+    fn hides_more(&self, fewer: &Way, usual: &Way) -> Result<bool, Error> {
+        let (policy, usual_price) = (&self.policy, usual.seam_price()?);
+        if !(self.is_free() && self.hides_seams) || usual_price <= policy.dear_seam_ratio {
+            return Ok(false);
+        }
+        let cost = fewer.seam_price()? + policy.loss_price * fewer.loss_ratio(usual);
+        Ok(fewer.hides_worth(usual, policy) && cost < usual_price)
+    }
+
+    /// Keeps to a plan whose seams are hidden, and says what it costs.
+    fn take_hidden(&mut self, hidden: &Way<'a>, usual: &Way<'a>) {
+        self.request = hidden.request.clone();
+        self.notes
+            .retain(|note| !matches!(note, Remark::Seams { .. }));
+        self.notes.push(Remark::Seams {
+            loss_ratio: Some(hidden.loss_ratio(usual)),
+            is_taken: true,
+        });
+    }
+
     /// Places the pins of a plan with fewer parts. Of both plans with their pins it takes that one
-    /// if it costs next to nothing of the goal's figure. Else the sheet offers it.
+    /// if it costs next to nothing of the goal's figure, or little and hides a seam. Else the sheet
+    /// offers it.
     ///
     /// Returns the plan with bosses, and the one without.
     pub(super) fn weigh_fewer_parts(
@@ -252,8 +279,13 @@ impl<'a> Ladder<'a> {
             return Ok((usual, walls));
         };
         let is_cheap = fewer.is_as_good && few.loss_ratio(&usual) <= self.policy.part_loss_ratio;
-        if is_cheap && few.count_unaligned()? <= usual.count_unaligned()? {
-            self.request = few.request.clone();
+        let hides_more = self.hides_more(&few, &usual)?;
+        if (is_cheap || hides_more) && few.count_unaligned()? <= usual.count_unaligned()? {
+            if hides_more {
+                self.take_hidden(&few, &usual);
+            } else {
+                self.request = few.request.clone();
+            }
             return Ok((few, few_walls));
         }
         let certificate = |way: &Way| way.bossed.voids.solution.certificate;

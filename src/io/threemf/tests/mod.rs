@@ -113,6 +113,10 @@ fn a_package_with_settings_holds_the_same_objects_and_both_files_of_settings() {
     let mut part = zip.by_name("Metadata/Slic3r_PE_model.config").unwrap();
     std::io::Read::read_to_string(&mut part, &mut text).unwrap();
     assert!(text.contains(&last), "{text}");
+    assert!(
+        text.contains("brim_width"),
+        "a ball stands on a point: {text}"
+    );
     drop(part);
     assert!(zip.by_name("Metadata/model_settings.config").is_ok());
 }
