@@ -27,7 +27,8 @@ const SHOWN_BYTES: usize = 40;
 /// Judges a kit as [`verify_kit_of`] does, prints its papers again, and compares them with those
 /// that it has.
 ///
-/// If a file of the kit was changed, its papers are not printed: they would only repeat that.
+/// If a file of the kit was changed, its papers are not printed: they would only repeat that. Nor
+/// are they if a part is no solid, which cannot be drawn.
 ///
 /// # Errors
 /// As [`verify_kit_of`].
@@ -36,34 +37,57 @@ pub fn verify(
     model: Option<&Path>,
     watch: &Watch,
 ) -> Result<Judgement, VerifyError> {
-    let judge = || verify_kit_of(folder, model, watch);
-    let (judgement, faults) = rayon::join(judge, || find_false_papers(folder, watch));
-    let mut judgement = judgement?;
-    if judgement.changes.is_empty() {
-        judgement.checks.push(papers_check(&faults?));
+    let mut judgement = verify_kit_of(folder, model, watch)?;
+    let is_solid = |check: &Check| check.pass || check.kind != CheckKind::BrokenSurfaces;
+    if judgement.changes.is_empty() && judgement.checks.iter().all(is_solid) {
+        let faults = find_false_papers(folder, watch)?;
+        judgement.checks.push(papers_check(&faults));
     }
     Ok(judgement)
 }
 
-fn papers_check(faults: &[String]) -> Check {
-    Check::new(
-        CheckKind::Papers,
-        "the papers say what the checklist and the files say, but for files",
-        Some(faults.len() as f64),
-        Limit::at_most(0.0, ""),
-    )
-    .at((!faults.is_empty()).then(|| faults.join("; ")))
+/// What is false in the papers of a kit.
+struct Faults {
+    /// The version of the kit, if this one cannot print its papers.
+    other_version: Option<String>,
+    /// The faults, a sentence each.
+    words: Vec<String>,
 }
 
-/// Returns what is false in the papers of a kit, a sentence each.
-fn find_false_papers(folder: &Path, watch: &Watch) -> Result<Vec<String>, VerifyError> {
+impl From<Vec<String>> for Faults {
+    fn from(words: Vec<String>) -> Self {
+        Self {
+            other_version: None,
+            words,
+        }
+    }
+}
+
+fn papers_check(faults: &Faults) -> Check {
+    let promise = match &faults.other_version {
+        None => "the papers say what the checklist and the files say, but for".to_owned(),
+        Some(version) => format!(
+            "the job sheet of version {version}, not printed again, states each mass, but for"
+        ),
+    };
+    let words = &faults.words;
+    let limit = Limit::at_most(0.0, "");
+    Check::new(CheckKind::Papers, &promise, Some(words.len() as f64), limit)
+        .at((!words.is_empty()).then(|| words.join("; ")))
+}
+
+/// Finds what is false in the papers of a kit.
+fn find_false_papers(folder: &Path, watch: &Watch) -> Result<Faults, VerifyError> {
     let bytes = read(folder, CHECKLIST_FILE)?;
     let sheet: Checklist = match serde_json::from_slice(&bytes) {
         Ok(sheet) => sheet,
-        Err(error) => return Ok(vec![format!("{CHECKLIST_FILE} is no whole one: {error}")]),
+        Err(error) => return Ok(vec![format!("{CHECKLIST_FILE} is no whole one: {error}")].into()),
     };
     if sheet.tool.version != VERSION {
-        return Ok(find_false_masses(&sheet, &read_text(folder, SHEET_FILE)?));
+        return Ok(Faults {
+            words: find_false_masses(&sheet, &read_text(folder, SHEET_FILE)?),
+            other_version: Some(sheet.tool.version),
+        });
     }
     let again = sheet.to_json().unwrap_or_default();
     let faults = tell_difference(CHECKLIST_FILE, &bytes, again.as_bytes());
@@ -74,7 +98,7 @@ fn find_false_papers(folder: &Path, watch: &Watch) -> Result<Vec<String>, Verify
     }
     let order = match CutOrder::from_toml(CUTS_FILE, &read_text(folder, CUTS_FILE)?) {
         Ok(order) => order,
-        Err(fault) => return Ok(vec![fault.to_string()]),
+        Err(fault) => return Ok(vec![fault.to_string()].into()),
     };
     faults.extend(find_false_pins(&sheet, &order));
     match draw(folder, &sheet, &order, watch) {
@@ -85,7 +109,7 @@ fn find_false_papers(folder: &Path, watch: &Watch) -> Result<Vec<String>, Verify
         Err(PressFault::Verify(error)) => return Err(error),
         Err(PressFault::Press(error)) => faults.push(error.to_string()),
     }
-    Ok(faults)
+    Ok(faults.into())
 }
 
 /// Returns the pages and pictures of a kit that differ from those that were printed again, a
