@@ -18,8 +18,11 @@ use serde_json::Value;
 
 use crate::common::{assert_exit, equipoise, files, path, words};
 
-/// The kits that are altered: the name, the model and the options of each.
-const KITS: [(&str, fn() -> TriMesh, &str); 4] = [
+/// A kit to make: its name, its model and its options.
+type Order = (&'static str, fn() -> TriMesh, &'static str);
+
+/// The kits that are altered.
+const KITS: [Order; 4] = [
     (
         "top",
         tilted,
@@ -83,7 +86,7 @@ pub fn kits() -> &'static [Kit] {
     MADE.get_or_init(|| KITS.into_iter().map(make).collect())
 }
 
-fn make((name, model, options): (&'static str, fn() -> TriMesh, &str)) -> Kit {
+fn make((name, model, options): Order) -> Kit {
     let room = tempfile::tempdir().unwrap();
     let (file, kit) = (room.path().join("model.stl"), room.path().join("kit"));
     fs::write(&file, stl::encode(&model(), name)).unwrap();
