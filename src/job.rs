@@ -72,6 +72,9 @@ pub struct Job {
     /// are if the key is missing.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub thicken: bool,
+    /// True if the kit is made without a copy of the model; it has one if the key is missing.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub no_model: bool,
     /// The file format of the parts.
     pub format: PartFormat,
     /// The ballast asked for; none if the key is missing.
@@ -96,6 +99,9 @@ pub struct Job {
     /// The cuts and pins that the user ordered, in place of the planner's.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub plan: Option<CutOrder>,
+    /// A copy of the model that is read in its place. It is no part of the file.
+    #[serde(skip)]
+    pub model_copy: Option<PathBuf>,
 }
 
 /// The model file and its size.
@@ -224,6 +230,7 @@ impl Job {
             effort: Effort::Normal,
             joint_price_ratio: None,
             thicken: false,
+            no_model: false,
             format: PartFormat::Both,
             ballast: Order::None,
             fill: None,
@@ -233,7 +240,23 @@ impl Job {
             goal,
             keep_clear: Vec::new(),
             plan: None,
+            model_copy: None,
         }
+    }
+
+    /// Returns the model's name as it stands in file names: without its ending, and with hyphens
+    /// for what is no letter or digit.
+    pub fn name(&self) -> String {
+        let stem = self.model.path.file_stem();
+        let stem = stem.map(|stem| stem.to_string_lossy().into_owned());
+        let is_plain = |c: char| c.is_alphanumeric() || c == '-' || c == '_';
+        let plain = |c: char| if is_plain(c) { c } else { '-' };
+        stem.unwrap_or_default().chars().map(plain).collect()
+    }
+
+    /// Returns the file that the model is read from.
+    pub fn model_file(&self) -> &Path {
+        self.model_copy.as_ref().unwrap_or(&self.model.path)
     }
 
     /// Reads the job in the file at `path`.

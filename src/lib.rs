@@ -17,7 +17,7 @@
 //! | open | [`voids`] draws the surfaces, [`cut`] plans cuts and pins, [`poses`] chooses poses, [`open`] resolves both |
 //! | make | [`make`] writes the parts and corrects them |
 //! | judge | [`verify`] judges the files without knowing how they were made |
-//! | kit | [`sheet`] and [`page`] make the job sheet with [`draw`], [`kit`] writes the folder |
+//! | kit | [`sheet`] and [`page`] make the job sheet with [`draw`], [`press`] prints it, [`kit`] writes the folder |
 //!
 //! [`run`] holds the facts that pass from stage to stage, [`base`] units and the watch over a run.
 //! [`coupon`] lets a shop measure what its printer does. [`guide::map`] answers where things are.
@@ -87,7 +87,7 @@ pub mod extend {
 /// Checklists, job sheets, drawings and coupons.
 pub mod report {
     #[doc(inline)]
-    pub use crate::{coupon, draw, page, sheet};
+    pub use crate::{coupon, draw, page, press, sheet};
 }
 
 // The rooms of the five groups, and the command line, which is no library.
@@ -132,6 +132,8 @@ pub mod open;
 pub mod page;
 #[doc(hidden)]
 pub mod poses;
+#[doc(hidden)]
+pub mod press;
 #[doc(hidden)]
 pub mod repair;
 #[doc(hidden)]

@@ -16,6 +16,7 @@ pub mod printers;
 pub mod printers_markdown;
 pub mod profiles;
 pub mod questions;
+mod replay;
 pub mod shop;
 pub mod show;
 pub mod signals;
@@ -82,12 +83,7 @@ fn dispatch(cli: Cli, manner: Manner) -> Result<Exit, Box<dyn Error + Send + Syn
         }
         Command::Verify(args) => {
             end_process_on_signal();
-            Ok(verify::verify(
-                &args.kit,
-                args.model.as_deref(),
-                voice,
-                out,
-            )?)
+            Ok(verify::verify(&args, voice, out)?)
         }
         Command::Completions(args) => {
             manual::completions(args.shell, out)?;

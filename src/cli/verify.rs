@@ -3,14 +3,18 @@
 use std::io::Write;
 use std::path::Path;
 
+use super::args::VerifyArgs;
 use super::exit::Exit;
+use super::replay::replay;
 use super::show::{GREEN, RED, paint, say};
 use super::summary::{checks_table, summary};
 use super::voice::{Manner, Voice};
 use crate::base::watch::Watch;
+use crate::error::Error;
+use crate::press;
 use crate::verify::{
     Check, CheckKind, FileChange, TelescopeVerifyError, VerifyError, files_check, is_telescope,
-    verify_kit_of, verify_telescope,
+    verify_telescope,
 };
 
 /// Greatest number of files that are not on the list and are named.
@@ -29,6 +33,12 @@ pub enum VerifyCommandError {
     /// A telescope is made of no model.
     #[error("this kit is a telescope's, which is made of no model; remedy: verify it without one")]
     NoModel,
+    /// A telescope is not made again.
+    #[error("a telescope's kit is not made again; remedy: verify it without that order")]
+    NoReplay,
+    /// The kit cannot be made again.
+    #[error(transparent)]
+    Replay(#[from] Box<Error>),
     /// The standard output is closed.
     #[error("cannot write to the standard output")]
     Output(#[from] std::io::Error),
@@ -37,23 +47,30 @@ pub enum VerifyCommandError {
     Json(#[from] serde_json::Error),
 }
 
-/// Judges the kit in `folder` from its files, and by its model if that is given; prints the
-/// findings to `out`.
+/// Judges a kit from its files, and by its model; prints the findings to `out`.
 pub fn verify(
-    folder: &Path,
-    model: Option<&Path>,
+    args: &VerifyArgs,
     voice: Voice,
     out: &mut dyn Write,
 ) -> Result<Exit, VerifyCommandError> {
+    let (folder, model) = (args.kit.as_path(), args.model.as_deref());
+    let is_telescope = is_telescope(folder);
     let Judged {
-        checks,
+        mut checks,
         changes,
         unlisted,
-    } = if is_telescope(folder) {
+    } = if is_telescope {
         judge_telescope(folder, model)?
     } else {
         judge_kit(folder, model)?
     };
+    if args.replay && is_telescope {
+        return Err(VerifyCommandError::NoReplay);
+    }
+    if args.replay {
+        let again = replay(folder, model, &Watch::silent()).map_err(Box::new)?;
+        checks.push(again);
+    }
     let is_kept = checks.iter().all(|check| check.pass);
     if voice.json {
         writeln!(out, "{}", serde_json::to_string_pretty(&checks)?)?;
@@ -74,7 +91,7 @@ struct Judged {
 }
 
 fn judge_kit(folder: &Path, model: Option<&Path>) -> Result<Judged, VerifyError> {
-    match verify_kit_of(folder, model, &Watch::silent()) {
+    match press::verify(folder, model, &Watch::silent()) {
         Ok(judgement) => Ok(Judged {
             checks: judgement.checks,
             changes: judgement.changes,

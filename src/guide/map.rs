@@ -25,6 +25,7 @@
 //! | Which ends of voids would catch resin in a vat, and what becomes of them? | `find_hollow_cups` in `cut/pieces/cups.rs` finds them in the best pose, `clean_and_drain` in `open/drain.rs` keeps them solid |
 //! | Where do the files of the parts come from? | `make` in `make/parts.rs` writes, reads back and corrects them |
 //! | Who says that a promise is kept, and within which limit? | `checks` in `verify/checks.rs`; each limit has its reason in `verify/limits.rs` |
+//! | Who says that the papers are those of the files? | `verify` in `press/again.rs` prints them again from a `Layout` of `press/layout.rs`, `find_false_job` in `press/job.rs` compares job and profile |
 //! | Where does a number on the job sheet come from? | `sheet/from_run/checklist.rs` fills the `Checklist` that `page/job_sheet.rs` prints |
 //! | Which words does a remedy use for an option? | `Setting` in `base/setting.rs` is the option, `flag` in `cli/flags.rs` its word |
 //! | What is left behind when a run is killed? | `Staging` in `kit/staging.rs`, swept by the next run |

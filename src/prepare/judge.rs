@@ -5,12 +5,12 @@ use crate::error::Error;
 use crate::geom::Parting;
 use crate::io::stl;
 use crate::make::{File, packages, repack};
-use crate::page::{Picture, Subject, View, render_pictures};
+use crate::press::{Drawings, Layout};
 use crate::run::{Made, Placed, WrittenJig};
 use crate::sheet::Verdict;
 use crate::sheet::from_run::{promise, promised_figure};
 use crate::verify::{
-    Body, Evidence, JigFacts, Judgement, PromisedFigure, Shells, checks, is_loose, judge_measured,
+    Body, Evidence, JigFacts, Judgement, PromisedFigure, checks, is_loose, judge_measured,
     measure_jigs,
 };
 
@@ -24,16 +24,14 @@ pub struct Draft {
     pub packages: Vec<File>,
     /// The files as they read back, and their promise.
     pub evidence: Evidence,
-    /// The shells of the uncut result.
-    pub shells: Shells,
+    /// The uncut result, taken apart.
+    pub body: Body,
     /// The cuts.
     pub cuts: Vec<Parting>,
     /// The findings of the judge.
     pub judgement: Judgement,
-    /// The pictures of the parts.
-    pub pictures: Vec<Picture>,
-    /// The view that can be turned.
-    pub view: View,
+    /// The pictures of the parts, and the view that can be turned.
+    pub drawings: Drawings,
 }
 
 impl Draft {
@@ -42,9 +40,15 @@ impl Draft {
         Verdict::of(&self.judgement.checks) == Verdict::Pass
     }
 
-    /// Returns what pictures are taken of.
-    pub fn subject(&self) -> Subject<'_> {
-        subject(&self.evidence, &self.shells, &self.cuts)
+    /// Returns what pictures are taken of: the files as they are written.
+    pub fn layout(&self) -> Layout<'_> {
+        Layout {
+            evidence: &self.evidence,
+            body: &self.body,
+            cuts: &self.made.plan.cuts,
+            partings: &self.cuts,
+            uncut: &self.made.plan.uncut,
+        }
     }
 }
 
@@ -74,17 +78,21 @@ pub fn draft(placed: &Placed, made: Made, watch: &Watch) -> Result<Draft, Error>
         evidence.jigs = made.jigs.iter().map(WrittenJig::evidence).collect();
     }
     let cuts = made.plan.partings()?;
-    let subject = subject(&evidence, &body.shells, &cuts);
-    let (judgement, ((pictures, view), packages)) = rayon::join(
+    let layout = Layout {
+        evidence: &evidence,
+        body: &body,
+        cuts: &made.plan.cuts,
+        partings: &cuts,
+        uncut: &made.plan.uncut,
+    };
+    let (judgement, (drawings, packages)) = rayon::join(
         || judge_measured(&evidence, &body, jigs, watch),
         || {
-            let pictures = || render_pictures(&subject, watch);
-            let drawn = || rayon::join(pictures, || View::of(&subject, watch));
-            rayon::join(drawn, || packages(placed, &made, watch))
+            let drawings = || layout.draw_parts(watch);
+            rayon::join(drawings, || packages(placed, &made, watch))
         },
     );
-    let (mut judgement, pictures, view) = (judgement?, pictures?, view?);
-    let packages = packages?;
+    let (mut judgement, drawings, packages) = (judgement?, drawings?, packages?);
     // A buyer may rely on the figure that the written parts reach.
     let figure = promised_figure(placed.goal().kind, placed.goal().objective);
     let reached = judgement.assembly.value_of(figure);
@@ -95,26 +103,9 @@ pub fn draft(placed: &Placed, made: Made, watch: &Watch) -> Result<Draft, Error>
         hollowed,
         packages,
         evidence,
-        shells: body.shells,
+        body,
         cuts,
         judgement,
-        pictures,
-        view,
+        drawings,
     })
-}
-
-/// Returns what pictures are taken of: the files as they are written.
-fn subject<'a>(evidence: &'a Evidence, shells: &'a Shells, cuts: &'a [Parting]) -> Subject<'a> {
-    let promise = &evidence.promise;
-    Subject {
-        shells,
-        parts: &evidence.parts,
-        promised: &promise.parts,
-        jigs: &evidence.jigs,
-        promised_jigs: &promise.jigs,
-        cuts,
-        aim: promise.goal,
-        hardware: &promise.hardware,
-        ballast: &promise.ballast,
-    }
 }

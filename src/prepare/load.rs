@@ -26,7 +26,7 @@ pub fn printer(job: &Job, watch: &Watch) -> Result<Printer, Error> {
 /// Defects are reported at their places in the file, not in mm.
 pub fn model(job: &Job, printer: &Printer, watch: &Watch) -> Result<Model, Error> {
     let path = || job.model.path.clone();
-    let bytes = io::read_bytes(&job.model.path)?;
+    let bytes = io::read_bytes(job.model_file())?;
     let content = |source| io::ReadError::Content {
         path: path(),
         source,

@@ -1,7 +1,6 @@
 //! The line from a job to a kit: load, place, solve, open, make, judge, kit.
 
 mod advise;
-mod faces;
 mod failure;
 mod hardware;
 mod hints;

@@ -1,34 +1,31 @@
 //! The kit in memory: its files, its checklist and its page.
 
-use super::faces::faces;
 use super::judge::Draft;
 use super::outcome::Prepared;
 use crate::base::digest::sha256_hex;
 use crate::base::watch::{Phase, Watch};
 use crate::cut::CutOrder;
 use crate::error::Error;
+use crate::io::read_bytes;
 use crate::job::JobError;
 use crate::kit::Kit;
-use crate::page::{self, PageInputs, cup_warning, draw_figures};
+use crate::page::cup_warning;
 use crate::run::Placed;
 use crate::sheet::from_run::{Facts, checklist};
 use crate::sheet::{Checklist, Timing};
-use crate::verify::{CERTIFICATE_FILE, CHECKLIST_FILE, SHEET_FILE, SUMS_FILE, sums};
-
-/// File of the uncut result in a kit.
-const HOLLOWED: &str = "hollowed.stl";
-/// File of the job in a kit.
-const JOB: &str = "job.toml";
-/// File of the cuts and pins in a kit, to edit.
-const CUTS: &str = "cuts.toml";
+use crate::verify::{
+    CHECKLIST_FILE, CUTS_FILE, HOLLOWED_FILE, JOB_FILE, MODEL_FOLDER, SUMS_FILE, sums,
+};
 
 /// Puts a judged kit together, with its job sheet.
 pub fn finish(placed: &Placed, mut draft: Draft, watch: &Watch) -> Result<Prepared, Error> {
     watch.enter(Phase::Report);
-    let (mut checklist, faces) = rayon::join(|| fill(placed, &draft), || faces(&draft.made, watch));
-    let faces = faces?;
-    let of_cuts = draw_figures(&checklist, &draft.subject(), &faces, watch)?;
-    draft.pictures.extend(of_cuts);
+    let mut checklist = fill(placed, &draft);
+    let mut drawings = draft.drawings.clone();
+    draft
+        .layout()
+        .draw_figures(&checklist, &mut drawings, watch)?;
+    draft.drawings = drawings;
     watch.check()?;
     let mut kit = files(placed, &draft)?;
     let hashed = |(file, bytes): (&str, &[u8])| (file.to_owned(), sha256_hex(&[bytes]));
@@ -60,7 +57,7 @@ fn fill(placed: &Placed, draft: &Draft) -> Checklist {
 /// Returns the kit with all files that the checklist lists.
 fn files(placed: &Placed, draft: &Draft) -> Result<Kit, Error> {
     let mut kit = Kit::default();
-    kit.add(HOLLOWED, draft.hollowed.clone());
+    kit.add(HOLLOWED_FILE, draft.hollowed.clone());
     for part in &draft.made.parts {
         kit.add(&part.file, part.bytes.clone());
     }
@@ -70,17 +67,35 @@ fn files(placed: &Placed, draft: &Draft) -> Result<Kit, Error> {
     for (file, bytes) in &draft.packages {
         kit.add(file, bytes.clone());
     }
-    kit.add(JOB, placed.job.to_toml()?.into_bytes());
+    kit.add(JOB_FILE, placed.job.to_toml()?.into_bytes());
     let cuts = CutOrder {
         keep_clear: placed.job.keep_clear.clone(),
         ..CutOrder::of(&draft.made.plan)
     };
     let cuts = cuts.to_toml();
-    kit.add(CUTS, cuts.map_err(JobError::from)?.into_bytes());
-    for picture in &draft.pictures {
+    kit.add(CUTS_FILE, cuts.map_err(JobError::from)?.into_bytes());
+    if !placed.job.no_model {
+        let (file, bytes) = model_copy(placed)?;
+        kit.add(&file, bytes);
+    }
+    for picture in &draft.drawings.pictures {
         kit.add(&picture.file, picture.bytes());
     }
     Ok(kit)
+}
+
+/// Returns the copy of the model that goes into the kit, with its path there.
+fn model_copy(placed: &Placed) -> Result<(String, Vec<u8>), Error> {
+    let path = &placed.job.model.path;
+    let bytes = read_bytes(placed.job.model_file())?;
+    // A model that was changed during the run is not the one that the kit was made of.
+    placed.job.clone().bind_to(&bytes)?;
+    let ending = path
+        .extension()
+        .map(|ending| ending.to_string_lossy().to_lowercase());
+    let ending = ending.filter(|ending| ending.chars().all(|c| c.is_ascii_alphanumeric()));
+    let ending = ending.map_or_else(String::new, |ending| format!(".{ending}"));
+    Ok((format!("{MODEL_FOLDER}{}{ending}", placed.name()), bytes))
 }
 
 /// Adds the job sheet, for people and for machines, without anything that differs from run to run,
@@ -89,14 +104,9 @@ fn add_papers(kit: &mut Kit, sheet: &Checklist, draft: &Draft) -> Result<(), Err
     let json = sheet.to_json()?;
     let sha256 = sha256_hex(&[json.as_bytes()]);
     kit.add(CHECKLIST_FILE, json.into_bytes());
-    let inputs = PageInputs {
-        sheet,
-        sha256: &sha256,
-        pictures: &draft.pictures,
-        view: Some(&draft.view),
-    };
-    kit.add(SHEET_FILE, page::job(&inputs).into_bytes());
-    kit.add(CERTIFICATE_FILE, page::certificate(&inputs).into_bytes());
+    for (file, page) in draft.drawings.print(sheet, &sha256) {
+        kit.add(file, page.into_bytes());
+    }
     kit.add(SUMS_FILE, sums(kit.files()).into_bytes());
     Ok(())
 }

@@ -134,11 +134,7 @@ impl Placed {
 
     /// Returns the name of the job in file names: the model's file name without its ending.
     pub fn name(&self) -> String {
-        let stem = self.job.model.path.file_stem();
-        let stem = stem.map(|stem| stem.to_string_lossy().into_owned());
-        let is_plain = |c: char| c.is_alphanumeric() || c == '-' || c == '_';
-        let plain = |c: char| if is_plain(c) { c } else { '-' };
-        stem.unwrap_or_default().chars().map(plain).collect()
+        self.job.name()
     }
 
     /// Returns whether a person ordered the pins.

@@ -13,6 +13,12 @@ pub const SHEET_FILE: &str = "job.html";
 pub const CERTIFICATE_FILE: &str = "certificate.html";
 /// The hashes of all files of a kit except itself.
 pub const SUMS_FILE: &str = "SHA256SUMS";
+/// The job of a kit, which makes it again.
+pub const JOB_FILE: &str = "job.toml";
+/// The cuts and pins of a kit, to edit.
+pub const CUTS_FILE: &str = "cuts.toml";
+/// The folder of the copy of the model in a kit.
+pub const MODEL_FOLDER: &str = "model/";
 /// The uncut result of a kit.
 pub const HOLLOWED_FILE: &str = "hollowed.stl";
 

@@ -115,6 +115,10 @@ pub enum CheckKind {
     ChangedFiles,
     /// Agreement of the 3MF files with the parts.
     Packages,
+    /// Agreement of the papers with those that are printed again.
+    Papers,
+    /// Agreement of the files with those of a kit that is made again.
+    Replay,
     /// Agreement of the outside with the model.
     Model,
     /// Tubes of a telescope, round about their helices.
@@ -149,6 +153,25 @@ impl CheckKind {
         match self {
             Self::VoidOpen { void } | Self::VoidClean { void } => Some(void),
             _ => None,
+        }
+    }
+
+    /// Returns the English name of a check that only telescopes have.
+    fn name_in_telescope(&self) -> &'static str {
+        match self {
+            Self::ShellBodies => "shell bodies",
+            Self::Sliding => "sliding",
+            Self::Stops => "stops",
+            Self::TwistStops => "twist stops",
+            Self::WayBack => "way back",
+            Self::Motion => "motion",
+            Self::Placements => "placements",
+            Self::Deviation => "deviation",
+            Self::Sizes => "sizes",
+            Self::Mass => "mass",
+            Self::Centres => "centres",
+            Self::Toppling => "toppling",
+            _ => "check",
         }
     }
 }
@@ -201,19 +224,10 @@ impl fmt::Display for CheckKind {
             Self::Checklist => "checklist",
             Self::ChangedFiles => "changed files",
             Self::Packages => "3MF files",
+            Self::Papers => "papers",
+            Self::Replay => "replay",
             Self::Model => "model",
-            Self::ShellBodies => "shell bodies",
-            Self::Sliding => "sliding",
-            Self::Stops => "stops",
-            Self::TwistStops => "twist stops",
-            Self::WayBack => "way back",
-            Self::Motion => "motion",
-            Self::Placements => "placements",
-            Self::Deviation => "deviation",
-            Self::Sizes => "sizes",
-            Self::Mass => "mass",
-            Self::Centres => "centres",
-            Self::Toppling => "toppling",
+            _ => self.name_in_telescope(),
         })
     }
 }
@@ -224,7 +238,9 @@ mod tests {
     use serde_json::json;
 
     /// The keys and names of all kinds without data.
-    const KEYS: [(CheckKind, &str, &str); 55] = [
+    const KEYS: [(CheckKind, &str, &str); 57] = [
+        (CheckKind::Papers, "papers", "papers"),
+        (CheckKind::Replay, "replay", "replay"),
         (CheckKind::AxisOffset, "axis-offset", "axis offset"),
         (CheckKind::AxisTilt, "axis-tilt", "axis tilt"),
         (CheckKind::Dominance, "dominance", "dominance"),

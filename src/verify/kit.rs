@@ -5,7 +5,7 @@ use std::path::Path;
 use super::changes::{files_check, find_changes};
 use super::model::model_check;
 use super::packages::packages_check;
-use super::reading::{read_checklist, read_evidence};
+use super::reading::{find_model, read_checklist, read_evidence};
 use super::seal::find_paper_changes;
 use super::sheet::{find_misstatements, sheet_check};
 use super::strangers::find_strangers;
@@ -23,7 +23,8 @@ pub fn verify_kit(folder: &Path, watch: &Watch) -> Result<Judgement, VerifyError
     verify_kit_of(folder, None, watch)
 }
 
-/// Judges a kit as [`verify_kit`] does, and holds its outside against the model in this file.
+/// Judges a kit as [`verify_kit`] does, and holds its outside against the model in this file, or
+/// else against its own copy of the model.
 ///
 /// # Errors
 ///
@@ -55,10 +56,10 @@ pub fn verify_kit_of(
     judgement.checks.push(sheet_check(&misstated));
     judgement.checks.push(files_check(&judgement.changes));
     judgement.checks.extend(packages?);
-    if let Some(model) = model {
+    if let Some(model) = model.map(Path::to_owned).or_else(|| find_model(folder)) {
         judgement
             .checks
-            .push(model_check(model, &sheet, &evidence, watch)?);
+            .push(model_check(&model, &sheet, &evidence, watch)?);
     }
     Ok(judgement)
 }

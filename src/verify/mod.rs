@@ -36,6 +36,7 @@ mod peg_shape;
 mod pegs;
 mod play;
 mod rim;
+mod rooms;
 mod shape;
 mod shells;
 // The checks and the verdict.
@@ -58,6 +59,7 @@ mod machine;
 mod model;
 mod packages;
 mod redrawn;
+mod rows;
 mod seal;
 mod sheet;
 mod strangers;
@@ -83,7 +85,7 @@ pub use evidence::{Evidence, PartEvidence, assembly_moments};
 pub use judge::{judge, judge_measured};
 pub use judgement::Judgement;
 pub use kit::{verify_kit, verify_kit_of};
-pub use reading::read_promise;
+pub use reading::{find_model, read_kit, read_promise};
 
 // The promises.
 pub use crate::printer::{Cleaning, CleaningRule};
@@ -131,7 +133,10 @@ pub use limits::{
 // The files of a kit and their changes.
 pub use change::{Change, FileChange};
 pub use changes::files_check;
-pub use files::{CERTIFICATE_FILE, CHECKLIST_FILE, HOLLOWED_FILE, SHEET_FILE, SUMS_FILE};
+pub use files::{
+    CERTIFICATE_FILE, CHECKLIST_FILE, CUTS_FILE, HOLLOWED_FILE, JOB_FILE, MODEL_FOLDER, SHEET_FILE,
+    SUMS_FILE,
+};
 pub use seal::sums;
 // Telescopes.
 pub use sheet::find_misstatements;

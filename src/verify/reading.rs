@@ -1,15 +1,32 @@
 //! Reading a kit from its folder: the checklist and the meshes, nothing else.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use rayon::prelude::*;
 use serde_json::Value;
 
-use super::files::{CHECKLIST_FILE, HOLLOWED_FILE, is_inside_kit};
+use super::files::{CHECKLIST_FILE, HOLLOWED_FILE, MODEL_FOLDER, is_inside_kit};
 use super::{Evidence, PartEvidence, Pose, Promise, SCHEMA, VerifyError};
 use crate::geom::Vector;
 use crate::io::read_model;
 use crate::mesh::TriMesh;
+
+/// Returns the copy of the model in a kit; `None` if it has none, or no checklist.
+pub fn find_model(folder: &Path) -> Option<PathBuf> {
+    let promise = read_promise(folder).ok()?;
+    let mut files = promise.files.keys();
+    let file = files.find(|file| file.starts_with(MODEL_FOLDER) && is_inside_kit(file))?;
+    Some(folder.join(file)).filter(|path| path.is_file())
+}
+
+/// Reads the promises and the meshes of the kit in a folder.
+///
+/// # Errors
+///
+/// As [`read_promise`], or if a mesh is missing or cannot be read.
+pub fn read_kit(folder: &Path) -> Result<Evidence, VerifyError> {
+    read_evidence(folder, read_promise(folder)?)
+}
 
 /// Reads the meshes of a kit with these promises. The parts are returned in nominal size.
 pub(super) fn read_evidence(folder: &Path, promise: Promise) -> Result<Evidence, VerifyError> {

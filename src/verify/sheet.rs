@@ -6,6 +6,7 @@ use serde_json::{Map, Value, json};
 use super::claims::find_false_claims;
 use super::limits::SHEET_LIMIT_RATIO;
 use super::machine::find_false_numbers;
+use super::rows::find_false_rows;
 use super::{
     Check, CheckKind, Evidence, FigureName, Fingerprint, JointFacts, Judgement, Limit, PartFacts,
     Promise, PromisedJoint, PromisedVoid, Shells,
@@ -98,6 +99,7 @@ pub fn find_misstatements(
         rough.misstatements.extend(claims);
         let numbers = find_false_numbers(sheet, evidence);
         rough.misstatements.extend(numbers);
+        rough.misstatements.extend(find_false_rows(sheet, evidence));
     }
     rough.misstatements
 }

@@ -103,6 +103,14 @@ const ARROWS: &[(&str, &[&str])] = &[
             "page", "printer", "repair", "sheet", "verify",
         ],
     ),
+    // `prepare` prints a kit's papers with the press, and `verify` on the command line again.
+    (
+        "press",
+        &[
+            "base", "cut", "draw", "error", "geom", "job", "mesh", "page", "printer", "repair",
+            "sheet", "verify",
+        ],
+    ),
     ("kit", &["base"]),
     (
         "coupon",
@@ -143,7 +151,7 @@ const ARROWS: &[(&str, &[&str])] = &[
         &[
             "advice", "ballast", "base", "cut", "error", "geom", "goal", "hardware", "hollow",
             "interior", "io", "job", "kit", "make", "mass", "mend", "mesh", "open", "page",
-            "printer", "repair", "run", "sheet", "shell", "thin", "verify",
+            "press", "printer", "repair", "run", "sheet", "shell", "thin", "verify",
         ],
     ),
     (
@@ -166,6 +174,7 @@ const ARROWS: &[(&str, &[&str])] = &[
             "mesh",
             "page",
             "prepare",
+            "press",
             "printer",
             "base",
             "run",
@@ -198,6 +207,7 @@ const ARROWS: &[(&str, &[&str])] = &[
             "open",
             "page",
             "poses",
+            "press",
             "repair",
             "run",
             "sheet",

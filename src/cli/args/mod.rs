@@ -158,9 +158,12 @@ pub struct InspectArgs {
 pub struct VerifyArgs {
     /// The folder of the kit
     pub kit: PathBuf,
-    /// Also compare its outside with this model, which it was made of
+    /// Compare its outside with this model, in place of the kit's own copy
     #[arg(long, value_name = "FILE")]
     pub model: Option<PathBuf>,
+    /// Also make the kit again from its job.toml, and compare every file; takes as long as prepare
+    #[arg(long)]
+    pub replay: bool,
 }
 
 /// The arguments of `completions`.

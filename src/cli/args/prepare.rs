@@ -166,6 +166,9 @@ pub struct PrepareArgs {
     /// both]
     #[arg(long, value_parser = words::<PartFormat>(PartFormat::WORDS), help_heading = "Kit")]
     pub format: Option<PartFormat>,
+    /// Leave the copy of the model out of the kit; `verify` then needs --model to compare with it
+    #[arg(long, help_heading = "Kit")]
+    pub no_model: bool,
     /// Replay the run of this job.toml; MODEL, if given, replaces its model
     #[arg(long, value_name = "FILE", help_heading = "Kit", conflicts_with_all = DECIDED_BY_JOB)]
     pub job: Option<PathBuf>,
@@ -180,6 +183,7 @@ const DECIDED_BY_JOB: [&str; 37] = [
     "material",
     "wall",
     "thicken",
+    "no_model",
     "goal",
     "up",
     "contact",
@@ -299,6 +303,7 @@ impl PrepareArgs {
             effort: self.cutting.effort.unwrap_or(default.effort),
             joint_price_ratio: self.cutting.joint_price,
             thicken: self.thicken,
+            no_model: self.no_model,
             format: self.format.unwrap_or(default.format),
             ballast: self.load.ballast.unwrap_or(default.ballast),
             fill: self.load.fill,

@@ -19,4 +19,5 @@ mod voids;
 pub use checklist::checklist;
 pub use facts::Facts;
 pub use figures::promised_figure;
+pub use printer::{material_row, printer_row};
 pub use promise::promise;

@@ -1,12 +1,11 @@
 //! The rows of the printer and its material, with the sources of their numbers.
 
-use crate::printer::{Printer, Quantity, Support, Unknown};
-use crate::run::Placed;
+use crate::printer::{Material, Printer, Quantity, Support, Unknown};
 use crate::sheet::{GlueRow, MaterialRow, PrinterRow, SupportMethod};
 
-/// Returns the printer as far as the shop and the judge need it.
-pub fn printer_row(placed: &Placed) -> PrinterRow {
-    let printer = &placed.shop.printer;
+/// Returns the printer as far as the shop and the judge need it, with the least wall of a model.
+pub fn printer_row(printer: &Printer, minimum_wall_mm: f64) -> PrinterRow {
+    let number = |quantity| printer.number(quantity).map(|number| number.value);
     PrinterRow {
         id: printer.id.clone(),
         profile_sha256: printer.profile_sha256.clone(),
@@ -17,13 +16,13 @@ pub fn printer_row(placed: &Placed) -> PrinterRow {
         build_volume_mm: printer.usable_volume_mm(),
         print_scale_ratio: enlargement(printer.print_scale_ratio()),
         support: support_method(printer.support),
-        minimum_wall_mm: placed.minimum_wall_mm(),
+        minimum_wall_mm,
         minimum_opening_mm: printer.min_opening_mm.value,
         cleaning: printer.cleaning_rule(),
         least_pin_mm: Some(printer.pin_min_diameter_mm.value),
-        seam_step_mm: placed.seam_step_mm(),
+        seam_step_mm: number(Quantity::SeamStepMm),
         glue: glue_row(printer),
-        sources: sources(placed),
+        sources: sources(printer),
     }
 }
 
@@ -39,8 +38,7 @@ fn glue_row(printer: &Printer) -> Option<GlueRow> {
 }
 
 /// Returns the sources of the printer's numbers, a sentence each, and what is not known.
-fn sources(placed: &Placed) -> Vec<String> {
-    let printer = &placed.shop.printer;
+fn sources(printer: &Printer) -> Vec<String> {
     let words = |key: &str| key.trim_end_matches("_mm").replace('_', " ");
     let numbers = printer.numbers().into_iter();
     let numbers = numbers
@@ -81,8 +79,7 @@ pub fn enlargement(ratio: [f64; 3]) -> Option<[f64; 3]> {
 }
 
 /// Returns the material, with a weighing window if its density was measured.
-pub fn material_row(placed: &Placed) -> MaterialRow {
-    let material = &placed.shop.material;
+pub fn material_row(material: &Material) -> MaterialRow {
     MaterialRow {
         id: material.id.clone(),
         name: material.name.clone(),

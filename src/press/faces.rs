@@ -2,13 +2,14 @@
 
 use rayon::prelude::*;
 
+use super::layout::Layout;
 use crate::base::watch::{Cancelled, Watch};
-use crate::cut::{CutError, Point2, Ring, Section, UncutFace, VoidAccess, clip_to_limits};
-use crate::error::Error;
+use crate::cut::{Cut, CutError, Point2, Ring, Section, UncutFace, clip_to_limits};
 use crate::geom::{Parting, Plane, Point, rings::thinnest};
 use crate::mesh::{MeshDistance, TriMesh};
 use crate::page::{CutFace, Mouth, Region};
-use crate::run::{Made, WrittenPart};
+use crate::repair::weld;
+use crate::verify::{PartEvidence, PromisedVoid};
 
 /// Distance from the middle of a region's widest disc at which its parts are looked up: inside the
 /// disc, past a pin. A share of its diameter.
@@ -18,30 +19,28 @@ const LOOKS: usize = 8;
 /// Distance from the cut at which a part is looked up, mm: past rounding, not past a wall.
 const OFF_MM: f64 = 0.02;
 
-/// The section of the uncut body at every cut.
-pub fn faces(made: &Made, watch: &Watch) -> Result<Vec<CutFace>, Error> {
-    let body = made.hollowed.to_mesh();
-    let plan = &made.plan;
-    let solid = |written: &WrittenPart| {
+/// Returns the sections of the uncut body at all cuts.
+///
+/// # Errors
+/// A section cannot be made, or the watch was stopped.
+pub(super) fn faces(layout: &Layout, watch: &Watch) -> Result<Vec<CutFace>, CutError> {
+    let (body, partings) = (&layout.body.welded, layout.partings);
+    let solid = |part: &PartEvidence| {
         watch.check()?;
-        let distance = MeshDistance::new(written.part.solid.mesh());
-        Ok((written.part.id.to_string(), distance))
+        let mesh = weld(&part.mesh.map_vertices(|p| part.pose.to_model(p)));
+        Ok((part.id.clone(), MeshDistance::new(&mesh)))
     };
-    let solids = made.parts.par_iter().map(solid);
+    let solids = layout.evidence.parts.par_iter().map(solid);
     let solids = solids.collect::<Result<Vec<(String, MeshDistance)>, Cancelled>>()?;
-    let partings = plan.partings()?;
-    let face = |(cut, parting): (&crate::cut::Cut, &Parting)| {
+    let face = |(cut, parting): (&Cut, &Parting)| {
         watch.check()?;
         let plane = parting.plane;
-        let section = Section::of_mesh(&clip_to_limits(parting, &body)?, &plane);
-        let regions = regions(&sections(&body, parting, &partings)?, &plane, &solids);
+        let section = Section::of_mesh(&clip_to_limits(parting, body)?, &plane);
+        let regions = regions(&sections(body, parting, partings)?, &plane, &solids);
         let rings: Vec<Vec<[f64; 2]>> = section.rings.iter().map(flat_ring).collect();
-        let whole = plan
-            .uncut
-            .iter()
-            .filter(|face| face.cut == cut.id)
-            .map(|face| flat_point(&plane, face));
-        let (whole, mouths) = (whole.collect(), mouths(made, parting, watch)?);
+        let uncut = layout.uncut.iter().filter(|face| face.cut == cut.id);
+        let whole = uncut.map(|face| flat_point(&plane, face)).collect();
+        let mouths = mouths(layout, parting, watch)?;
         // What ends where the cut ends is no wall.
         let wall = thinnest(&rings).filter(|ends| !ends.iter().any(|end| is_at_end(parting, *end)));
         Ok(CutFace {
@@ -54,7 +53,7 @@ pub fn faces(made: &Made, watch: &Watch) -> Result<Vec<CutFace>, Error> {
             mouths,
         })
     };
-    plan.cuts.iter().zip(&partings).map(face).collect()
+    layout.cuts.iter().zip(partings).map(face).collect()
 }
 
 /// Returns whether a place of a cut, in the plane's coordinates, lies where it ends at another.
@@ -141,28 +140,21 @@ fn regions(sections: &[Section], plane: &Plane, solids: &[(String, MeshDistance)
 }
 
 /// Returns the mouths of voids in the cut, each with the largest disc that passes.
-fn mouths(made: &Made, parting: &Parting, watch: &Watch) -> Result<Vec<Mouth>, CutError> {
-    let of_void = |access: &VoidAccess| -> Result<Vec<Mouth>, CutError> {
+fn mouths(layout: &Layout, parting: &Parting, watch: &Watch) -> Result<Vec<Mouth>, CutError> {
+    let of_void = |(void, cavity): (&PromisedVoid, &TriMesh)| -> Result<Vec<Mouth>, CutError> {
         watch.check()?;
-        let Some(body) = made.hollowed.voids.get(access.void.index()) else {
-            return Ok(Vec::new());
-        };
-        let discs = Section::of_mesh(&clip_to_limits(parting, body.mesh())?, &parting.plane)
-            .largest_discs();
+        let air = clip_to_limits(parting, &cavity.reversed())?;
+        let discs = Section::of_mesh(&air, &parting.plane).largest_discs();
         let mouth = |(at, diameter_mm): (Point2, f64)| Mouth {
-            void: access.void.to_string(),
+            void: void.id.clone(),
             at: [at.x, at.y],
             diameter_mm,
         };
         Ok(discs.into_iter().map(mouth).collect())
     };
-    let of_voids = made
-        .plan
-        .voids
-        .iter()
-        .map(of_void)
-        .collect::<Result<Vec<_>, _>>()?;
-    Ok(of_voids.concat())
+    let voids = layout.evidence.promise.voids.iter();
+    let of_voids = voids.zip(&layout.body.shells.inward).map(of_void);
+    Ok(of_voids.collect::<Result<Vec<_>, _>>()?.concat())
 }
 
 fn flat_ring(ring: &Ring) -> Vec<[f64; 2]> {

@@ -1,0 +1,92 @@
+//! The checklist held against the job and against the profile of the printer that it names.
+
+use serde_json::{Value, json};
+
+use crate::job::Job;
+use crate::printer::Printer;
+use crate::sheet::Checklist;
+use crate::sheet::from_run::{material_row, printer_row};
+
+/// Returns what the checklist says otherwise than the job, or than the profile of a built-in
+/// printer, a sentence each. A shop's own profile is no part of the kit.
+pub(super) fn find_false_job(sheet: &Checklist, job: &Job) -> Vec<String> {
+    let mut faults = Faults(Vec::new());
+    let path = &job.model.path;
+    let file = path
+        .file_name()
+        .map(|name| name.to_string_lossy().into_owned());
+    faults.compare("job", &json!(sheet.job), &json!(job.name()));
+    faults.compare(
+        "model.file",
+        &json!(sheet.model.file),
+        &json!(file.unwrap_or_default()),
+    );
+    faults.compare(
+        "model.sha256",
+        &json!(sheet.model.sha256),
+        &json!(job.model.sha256),
+    );
+    faults.compare(
+        "model.repair",
+        &json!(sheet.model.repair),
+        &json!(job.repair),
+    );
+    faults.compare(
+        "goal.kind",
+        &json!(sheet.goal.aim.kind),
+        &json!(job.goal.kind),
+    );
+    let asked_mm = job.wall.map(|wall| wall.mm());
+    faults.compare(
+        "wall.asked_mm",
+        &json!(sheet.wall.asked_mm),
+        &json!(asked_mm),
+    );
+    let is_known = |printer: &Printer| printer.id == job.printer.id;
+    let known = Printer::all()
+        .unwrap_or_default()
+        .into_iter()
+        .find(is_known);
+    if let Some(printer) = known {
+        faults.judge_printer(sheet, job, &printer);
+    }
+    faults.0
+}
+
+/// The faults found so far, a sentence each.
+struct Faults(Vec<String>);
+
+impl Faults {
+    /// Compares a stated value with the right one, key by key.
+    fn compare(&mut self, at: &str, stated: &Value, right: &Value) {
+        match (stated, right) {
+            (Value::Object(rows), Value::Object(found)) if rows.len() == found.len() => {
+                for (key, right) in found {
+                    let stated = rows.get(key).unwrap_or(&Value::Null);
+                    self.compare(&format!("{at}.{key}"), stated, right);
+                }
+            }
+            _ if stated == right => {}
+            _ => self
+                .0
+                .push(format!("{at} is {stated} on the checklist, not {right}")),
+        }
+    }
+
+    fn judge_printer(&mut self, sheet: &Checklist, job: &Job, printer: &Printer) {
+        let size_mm = sheet.model.size_mm.into_iter().fold(0.0, f64::max);
+        let wall_mm = printer.least_wall_mm(size_mm).value;
+        let row = printer_row(printer, wall_mm);
+        self.compare("printer", &json!(sheet.printer), &json!(row));
+        if let Ok(material) = printer.material(job.printer.material.as_deref()) {
+            let row = material_row(material);
+            self.compare("material", &json!(sheet.material), &json!(row));
+        }
+        let method = printer.cleaning_rule().rule.description();
+        for void in &sheet.voids {
+            let at = |key: &str| format!("voids[{}].{key}", void.id);
+            self.compare(&at("method"), &json!(void.method), &json!(method));
+            self.compare(&at("clean"), &json!(void.clean), &json!(printer.cleaning));
+        }
+    }
+}
