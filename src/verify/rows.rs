@@ -89,7 +89,6 @@ impl Faults {
         let what = row["what"].as_str().unwrap_or_default();
         let is_near = match what {
             "pin, diameter, at least" => row["asked_mm"] == sheet["printer"]["least_pin_mm"],
-            "pitch of the solver" => asked_mm.total_cmp(&drawn_mm).is_eq(),
             _ => (drawn_mm - asked_mm).abs() <= MAX_STEPS * largest_step_mm(sheet),
         };
         if !is_near {

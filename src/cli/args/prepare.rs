@@ -178,7 +178,7 @@ pub struct PrepareArgs {
 pub const DEFAULT_PLANS: u8 = 3;
 
 /// The arguments that a replayed job decides.
-const DECIDED_BY_JOB: [&str; 37] = [
+const DECIDED_BY_JOB: [&str; 38] = [
     "printer",
     "material",
     "wall",
