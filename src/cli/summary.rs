@@ -106,11 +106,8 @@ fn bound_words(checklist: &Checklist) -> String {
     let Some(written) = proof.written_value else {
         return format!("{} {best} is possible{of_what}", proof.figure.name());
     };
-    format!(
-        "best possible{of_what}: {} {best}; this kit: {}",
-        proof.figure.name(),
-        measured(written, unit)
-    )
+    let [name, written] = [proof.figure.name().to_owned(), measured(written, unit)];
+    format!("{name} {written}; at best {best} is possible{of_what}")
 }
 
 /// Returns what took a tenth or more of the best figure, and what to try; `None` if the kit is

@@ -44,7 +44,7 @@ pub(super) fn card(sheet: &Checklist) -> Markup {
     html! {
         section class="card together" aria-label="Card for the customer" {
             h2 { (sheet.job) }
-            p class="promise" { (words::promise(sheet)) }
+            p class="promise" { (customer_promise(sheet)) }
             @for line in use_lines(sheet) { p { (line) } }
             p {
                 "Made of " (sheet.material.name) ", " (measured(sheet.assembly.mass_g, "g"))
@@ -52,6 +52,21 @@ pub(super) fn card(sheet: &Checklist) -> Markup {
                 "Do not drop it. It is no toy for children under three: small parts can come off."
             }
         }
+    }
+}
+
+/// Words what the object does for somebody who knows no figures.
+fn customer_promise(sheet: &Checklist) -> String {
+    let body = &sheet.assembly;
+    match (sheet.goal.aim.kind, body.topples_deg) {
+        (GoalKind::Stand, Some(tilt)) if tilt > 0.0 => {
+            format!(
+                "Stands, even on a board that leans by {}.",
+                measured(tilt.floor(), "°")
+            )
+        }
+        (GoalKind::Yoyo, _) => "Spins steadily as a yo-yo.".to_owned(),
+        _ => words::promise(sheet),
     }
 }
 
@@ -68,9 +83,30 @@ fn use_lines(sheet: &Checklist) -> Vec<String> {
             format!("Hold it upright on a hard, smooth table and spin it fast{turns} or more. It stays up until it slows down.")
         }
         GoalKind::Yoyo => "Tie the string around the axle, wind it up and let it fall. It runs down and up without leaning.".to_owned(),
-        GoalKind::Stand => "Set it on a level table. It stands on its own, with nothing to hold it.".to_owned(),
+        GoalKind::Stand => "Set it on a table. It stands on its own, with nothing to hold it.".to_owned(),
         GoalKind::Float => "Set it on water, the right way up. It floats upright and comes back when it is pushed over.".to_owned(),
         GoalKind::Balance => "Mount it on its shaft. It runs true at the speed it was balanced for.".to_owned(),
     };
     vec![line]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::sample;
+
+    #[test]
+    fn a_customer_is_told_the_lean_in_whole_degrees_and_no_figure_of_a_yoyo() {
+        let mut sheet = sample().0;
+        sheet.goal.aim.kind = GoalKind::Stand;
+        sheet.assembly.topples_deg = Some(9.58);
+        let stands = customer_promise(&sheet);
+        assert!(
+            stands.contains("leans by 9\u{a0}°") || stands.contains("leans by 9°"),
+            "{stands}"
+        );
+        sheet.goal.aim.kind = GoalKind::Yoyo;
+        sheet.assembly.dominance_ratio = Some(0.81);
+        assert_eq!(customer_promise(&sheet), "Spins steadily as a yo-yo.");
+    }
 }

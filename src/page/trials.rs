@@ -22,6 +22,9 @@ const MOST_TILT_DEG: f64 = 45.0;
 /// to be at hand.
 const BOARD_MM: f64 = 300.0;
 
+/// Angle up to which the lean of a board can be told, degrees: 2 mm at its end are 0.4°.
+const BOARD_DEG: f64 = 0.5;
+
 /// Returns the tests with boxes to tick and a picture of the centre of mass, and a line for the
 /// result.
 pub(super) fn test_step(sheet: &Checklist, pictures: &[Picture]) -> Markup {
@@ -153,16 +156,22 @@ fn standing_lines(sheet: &Checklist) -> Vec<String> {
     let tilt = sheet.assembly.topples_deg.map(|deg| {
         format!(
             "Set it on a rough board, {} long, and raise one end slowly. It stands until the board leans by {}: that end is then {} up. \
-             It does so whichever way it is turned.",
+             It does so whichever way it is turned. Reject it if it falls before that end is {} up.",
             measured(BOARD_MM, "mm"),
             measured(deg, "°"),
-            measured(BOARD_MM * deg.to_radians().sin(), "mm")
+            measured(raised_mm(deg), "mm"),
+            measured(raised_mm(deg - BOARD_DEG).max(0.0), "mm")
         )
     });
-    [hang_line(&format!("{height} above the ground"))]
+    [hang_line(&format!("{height} above its lowest point"))]
         .into_iter()
         .chain(tilt)
         .collect()
+}
+
+/// Returns how far the end of the board is raised when it leans, mm.
+fn raised_mm(lean_deg: f64) -> f64 {
+    BOARD_MM * lean_deg.to_radians().sin()
 }
 
 /// Words the tests of an object that floats.

@@ -45,10 +45,17 @@ pub(super) fn with_command(
     }
     let is_command = first.is_some_and(|word| commands.iter().any(|command| word == command));
     let is_model = first.is_some_and(|word| Path::new(word).is_file());
-    if !is_command && (is_model || words.iter().skip(1).any(|word| has_model_ending(word))) {
+    let names_model = words.iter().skip(1).any(|word| has_model_ending(word));
+    let is_misspelt = words.get(1).is_some_and(is_misspelt_command);
+    if !is_command && (is_model || names_model && !is_misspelt) {
         words.insert(1, default.into());
     }
     words
+}
+
+/// Returns whether the first word can be neither a model nor an option.
+fn is_misspelt_command(first: &OsString) -> bool {
+    !is_option(first) && !has_model_ending(first) && !Path::new(first).is_file()
 }
 
 fn is_option(word: &OsStr) -> bool {
@@ -110,6 +117,8 @@ mod tests {
             ("equipoise frobnicate", None),
             ("equipoise", None),
             ("equipoise --job=a.stl", None),
+            // A misspelt command: what is meant is told, and nothing is prepared.
+            ("equipoise inspct a.stl", None),
         ] {
             let typed = with_command(words(line), &commands, "prepare");
             let added = typed.len() - words(line).len();
