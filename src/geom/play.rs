@@ -37,7 +37,7 @@ const TURNS: usize = 16;
 /// Steps of a bisection or a golden section: they leave less than a part in a million.
 const STEPS: usize = 30;
 
-/// Steps of the golden section for the deepest motion: they leave a part in a hundred millions, so
+/// Steps of the golden section for the deepest motion. They leave a part in a hundred millions:
 /// less than 0.1 µm at any rim.
 const PEAK_STEPS: usize = 40;
 

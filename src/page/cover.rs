@@ -2,7 +2,7 @@
 
 use maud::{Markup, html};
 
-use super::fields::{blank, sentence};
+use super::fields::{THIN_LAYER_MM, UM_PER_MM, blank, sentence};
 use super::figure::{Role, figures};
 use super::inputs::PageInputs;
 use super::job_id::JobId;
@@ -12,12 +12,6 @@ use super::words;
 use crate::base::numbers::{measured, measured_extent, number};
 use crate::base::units::format_count;
 use crate::sheet::{Checklist, Verdict};
-
-/// Micrometres in a millimetre.
-pub(super) const UM_PER_MM: f64 = 1000.0;
-
-/// Height of a layer below which it is named in micrometres, mm.
-pub(super) const THIN_LAYER_MM: f64 = 0.1;
 
 /// Returns the head of the sheet.
 pub(super) fn cover(inputs: &PageInputs, job: &JobId) -> Markup {

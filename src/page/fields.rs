@@ -53,8 +53,14 @@ pub(super) fn half_name(half: Half) -> &'static str {
     }
 }
 
-/// Density of loose powder over that of the sintered material: beds of polyamide are packed to
-/// 0.45–0.5 g/cm³, parts to 0.95–1.01.
+/// Micrometres in a millimetre.
+pub(super) const UM_PER_MM: f64 = 1000.0;
+
+/// Height of a layer below which it is named in micrometres, mm.
+pub(super) const THIN_LAYER_MM: f64 = 0.1;
+
+/// Density of loose powder over that of the sintered material. Beds of polyamide are packed to
+/// 0.45–0.5 g/cm³, and parts have 0.95–1.01.
 const POWDER_RATIO: f64 = 0.5;
 
 /// Returns the density of what fills an uncleaned void over that of the material; `None` for

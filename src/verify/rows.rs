@@ -16,6 +16,10 @@ const ROUNDING: f64 = 1e-9;
 /// fits the grid in every direction.
 const MAX_STEPS: f64 = 2.0 + 1e-3;
 
+/// The words of the rows of a pin.
+const PIN_DIAMETER: &str = "pin, diameter, at least";
+const PIN_LENGTH: &str = "pin, length";
+
 /// The faults found so far, a sentence each.
 struct Faults(Vec<String>);
 
@@ -42,6 +46,7 @@ pub(super) fn find_false_rows(sheet: &Value, evidence: &Evidence) -> Vec<String>
     for (index, row) in rows(sheet, "grid").iter().enumerate() {
         faults.judge_length(&format!("grid[{index}]"), row, sheet);
     }
+    faults.judge_pin_lengths(rows(sheet, "grid"));
     faults.0
 }
 
@@ -82,13 +87,30 @@ impl Faults {
         }
     }
 
+    /// Judges whether all pins were asked for with one ratio of length to diameter.
+    fn judge_pin_lengths(&mut self, grid: &[Value]) {
+        let ratios = pin_ratios(grid);
+        let Some(&(_, first)) = ratios.first() else {
+            return;
+        };
+        let others = ratios
+            .iter()
+            .filter(|(_, ratio)| (ratio / first - 1.0).abs() > ROUNDING);
+        let faults = others.map(|(index, ratio)| {
+            format!("grid[{index}].asked_mm is {ratio} diameters, that of the first pin {first}")
+        });
+        self.0.extend(faults);
+    }
+
     /// Judges whether a length is drawn about as it was asked for.
     fn judge_length(&mut self, at: &str, row: &Value, sheet: &Value) {
         let number = |key: &str| row[key].as_f64().unwrap_or(f64::NAN);
         let (asked_mm, drawn_mm) = (number("asked_mm"), number("drawn_mm"));
         let what = row["what"].as_str().unwrap_or_default();
         let is_near = match what {
-            "pin, diameter, at least" => row["asked_mm"] == sheet["printer"]["least_pin_mm"],
+            PIN_DIAMETER => row["asked_mm"] == sheet["printer"]["least_pin_mm"],
+            // Where the walls lack room, a pin is shorter than asked for.
+            PIN_LENGTH => drawn_mm - asked_mm <= MAX_STEPS * largest_step_mm(sheet),
             _ => (drawn_mm - asked_mm).abs() <= MAX_STEPS * largest_step_mm(sheet),
         };
         if !is_near {
@@ -98,6 +120,24 @@ impl Faults {
             ));
         }
     }
+}
+
+/// Returns the ratio of the length to the diameter that was asked for of each pin, with the index
+/// of its row.
+fn pin_ratios(grid: &[Value]) -> Vec<(usize, f64)> {
+    let number = |row: &Value, key: &str| row[key].as_f64().unwrap_or(f64::NAN);
+    let is_of = |row: &Value, what: &str| {
+        let word = row["what"].as_str().unwrap_or_default();
+        word.starts_with(what)
+    };
+    let pairs = grid.windows(2).enumerate();
+    let pins =
+        pairs.filter(|(_, pair)| is_of(&pair[0], PIN_DIAMETER) && is_of(&pair[1], PIN_LENGTH));
+    pins.map(|(index, pair)| {
+        let ratio = number(&pair[1], "asked_mm") / number(&pair[0], "drawn_mm");
+        (index + 1, ratio)
+    })
+    .collect()
 }
 
 /// Returns the lie of a part on the plate in words: the cut faces that look down or up.
@@ -155,4 +195,43 @@ fn largest_step_mm(sheet: &Value) -> f64 {
 /// Returns the rows of a table of the checklist.
 fn rows<'a>(sheet: &'a Value, table: &str) -> &'a [Value] {
     sheet[table].as_array().map_or(&[], Vec::as_slice)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn row(what: &str, asked_mm: f64, drawn_mm: f64) -> Value {
+        json!({ "what": what, "asked_mm": asked_mm, "drawn_mm": drawn_mm })
+    }
+
+    #[test]
+    fn a_pin_shorter_than_asked_for_is_no_fault_and_another_ratio_is_one() {
+        let grid = |second_mm: f64| {
+            [
+                row(PIN_DIAMETER, 2.0, 2.032),
+                row(PIN_LENGTH, 2.54, 2.032),
+                row(PIN_DIAMETER, 2.0, 3.048),
+                row(PIN_LENGTH, second_mm, 3.81),
+            ]
+        };
+        let judge = |grid: &[Value]| {
+            let printer =
+                json!({ "pixel_mm": [0.042, 0.042], "layer_mm": 0.016, "least_pin_mm": 2.0 });
+            let sheet = json!({ "printer": printer });
+            let mut faults = Faults(Vec::new());
+            for row in grid {
+                faults.judge_length("row", row, &sheet);
+            }
+            faults.judge_pin_lengths(grid);
+            faults.0
+        };
+        assert_eq!(judge(&grid(3.81)), Vec::<String>::new());
+        assert_eq!(judge(&grid(3.9)).len(), 1);
+        assert_eq!(
+            judge(&grid(3.0)).len(),
+            2,
+            "longer than asked for, and of another ratio"
+        );
+    }
 }
