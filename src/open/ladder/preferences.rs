@@ -262,9 +262,10 @@ impl<'a> Ladder<'a> {
         });
     }
 
-    /// Places the pins of a plan with fewer parts, and compares both plans with their pins. It takes
-    /// that one if it costs next to nothing of the goal's figure, or little and hides a seam. Else
-    /// the sheet offers it.
+    /// Places the pins of a plan with fewer parts, and compares both plans with their pins.
+    ///
+    /// It takes that one if it costs next to nothing of the goal's figure, or little and hides a
+    /// seam. Else the sheet offers it.
     ///
     /// Returns the plan with bosses, and the one without.
     pub(super) fn weigh_fewer_parts(
