@@ -10,6 +10,8 @@ use crate::kits::Kit;
 
 /// The uncut result.
 const HOLLOWED: &str = "hollowed.stl";
+/// The folder of the model in a kit.
+const MODEL: &str = "model/";
 /// The least dent, mm, just above what the judge lets pass, and the factor to the greatest.
 const DENT_MM: [f64; 2] = [0.002_5, 100.0];
 /// The distance of a shift, mm.
@@ -48,7 +50,9 @@ pub fn alter(kit: &mut Kit, dice: &mut Dice) -> String {
 /// Moves a corner of the outside in the uncut result and in the parts alike, so that they agree.
 pub fn dent_outside(kit: &mut Kit, dice: &mut Dice) -> String {
     let whole = kit.mesh(HOLLOWED);
-    let (at, way) = pick_corner(&whole, dice, |at| is_outside(&whole, at));
+    let outside = model_corners(kit);
+    let is_outside = |at: &Point| outside.iter().any(|p| (p - at).norm() < SAME_MM);
+    let (at, way) = pick_corner(&whole, dice, is_outside);
     let amount_mm = dice.sign() * DENT_MM[0] * DENT_MM[1].powf(dice.share());
     let moved = pull(&whole, at, way * amount_mm);
     kit.set_mesh(HOLLOWED, &moved);
@@ -72,16 +76,16 @@ pub fn dent_outside(kit: &mut Kit, dice: &mut Dice) -> String {
     format!("dent of the outside by {amount_mm:.4} mm")
 }
 
-/// Returns whether a corner is on the box's far sides of a body: some corner beyond it is none of
-/// the void's. A corner is taken as outside if no corner lies farther along its own direction.
-fn is_outside(mesh: &TriMesh, at: &Point) -> bool {
-    let center = mesh.aabb().center();
-    let out = (at - center).normalize();
-    let reach = (at - center).dot(&out);
-    mesh.vertices().iter().all(|p| {
-        let way = p - center;
-        way.norm() < SAME_MM || way.normalize().dot(&out) < 0.99 || way.dot(&out) < reach + 0.5
-    })
+/// Returns the corners of the kit's model in the size of the kit.
+fn model_corners(kit: &Kit) -> Vec<Point> {
+    let scale_ratio = kit.sheet()["model"]["scale_ratio"].as_f64().unwrap();
+    let file = kit
+        .files
+        .keys()
+        .find(|file| file.starts_with(MODEL))
+        .unwrap();
+    let model = kit.mesh(file);
+    model.vertices().iter().map(|p| p * scale_ratio).collect()
 }
 
 /// Returns the rows of a part's turn, and its shift.

@@ -43,6 +43,8 @@ const OF_FILES: [CheckKind; 4] = [
     CheckKind::Papers,
 ];
 
+/// The checklist of a kit.
+const CHECKLIST: &str = "checklist.json";
 /// A key that no look at the kit can name: the papers of another version are not printed again.
 /// Making the kit again names it.
 const VERSION_KEY: &str = "/tool/version";
@@ -121,7 +123,13 @@ fn try_keys() -> Vec<Trial> {
     let trial = |room: &mut Room, (throw, (kit, pointer)): (usize, &(&Kit, String))| {
         let (mut kit, mut sheet) = ((*kit).clone(), kit.sheet());
         keys::alter(&mut sheet, pointer, Dice::of(throw).sign());
+        let before = kit.files[CHECKLIST].clone();
         kit.set_sheet(&sheet);
+        if kit.files[CHECKLIST] == before {
+            // The program does not read that key, and writes it by another.
+            kit.files
+                .insert(CHECKLIST.to_owned(), sheet.to_string().into_bytes());
+        }
         seal::renew_list(&mut kit);
         let said = room.judge(&kit);
         let what = format!("{} {pointer}", kit.name);
