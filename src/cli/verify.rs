@@ -55,6 +55,9 @@ pub fn verify(
 ) -> Result<Exit, VerifyCommandError> {
     let (folder, model) = (args.kit.as_path(), args.model.as_deref());
     let is_telescope = is_telescope(folder);
+    if args.replay && is_telescope {
+        return Err(VerifyCommandError::NoReplay);
+    }
     let Judged {
         mut checks,
         changes,
@@ -64,9 +67,6 @@ pub fn verify(
     } else {
         judge_kit(folder, model)?
     };
-    if args.replay && is_telescope {
-        return Err(VerifyCommandError::NoReplay);
-    }
     if args.replay {
         let again = replay(folder, model, &Watch::silent()).map_err(Box::new)?;
         checks.push(again);

@@ -3,8 +3,7 @@
 use maud::{Markup, html};
 
 use super::below;
-use super::fields::{THIN_LAYER_MM, UM_PER_MM};
-use super::fields::{file_name, half_name};
+use super::fields::{THIN_LAYER_MM, UM_PER_MM, file_name, half_name};
 use super::figure::Picture;
 use super::hardware::bar;
 use super::support;

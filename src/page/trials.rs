@@ -154,13 +154,17 @@ fn yoyo_lines(sheet: &Checklist) -> Vec<String> {
 fn standing_lines(sheet: &Checklist) -> Vec<String> {
     let height = measured(sheet.assembly.center_height_mm, "mm");
     let tilt = sheet.assembly.topples_deg.map(|deg| {
+        let limit = (deg > BOARD_DEG).then(|| {
+            let least = measured(raised_mm(deg - BOARD_DEG), "mm");
+            format!(" Reject it if it falls before that end is {least} up.")
+        });
+        let limit = limit.unwrap_or_default();
         format!(
             "Set it on a rough board, {} long, and raise one end slowly. It stands until the board leans by {}: that end is then {} up. \
-             It does so whichever way it is turned. Reject it if it falls before that end is {} up.",
+             It does so whichever way it is turned.{limit}",
             measured(BOARD_MM, "mm"),
             measured(deg, "°"),
-            measured(raised_mm(deg), "mm"),
-            measured(raised_mm(deg - BOARD_DEG).max(0.0), "mm")
+            measured(raised_mm(deg), "mm")
         )
     });
     [hang_line(&format!("{height} above its lowest point"))]
@@ -284,5 +288,21 @@ mod tests {
             }))
             .contains("leaned further it falls over")
         );
+    }
+
+    #[test]
+    fn a_standing_object_has_a_reject_limit_unless_it_topples_at_once() {
+        let lines = |topples_deg: f64| {
+            let mut sheet = sample().0;
+            sheet.assembly.topples_deg = Some(topples_deg);
+            standing_lines(&sheet).join(" ")
+        };
+        // 300 mm times the sine of 9.5°.
+        let said = lines(10.0);
+        assert!(
+            said.contains("Reject it if it falls before that end is 49.5"),
+            "{said}"
+        );
+        assert!(!lines(0.4).contains("Reject"));
     }
 }

@@ -46,7 +46,7 @@ pub fn verify(
     Ok(judgement)
 }
 
-/// What is false in the papers of a kit.
+/// The faults of the papers of a kit.
 struct Faults {
     /// The version of the kit, if this one cannot print its papers.
     other_version: Option<String>,

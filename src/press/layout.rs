@@ -1,11 +1,11 @@
-//! What is drawn of a kit: its files as they are read back, and the cuts between its parts.
+//! The subject of a kit's drawings: its files as read back, and the cuts between its parts.
 
 use crate::cut::{Cut, UncutFace};
 use crate::geom::Parting;
 use crate::page::Subject;
 use crate::verify::{Body, Evidence};
 
-/// What is drawn of a kit.
+/// The subject of a kit's drawings.
 #[derive(Debug, Clone, Copy)]
 pub struct Layout<'a> {
     /// The files as they were read back, and their promise.
