@@ -3,9 +3,11 @@
 //! * `read` reads a file in any of the formats; `sniff` recognises the format from the content.
 //! * [`stl`], `obj`, `ply` and [`threemf`] hold one format each.
 //! * `points` reads curves, a point a line; `lines` reads them as OBJ lines or PLY edges, too.
+//! * [`gcode`] reads what a print lays down; it writes nothing.
 //! * `ear_clip` cuts the polygons of OBJ and PLY into triangles.
 
 mod ear_clip;
+pub mod gcode;
 mod lines;
 mod obj;
 mod ply;

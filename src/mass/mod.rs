@@ -6,6 +6,7 @@ mod moments;
 
 // The moments of a mesh, of the part of it under water, and of simple bodies in closed form.
 mod bar;
+mod bead;
 mod film;
 mod lump;
 mod of_mesh;
@@ -15,6 +16,7 @@ mod submerged;
 mod tests;
 
 pub use bar::RoundBar;
+pub use bead::{Bead, BeadMoments, Turn};
 pub use body::{Body, Principal};
 pub use film::FlatFace;
 pub(crate) use lump::rims;

@@ -35,7 +35,8 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("curve", &["base", "geom"]),
     ("mesh", &["base", "geom"]),
     ("repair", &["base", "geom", "mesh"]),
-    ("io", &["repair", "geom", "mesh", "base"]),
+    // G-code is weighed bead by bead as it is read, so that no file is too long.
+    ("io", &["repair", "geom", "mass", "mesh", "base"]),
     ("shell", &["geom", "mesh", "base"]),
     ("thin", &["geom", "mesh", "base"]),
     // A skeleton is found in a solid alone; what shells need comes as two lengths.

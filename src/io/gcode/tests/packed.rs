@@ -1,0 +1,1 @@
+//! Packed files: Prusa's binary from an encoder of the test's own, and sliced packages.
