@@ -1,6 +1,6 @@
 //! An ordered plan, tried out on a copy of the body and then built on the body itself.
 
-use super::aligned::count_unaligned;
+use super::aligned::count_unaligned_of;
 use super::ladder::Ladder;
 use super::plan::are_clean;
 use super::proxy::Bodies;
@@ -8,9 +8,7 @@ use super::refused::unless_refused;
 use super::resolve::Kept;
 use super::way::Candidate;
 use crate::base::verdict::Verdict;
-use crate::cut::{
-    Cut, CutError, CutId, CutMove, CutOrder, CutPlan, Hollowed, draft_again, finish_draft,
-};
+use crate::cut::{Cut, CutId, CutMove, CutOrder, CutPlan, Hollowed, draft_again, finish_draft};
 use crate::error::Error;
 use crate::geom::Point;
 use crate::run::{Achieved, BossRound, Opened, Policy};
@@ -133,7 +131,7 @@ pub fn build<'a>(
         let built = built.filter(|built| planned.is_borne_out_by(&built.opened));
         if let Some(mut built) = built {
             // A jig that holds on the copy may not hold on the body.
-            if count_loose(&built.opened)? > count_loose(&planned.opened)? {
+            if count_unaligned_of(&built.opened)? > count_unaligned_of(&planned.opened)? {
                 continue;
             }
             built.opened.bosses = join(&planned.opened.bosses, built.opened.bosses);
@@ -159,11 +157,6 @@ fn is_borne_out_by(planned: &Opened, built: &Opened) -> bool {
         && built.plan.voids.len() == built.voids.hollowed.voids.len()
         && (is_clean(built) || !is_clean(planned))
         && count_lacking(built) <= count_lacking(planned)
-}
-
-/// Counts the joints that neither pins nor a jig align.
-fn count_loose(opened: &Opened) -> Result<usize, CutError> {
-    count_unaligned(&opened.voids, &opened.plan, &opened.request)
 }
 
 /// Counts the joints without pins that fit one way only.

@@ -6,7 +6,7 @@ mod rungs;
 
 use joined::Joined;
 
-use super::aligned::count_unaligned;
+use super::aligned::count_unaligned_of;
 use super::bosses::{Bossed, add_bosses};
 use super::budget::Budget;
 use super::clean::Start;
@@ -26,9 +26,7 @@ use crate::run::{KeptCause, Opened, Policy, Remark, Rung, Tendency, Untried, Voi
 /// Counts the joints of the best plan that neither pins nor a jig align.
 fn count_unaligned_in_best(candidates: &[Candidate]) -> Result<usize, CutError> {
     let best = candidates.first().map(|candidate| &candidate.opened);
-    best.map_or(Ok(0), |best| {
-        count_unaligned(&best.voids, &best.plan, &best.request)
-    })
+    best.map_or(Ok(0), count_unaligned_of)
 }
 
 /// The ladder from one set of voids.

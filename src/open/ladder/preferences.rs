@@ -25,7 +25,7 @@ struct Hidden<'a> {
 impl Hidden<'_> {
     /// Returns the price of its seams and of its loss.
     fn cost(&self, policy: &Policy) -> f64 {
-        self.price + policy.loss_price * self.loss_ratio
+        policy.hidden_cost(self.price, self.loss_ratio)
     }
 
     /// Returns whether every void can be cleaned.
@@ -247,7 +247,7 @@ impl<'a> Ladder<'a> {
         if !(self.is_free() && self.hides_seams) || usual_price <= policy.dear_seam_ratio {
             return Ok(false);
         }
-        let cost = fewer.seam_price()? + policy.loss_price * fewer.loss_ratio(usual);
+        let cost = policy.hidden_cost(fewer.seam_price()?, fewer.loss_ratio(usual));
         Ok(fewer.hides_worth(usual, policy) && cost < usual_price)
     }
 
