@@ -23,6 +23,9 @@ const SAMPLES: usize = 4000;
 /// Depth of the overlap samples under a part's surface, mm. It is above the rounding of files (4e-6
 /// at 100 mm), where cut faces coincide, and below any printer's pixel.
 const UNDER_MM: f64 = 0.005;
+/// Depth in another part up to which a sample is not in it, mm. Files round to 4e-6 at 100 mm:
+/// coinciding cut faces overlap here and there by as much.
+const ROUNDING_MM: f64 = 1e-4;
 
 /// A pin and its socket as found in the files.
 #[derive(Debug, Clone, PartialEq)]
@@ -270,10 +273,15 @@ pub(super) fn count_overlaps(probes: &[PartProbe], watch: &Watch) -> Result<usiz
 /// Returns true if a point lies in its own part and in another. Under an acute rim it may lie in
 /// neither or in the mate alone.
 fn is_shared(point: &Point, own: &PartProbe, probes: &[PartProbe]) -> bool {
+    let is_deep = |other: &PartProbe| {
+        let at = other.part.pose.to_print(point);
+        other.surface.closest(&at, ROUNDING_MM, &[]).is_none()
+    };
+    let is_in = |other: &PartProbe| other.contains(point) && is_deep(other);
     own.contains(point)
         && probes
             .iter()
-            .any(|other| !std::ptr::eq(other, own) && other.contains(point))
+            .any(|other| !std::ptr::eq(other, own) && is_in(other))
 }
 
 /// Returns points just under the centroids of a sample of the part's triangles, model frame.

@@ -1,8 +1,12 @@
 //! Pins and sockets in files: a sound joint, and the same joint with one fault at a time.
 
 use super::judge_tests::{SEAT, failures, judge, peg, sound_kit};
+use super::part_probe::PartProbe;
+use super::pegs::count_overlaps;
+use super::test_meshes::block;
 use super::*;
-use crate::geom::Vector;
+use crate::base::watch::Watch;
+use crate::geom::{Point, Vector};
 use crate::mass::FlatFace;
 use crate::mesh::{Csg, TriMesh, primitives::cylinder};
 
@@ -228,7 +232,7 @@ fn kit_with_glue(area_mm2: f64) -> Evidence {
 
 /// Returns the area of the box's rim where its halves meet, mm².
 fn rim_mm2(evidence: &Evidence) -> f64 {
-    let flat = |[a, b, c]: [crate::geom::Point; 3]| {
+    let flat = |[a, b, c]: [Point; 3]| {
         let is_flat = [a, b, c].iter().all(|p| (p.z - SEAT[2]).abs() < 1e-4);
         if is_flat {
             (b - a).cross(&(c - a)).norm() / 2.0
@@ -262,4 +266,28 @@ fn a_wall_around_the_socket_thinner_than_ordered_is_found() {
     let mut evidence = kit_with_pin(PIN, SOCKET, Vector::zeros());
     evidence.promise.printer.minimum_wall_mm = 1.5 - SOCKET[0] / 2.0 + 0.011;
     assert_eq!(pin_failures(&evidence), ["socket wall"]);
+}
+
+/// Returns a slab of 10 mm by 10 mm between two heights as a part in its place.
+fn slab(id: &str, [low, high]: [f64; 2]) -> PartEvidence {
+    PartEvidence {
+        id: id.to_owned(),
+        mesh: block(Point::new(0.0, 0.0, low), [10.0, 10.0, high - low]),
+        pose: Pose::identity(),
+    }
+}
+
+#[test]
+fn a_sample_within_the_rounding_of_a_mates_cut_face_is_no_overlap() {
+    let count = |overlap_mm: f64| {
+        // So thin that samples under its sides lie in the mate's first micrometres.
+        let parts = [
+            slab("P01", [0.0, 2.0 * overlap_mm]),
+            slab("P02", [-5.0, overlap_mm]),
+        ];
+        let probes: Vec<PartProbe> = parts.iter().map(PartProbe::new).collect();
+        count_overlaps(&probes, &Watch::silent()).unwrap()
+    };
+    assert_eq!(count(5e-6), 0);
+    assert!(count(2e-3) > 0);
 }
