@@ -18,6 +18,8 @@ const TICK: Duration = Duration::from_millis(120);
 /// The columns of a terminal below which the bar is left out.
 const MIN_BAR_COLUMNS: u16 = 70;
 
+/// The time without a line after which a long stage says that it goes on.
+const MOST_SILENT: Duration = Duration::from_secs(30);
 /// The share of a run below which no time left is shown: it would be wrong by whole factors.
 const MIN_TIMED_SHARE: f64 = 0.2;
 /// Time in which a new estimate of the end takes over from the old ones, s.
@@ -74,6 +76,8 @@ struct Course {
     whole_s: Option<f64>,
     /// The stages that were said.
     said: BTreeSet<Phase>,
+    /// The time of the last line.
+    said_at: Instant,
 }
 
 impl Course {
@@ -85,7 +89,26 @@ impl Course {
             at: now,
             whole_s: None,
             said: BTreeSet::new(),
+            said_at: now,
         }
+    }
+
+    /// Returns the line that a report is worth without a terminal: each new stage, and from time to
+    /// time one that takes long. `None` for all other reports.
+    fn line(&mut self, phase: Phase, is_new: bool, now: Instant) -> Option<String> {
+        let is_long = now - self.said_at >= MOST_SILENT;
+        if !is_new && !is_long {
+            return None;
+        }
+        self.said_at = now;
+        let elapsed_s = (now - self.since).as_secs_f64();
+        let stage = words(phase);
+        Some(if is_new {
+            format!("{elapsed_s:6.1} s  {stage}")
+        } else {
+            let percent = 100.0 * self.share();
+            format!("{elapsed_s:6.1} s  still {stage}; about {percent:.0} % of the whole is done")
+        })
     }
 
     /// Takes a report. Returns true if it is the first of its stage.
@@ -165,11 +188,11 @@ impl Bars {
         let now = Instant::now();
         let is_new = course.take(progress, now);
         let position = (course.share() * BAR_STEPS as f64) as u64;
-        let elapsed_s = (now - course.since).as_secs_f64();
+        let line = course.line(progress.phase, is_new, now);
         drop(course);
         self.bar.set_position(position);
-        if is_new && self.says_stages {
-            say(&format!("{elapsed_s:6.1} s  {}", words(progress.phase)));
+        if let Some(line) = line.filter(|_| self.says_stages) {
+            say(&line);
         }
     }
 
@@ -286,6 +309,24 @@ mod tests {
         let now = course.since;
         assert!(course.take(at_share(0.1), now));
         assert!(!course.take(at_share(0.2), now));
+    }
+
+    #[test]
+    fn a_stage_that_takes_long_says_every_half_minute_that_it_goes_on() {
+        let mut course = Course::start();
+        let after = |s: u64| course.since + Duration::from_secs(s);
+        let [first, soon, late, later] = [after(1), after(20), after(32), after(40)];
+        let mut said = |now: Instant| {
+            let is_new = course.take(at_share(0.25), now);
+            course.line(Phase::Parts, is_new, now)
+        };
+        assert_eq!(said(first).as_deref(), Some("   1.0 s  cutting the parts"));
+        assert_eq!(said(soon), None);
+        assert_eq!(
+            said(late).as_deref(),
+            Some("  32.0 s  still cutting the parts; about 25 % of the whole is done")
+        );
+        assert_eq!(said(later), None);
     }
 
     #[test]

@@ -247,10 +247,10 @@ fn explain_imbalance(obstacle: Obstacle, least_miss: f64, kind: GoalKind) -> Str
     let wobbles = if matches!(kind, GoalKind::Stand | GoalKind::Float) {
         ""
     } else {
-        "it would wobble about this axis however it is hollowed: "
+        ", so it would wobble"
     };
     format!(
-        "{wobbles}no hollowing with this wall can {} (it misses by {:.1} %)",
+        "no hollowing with this wall can {} (it misses by {:.1} %){wobbles}",
         obstacle.task(kind),
         100.0 * least_miss
     )
