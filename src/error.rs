@@ -20,6 +20,7 @@ use crate::printer::{MaterialError, ProfileError, SizeError, WallError};
 use crate::repair::NotOneBody;
 use crate::sheet::ChecklistError;
 use crate::shell::ShellError;
+use crate::slicer::SlicerError;
 use crate::thin::ThickenError;
 use crate::verify::VerifyError;
 use crate::voids::VoidError;
@@ -55,6 +56,9 @@ pub enum Error {
         /// The reason.
         source: Box<MendError>,
     },
+    /// The slicer gives no figures.
+    #[error(transparent)]
+    Slicer(#[from] SlicerError),
     /// The job cannot be read, or its model has changed.
     #[error(transparent)]
     Job(#[from] JobError),

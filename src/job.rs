@@ -3,6 +3,7 @@
 mod choices;
 mod effort;
 mod filling;
+mod slicer;
 pub mod telescope;
 
 use std::path::{Path, PathBuf};
@@ -12,6 +13,7 @@ use serde::{Deserialize, Deserializer, Serialize, de::Error as _};
 pub use choices::{CutMode, IdStyle, ModelUnit, PartFormat, PinStyle};
 pub use effort::Effort;
 pub use filling::Filling;
+pub use slicer::SlicerChoice;
 
 use crate::ballast::Order;
 use crate::base::digest::sha256_hex;
@@ -77,6 +79,9 @@ pub struct Job {
     pub no_model: bool,
     /// The file format of the parts.
     pub format: PartFormat,
+    /// The slicer that is asked what the plates take; none if the key is missing.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub slicer: Option<SlicerChoice>,
     /// The ballast asked for; none if the key is missing.
     #[serde(default, skip_serializing_if = "Order::is_none")]
     pub ballast: Order,
@@ -231,6 +236,7 @@ impl Job {
             joint_price_ratio: None,
             thicken: false,
             no_model: false,
+            slicer: None,
             format: PartFormat::Both,
             ballast: Order::None,
             fill: None,

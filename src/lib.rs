@@ -87,7 +87,7 @@ pub mod extend {
 /// Checklists, job sheets, drawings and coupons.
 pub mod report {
     #[doc(inline)]
-    pub use crate::{coupon, draw, page, press, sheet};
+    pub use crate::{coupon, draw, page, press, sheet, slicer};
 }
 
 // The rooms of the five groups, and the command line, which is no library.
@@ -144,6 +144,8 @@ pub mod sheet;
 pub mod shell;
 #[doc(hidden)]
 pub mod skeleton;
+#[doc(hidden)]
+pub mod slicer;
 #[doc(hidden)]
 pub mod telescope;
 #[cfg(test)]

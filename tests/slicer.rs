@@ -16,6 +16,8 @@ use std::path::Path;
 use std::process::Command;
 
 use common::{ELLIPSOID, list, make_kit, number, printed};
+use equipoise::base::watch::Watch;
+use equipoise::io::gcode::{Options, read_gcode};
 use serde_json::Value;
 
 /// Relative error of the slicer's volumes, which it sums in single precision. It reaches 4e-6 on
@@ -106,9 +108,10 @@ fn a_slicer_takes_every_part_of_a_kit_without_repair() {
             assert_on_plate(&facts);
         }
     }
-    for package in ["assembly.3mf", "plate.3mf"] {
+    let jigs = sheet["jigs"].as_array().map_or(0, Vec::len);
+    for (package, more) in [("assembly.3mf", 0), ("plate.3mf", jigs)] {
         let objects = slice_all(&kit.join(package)).unwrap();
-        assert_eq!(objects.len(), parts.len(), "{package}: {objects:?}");
+        assert_eq!(objects.len(), parts.len() + more, "{package}: {objects:?}");
         parts
             .iter()
             .zip(&objects)
@@ -130,5 +133,95 @@ fn a_slicer_finds_a_missing_triangle() {
     fs::write(&open, bytes).unwrap();
     if let Some(facts) = slice(&open) {
         assert_eq!(facts["manifold"], "no", "{facts:?}");
+    }
+}
+
+/// A printer's profile in which nobody thought of infill.
+const SPARSE: &str = "layer_height = 0.2\nfirst_layer_height = 0.2\nnozzle_diameter = 0.4\n\
+    filament_diameter = 1.75\nfilament_density = 1.24\nextrusion_width = 0.45\nfill_density = 15%\n\
+    bed_shape = 0x0,250x0,250x210,0x210\nmax_print_height = 220\ngcode_flavor = marlin2\n\
+    gcode_label_objects = 1\n";
+
+/// Relative difference of masses between a plate as sliced and the sheet. PrusaSlicer lays 0.2 to
+/// 1.5 % more than solid bodies have.
+const MASS_RATIO: f64 = 0.02;
+
+#[test]
+fn a_plate_sliced_with_sparse_infill_still_weighs_what_the_sheet_says() {
+    if slice(Path::new(ELLIPSOID)).is_none() {
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let at = |file: &str| folder.path().join(file);
+    let options = "--goal stand --up y --least-angle 2 --printer prusa-mk4";
+    let sheet = make_kit(&at("kit"), options);
+    fs::write(at("sparse.ini"), SPARSE).unwrap();
+    let output = Command::new("prusa-slicer")
+        .args(["--export-gcode", "--dont-arrange", "--load"])
+        .args([at("sparse.ini"), at("kit/plate.3mf")])
+        .arg("-o")
+        .arg(at("plate.gcode"))
+        .output()
+        .unwrap();
+    assert!(output.status.success(), "{}", printed(&output));
+    let options = Options::default();
+    let plates = read_gcode(&at("plate.gcode"), &options, &Watch::silent()).unwrap();
+    for part in list(&sheet, "parts") {
+        let id = part["id"].as_str().unwrap();
+        let object = plates[0].toolpath.object(id).unwrap();
+        let mass_g = object.deposits.part_moments().volume() * 1.24e-3;
+        let off_ratio = mass_g / number(part, "/mass_g") - 1.0;
+        assert!(off_ratio.abs() < MASS_RATIO, "{id}: {off_ratio}");
+    }
+}
+
+#[test]
+fn the_print_time_by_a_slicer_is_on_the_sheet_and_the_same_again() {
+    if slice(Path::new(ELLIPSOID)).is_none() {
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let options = "--goal stand --up y --least-angle 2 --printer prusa-mk4 --slicer prusa-slicer";
+    let [one, two] = ["one", "two"].map(|name| folder.path().join(name));
+    let sheet = make_kit(&one, options);
+    let minutes = number(&sheet["print_time"]["plates"][0], "/minutes");
+    assert!((30.0..600.0).contains(&minutes), "{minutes}");
+    let page = fs::read_to_string(one.join("job.html")).unwrap();
+    assert!(page.contains("Print time") && page.contains("PrusaSlicer 2."));
+    let job = fs::read_to_string(one.join("job.toml")).unwrap();
+    assert!(job.contains("version = \"PrusaSlicer 2."), "{job}");
+    make_kit(&two, options);
+    let again = fs::read_to_string(two.join("checklist.json")).unwrap();
+    assert_eq!(
+        fs::read_to_string(one.join("checklist.json")).unwrap(),
+        again
+    );
+    assert_eq!(common::verify(&one).0, Some(0));
+}
+
+#[test]
+fn a_slicer_that_is_of_no_use_is_named_before_any_work() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("kit");
+    for (options, words) in [
+        (
+            "--printer prusa-mk4 --slicer no-such-slicer",
+            "no-such-slicer cannot be started",
+        ),
+        (
+            "--printer prusa-mk4 --slicer echo",
+            "echo does not name itself",
+        ),
+        ("--slicer echo", "prints no filament"),
+        (
+            "--printer prusa-mk4 --slicer echo --format stl",
+            "no plates to slice",
+        ),
+    ] {
+        let output = common::prepare_quickly(&out, &format!("--goal stand {options}"));
+        common::assert_exit(&output, 2);
+        let said = printed(&output);
+        assert!(said.contains(words), "{options}: {said}");
+        assert!(!out.exists(), "{options}");
     }
 }

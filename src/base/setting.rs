@@ -41,6 +41,8 @@ choice! {
         Thicken = "thicken",
         /// The file format of the parts.
         Format = "format",
+        /// The slicer that is asked what the plates take.
+        Slicer = "slicer",
         /// The ballast.
         Ballast = "ballast",
         /// The filling of the voids.

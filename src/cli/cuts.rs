@@ -2,13 +2,14 @@
 
 use std::io::Write;
 
-use super::args::Request;
+use super::args::{Request, again, quoted};
 use super::bars::Bars;
 use super::exit::Exit;
-use super::flags::command_for_plan;
+use super::flags::{command_for_plan, flag};
 use super::prepare::{PrepareError, print_impossible};
 use super::signals::Stop;
 use super::voice::Voice;
+use crate::base::setting::{Key, Setting};
 use crate::base::verdict::Verdict;
 use crate::base::watch::Watch;
 use crate::error::Error;
@@ -83,8 +84,16 @@ fn print(
     }
     let page = request.out.join(PLANS_FILE);
     writeln!(out, "pictures      {}", page.display())?;
-    writeln!(out, "to choose     {}", command_for_plan(&request.job))?;
+    writeln!(out, "to choose     {}", to_choose(request))?;
     Ok(())
+}
+
+/// Returns the command that makes a kit by the first plan.
+fn to_choose(request: &Request) -> String {
+    let typed: Vec<String> = std::env::args().collect();
+    let plan = request.out.join("plan1.toml");
+    let plan = flag(&Setting::new(Key::Plan, quoted(&plan.to_string_lossy())));
+    again(&typed, "prepare", &plan).unwrap_or_else(|| command_for_plan(&request.job))
 }
 
 /// Returns the lines on a plan.

@@ -12,6 +12,7 @@ pub mod manual;
 mod mass_facts;
 mod new_files;
 pub mod prepare;
+mod print_time;
 pub mod printers;
 pub mod printers_markdown;
 pub mod profiles;

@@ -7,6 +7,7 @@ use super::bars::Bars;
 use super::exit::Exit;
 use super::flags::{flags, with_flags};
 use super::inspect::size_hint;
+use super::print_time::print_time;
 use super::questions::{AskError, Unanswered, ask};
 use super::show::say;
 use super::signals::Stop;
@@ -180,6 +181,9 @@ fn print_prepared(
         writeln!(out, "{}", with_flags(choice))?;
     }
     write!(out, "{}", ten_lines(checklist, &request.out, voice.manner))?;
+    if let Some(line) = print_time(prepared, request, voice) {
+        write!(out, "{line}")?;
+    }
     if let Some(failure) = &prepared.failure {
         write!(out, "{}", failure_text(failure).replace('\u{a0}', " "))?;
     }

@@ -3,8 +3,10 @@
 
 use std::path::Path;
 
+use super::args::again;
 use super::bars::words as stage_name;
 use super::flags::{OTHER_PLANS, with_flags};
+use super::print_time::{PRINT_TIME, print_time_words};
 use super::show::{GREEN, RED, paint, table, verdict};
 use super::voice::Manner;
 use crate::base::numbers::{measured, measured_extent, quantity as figure};
@@ -32,6 +34,10 @@ pub fn ten_lines(checklist: &Checklist, out: &Path, manner: Manner) -> String {
             "mass, size",
             format!("{}; {}", masses(checklist), size(checklist)),
         )),
+        checklist
+            .print_time
+            .as_ref()
+            .map(|row| (PRINT_TIME, print_time_words(row))),
         wall(checklist).map(|words| ("wall", words)),
         Some(("parts", parts(checklist))),
         offer(checklist).map(|words| ("other plan", words)),
@@ -121,8 +127,14 @@ fn shortfall_words(checklist: &Checklist) -> Option<String> {
         taken.iter().any(|taken| taken.by == taker)
     };
     let plans =
-        has(Taker::Cleaning).then(|| format!(" Other plans with their figures: {OTHER_PLANS}."));
+        has(Taker::Cleaning).then(|| format!(" Other plans with their figures: {}", other_plans()));
     Some(words + &plans.unwrap_or_default())
+}
+
+/// Returns the command that writes other plans of the same job.
+fn other_plans() -> String {
+    let typed: Vec<String> = std::env::args().collect();
+    again(&typed, "cuts", "").unwrap_or_else(|| OTHER_PLANS.to_owned())
 }
 
 fn balance(checklist: &Checklist) -> Option<String> {
@@ -160,7 +172,7 @@ fn size(checklist: &Checklist) -> String {
 fn masses(checklist: &Checklist) -> String {
     let printed_g: f64 = checklist.parts.iter().map(|part| part.mass_g).sum();
     let whole_g = checklist.assembly.mass_g;
-    let is_all = (whole_g - printed_g).abs() <= 1e-3 * whole_g;
+    let is_all = measured(whole_g, "g") == measured(printed_g, "g");
     let besides = if is_all {
         String::new()
     } else {
@@ -192,7 +204,7 @@ fn parts(checklist: &Checklist) -> String {
     ];
     let tip = checklist.goal.spins_on.is_some_and(|spin| spin.has_tip);
     let tip = if tip { " and a tip" } else { "" };
-    let plates = checklist.plates().count();
+    let plates = checklist.plate_files().count();
     let plates = if plates > 0 {
         format!(" on {}", format_count(plates, "plate"))
     } else {

@@ -10,8 +10,9 @@ use super::svg::Drawing;
 use super::visibility::Visibility;
 use crate::geom::Point;
 
-/// Height of the words on a picture of the whole, pixels: 7 points at half the width of an A4 page.
-pub const TEXT_PX: f64 = 22.0;
+/// Height of the words on a picture of the whole, pixels: 10 points at half the width of an A4
+/// page.
+pub const TEXT_PX: f64 = 28.0;
 /// Height of a legend, in heights of its words.
 const LEGEND_TEXTS: f64 = 1.8;
 /// Distance of a legend from the left edge, pixels.

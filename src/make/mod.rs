@@ -4,6 +4,6 @@ mod packages;
 mod parts;
 mod write;
 
-pub use packages::{Arrangement, File, packages, plates, print_settings, repack};
+pub use packages::{Arrangement, File, Packages, packages, plates, print_settings, repack};
 pub use parts::make;
 pub use write::{write, write_free_of_folds};

@@ -13,8 +13,9 @@ use crate::io::threemf::{Build, Object, Package, PrintSettings, Transform};
 use crate::io::{decode_model, stl};
 use crate::job::PartFormat;
 use crate::mesh::TriMesh;
-use crate::printer::{Plate, Printer, Quantity, Spot, Support};
+use crate::printer::{LaidPlate, Printer, Quantity, Spot, Support};
 use crate::run::{Made, Placed, WrittenJig, WrittenPart};
+use crate::verify::{PlateSpot, PromisedPlate};
 
 /// The name of the assembly in a kit.
 const ASSEMBLY: &str = "assembly.3mf";
@@ -71,8 +72,7 @@ pub fn repack(placed: &Placed, mut made: Made, watch: &Watch) -> Result<Made, Er
 
 /// A jig's own package, as it lies in print pose.
 fn pack_jig(placed: &Placed, jig: &WrittenJig) -> Result<File, Error> {
-    let printed = decode_model(&jig.bytes)?;
-    let object = [Object::new(&jig.id(), JIG_COLOR, &printed)];
+    let object = [jig_object(jig)?];
     let file = Path::new(&jig.file).with_extension("3mf");
     let description = format!("{}, a tool, in print pose.", jig.id());
     let build = Build::Items(vec![(0, Transform::default())]);
@@ -80,21 +80,48 @@ fn pack_jig(placed: &Placed, jig: &WrittenJig) -> Result<File, Error> {
     package(placed, &object, file, (description, build))
 }
 
-/// The packages beside the judged files: twins of STL parts where both formats are asked for, the
-/// assembly and the plates.
-pub fn packages(placed: &Placed, made: &Made, watch: &Watch) -> Result<Vec<File>, Error> {
+/// A jig as an object of a package.
+fn jig_object(jig: &WrittenJig) -> Result<Object, Error> {
+    Ok(Object::new(
+        &jig.id(),
+        JIG_COLOR,
+        &decode_model(&jig.bytes)?,
+    ))
+}
+
+/// The packages of a kit.
+#[derive(Debug, Default)]
+pub struct Packages {
+    /// The files.
+    pub files: Vec<File>,
+    /// What lies where on the plates among them.
+    pub plates: Vec<PromisedPlate>,
+}
+
+/// The packages beside the judged files: the assembly, and the plates with the parts and the jigs.
+/// Where both formats are asked for, STL parts have their twins too.
+pub fn packages(placed: &Placed, made: &Made, watch: &Watch) -> Result<Packages, Error> {
     if placed.job.format == PartFormat::Stl {
-        return Ok(Vec::new());
+        return Ok(Packages::default());
     }
     let parts = &made.parts;
-    let printed: Vec<TriMesh> = parts
-        .par_iter()
-        .map(|part| decode_model(&part.bytes))
+    let jigs = made.jigs.iter();
+    let files = parts.iter().map(|part| &part.bytes);
+    let files: Vec<&Vec<u8>> = files.chain(jigs.clone().map(|jig| &jig.bytes)).collect();
+    let printed: Vec<TriMesh> = files
+        .into_par_iter()
+        .map(|bytes| decode_model(bytes))
         .collect::<Result<_, _>>()?;
-    let objects: Vec<Object> = (0..parts.len())
+    let mut objects: Vec<Object> = (0..parts.len())
         .into_par_iter()
         .map(|i| object(placed, i, &parts[i], &printed[i]))
         .collect();
+    for jig in jigs.clone() {
+        objects.push(jig_object(jig)?);
+    }
+    let ids = parts.iter().map(|part| part.part.id.to_string());
+    let ids: Vec<String> = ids.chain(jigs.map(WrittenJig::id)).collect();
+    let laid = lay_out(&placed.shop.printer, &printed);
     let mut jobs = plates(&placed.shop.printer, &printed);
     jobs.insert(0, (ASSEMBLY.to_owned(), together(placed, parts)));
     let shared = jobs.into_par_iter().map(|(file, arrangement)| {
@@ -113,7 +140,35 @@ pub fn packages(placed: &Placed, made: &Made, watch: &Watch) -> Result<Vec<File>
     let jigs = jigs.map(|jig| pack_jig(placed, jig));
     let jigs = jigs.collect::<Result<Vec<File>, Error>>()?;
     let files: Vec<File> = twins.chain(shared).collect::<Result<_, Error>>()?;
-    Ok([files, jigs].concat())
+    Ok(Packages {
+        files: [files, jigs].concat(),
+        plates: laid
+            .iter()
+            .map(|plate| promise_plate(plate, &ids, &printed))
+            .collect(),
+    })
+}
+
+/// Returns what lies where on a plate, by the names of its things.
+fn promise_plate(plate: &LaidPlate, ids: &[String], printed: &[TriMesh]) -> PromisedPlate {
+    let spot = |(index, spot): &(usize, Spot)| {
+        let size = printed[*index].aabb().size();
+        PlateSpot {
+            id: ids[*index].clone(),
+            low_mm: spot.low_mm,
+            size_mm: if spot.is_turned {
+                [size.y, size.x]
+            } else {
+                [size.x, size.y]
+            },
+            is_turned: spot.is_turned,
+        }
+    };
+    PromisedPlate {
+        file: plate.file.clone(),
+        size_mm: plate.size_mm,
+        holds: plate.spots.iter().map(spot).collect(),
+    }
 }
 
 /// The description of a package, and the places of its objects.
@@ -216,38 +271,24 @@ fn together(placed: &Placed, parts: &[WrittenPart]) -> Arrangement {
     (description, Build::Assembly(placed.name(), places))
 }
 
+/// Lays printed things on plates by their boxes.
+fn lay_out(printer: &Printer, printed: &[TriMesh]) -> Vec<LaidPlate> {
+    let sizes = printed.iter().map(|mesh| mesh.aabb().size());
+    let sizes: Vec<[f64; 2]> = sizes.map(|size| [size.x, size.y]).collect();
+    printer.lay_out(&sizes)
+}
+
 /// Returns the plates with their parts in print pose, each with the name of its file.
 pub fn plates(printer: &Printer, printed: &[TriMesh]) -> Vec<(String, Arrangement)> {
-    let boxes: Vec<Aabb> = printed.iter().map(TriMesh::aabb).collect();
-    let sizes: Vec<[f64; 2]> = boxes
-        .iter()
-        .map(|aabb| [aabb.size().x, aabb.size().y])
-        .collect();
-    let known = printer.plate();
-    let spots = known
-        .clone()
-        .unwrap_or_else(|| Plate::for_parts(&sizes))
-        .arrange(&sizes);
-    let count = spots.iter().map(|spot| spot.plate + 1).max().unwrap_or(0);
-    let plate = |plate: usize| {
-        let here = spots
-            .iter()
-            .enumerate()
-            .filter(|(_, spot)| spot.plate == plate);
-        let places: Vec<_> = here
-            .map(|(index, spot)| (index, laid(&boxes[index], spot)))
-            .collect();
-        let file = Plate::file_name([plate + 1, count]);
-        let fits = places.iter().all(|(index, _)| spots[*index].fits);
-        (
-            file,
-            (
-                plate_words(printer, [plate + 1, count], known.is_some().then_some(fits)),
-                Build::Items(places),
-            ),
-        )
-    };
-    (0..count).map(plate).collect()
+    let laid = lay_out(printer, printed).into_iter();
+    laid.map(|plate| {
+        let place =
+            |(index, spot): &(usize, Spot)| (*index, laid_at(&printed[*index].aabb(), spot));
+        let words = plate_words(printer, plate.number_of, plate.fits());
+        let places = plate.spots.iter().map(place).collect();
+        (plate.file, (words, Build::Items(places)))
+    })
+    .collect()
 }
 
 /// Describes a plate and says if its parts fit; `fits` is `None` if its size is not known.
@@ -262,7 +303,7 @@ fn plate_words(printer: &Printer, [plate, count]: [usize; 2], fits: Option<bool>
 }
 
 /// The motion that lays a part from its own file on its spot.
-fn laid(aabb: &Aabb, spot: &Spot) -> Transform {
+fn laid_at(aabb: &Aabb, spot: &Spot) -> Transform {
     let turn = Matrix::new(0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0);
     let linear = if spot.is_turned {
         turn

@@ -9,8 +9,10 @@ use super::cut_drawing::{self, CutFace};
 use super::figure::{Draft, Picture, Role};
 use super::inertia;
 use super::inserts::{lump_mesh, rod_mesh};
+use super::jig_drawing;
 use super::joint_drawing;
 use super::plate;
+use super::plate_map;
 use super::subject::{Subject, parts_in_model};
 use super::viewpoint::Viewpoint;
 use crate::base::watch::Watch;
@@ -18,15 +20,14 @@ use crate::draw::{
     BALLAST, BODY, HARDWARE, Hatch, Item, Key, Label, PictureError, Scene, Shot, TEXT_PX, VOID,
     convex_section, part_color,
 };
-use crate::geom::{Frame, Parting, Point, Vector};
+use crate::geom::{Parting, Point};
 use crate::goal::GoalKind;
 use crate::mesh::TriMesh;
 use crate::sheet::Checklist;
-use crate::verify::PromisedJig;
 
-/// Height of the words on the cover, whose pictures are smaller, pixels: 7 points at 48 mm of
+/// Height of the words on the cover, whose pictures are smaller, pixels: 10 points at 60 mm of
 /// height.
-const COVER_TEXT_PX: f64 = 30.0;
+const COVER_TEXT_PX: f64 = 33.0;
 
 /// The meshes that are put into the parts, model frame.
 struct Inserts {
@@ -85,9 +86,6 @@ pub fn render_pictures(subject: &Subject, watch: &Watch) -> Result<Vec<Picture>,
     drafts.extend(halves(subject, &in_place, &inserts.hardware));
     let parts = subject.parts.iter().zip(&plates).enumerate();
     drafts.extend(parts.map(|(index, (part, plate))| plate::draft(part, plate, part_color(index))));
-    let jigs = parts_in_model(subject.jigs);
-    let beds = subject.promised_jigs.iter().zip(&jigs);
-    drafts.extend(beds.map(|(promised, jig)| in_jig(promised, [&outer, jig])));
     let draw = |draft: &Draft| {
         watch.check()?;
         draft.draw()
@@ -106,11 +104,18 @@ pub fn draw_figures(
     faces: &[CutFace],
     watch: &Watch,
 ) -> Result<Vec<Picture>, PictureError> {
-    let (below, inertia) = rayon::join(
-        || below::pictures(sheet, subject, watch),
+    let ((plates, below), inertia) = rayon::join(
+        || {
+            rayon::join(
+                || plate_map::pictures(sheet, subject, watch),
+                || below::pictures(sheet, subject, watch),
+            )
+        },
         || inertia::pictures(sheet, subject, watch),
     );
-    let mut drawings = below?;
+    let mut drawings = plates?;
+    drawings.extend(below?);
+    drawings.extend(jig_drawing::pictures(sheet, subject, watch)?);
     drawings.extend(joint_drawing::drawings(sheet, faces));
     drawings.extend(cut_drawing::drawings(sheet, faces));
     drawings.extend(inertia?);
@@ -164,29 +169,6 @@ fn model<'a>(outer: &'a TriMesh, view: &Viewpoint, caption: &str) -> Draft<'a> {
         shot: Shot {
             scene: Scene {
                 items: vec![Item::new(outer, BODY)],
-                cut: None,
-            },
-            camera: view.camera,
-            text_px: TEXT_PX,
-            labels: Vec::new(),
-            keys: Vec::new(),
-        },
-    }
-}
-
-/// Draws the object in a jig, with the way out upward.
-fn in_jig<'a>(promised: &PromisedJig, [outer, jig]: [&'a TriMesh; 2]) -> Draft<'a> {
-    let out = Vector::from(promised.out);
-    let view = Viewpoint::of(jig, &Frame::with_axis(jig.aabb().center(), &out));
-    let (id, joint) = (&promised.id, &promised.joint);
-    Draft {
-        file: format!("pictures/{id}.png"),
-        role: Role::Jig,
-        caption: format!("{id} holds the parts of {joint}: press them down and together."),
-        alt: format!("The object lies in {id}, a grey cradle under both sides of joint {joint}."),
-        shot: Shot {
-            scene: Scene {
-                items: vec![Item::new(outer, BODY), Item::new(jig, HARDWARE)],
                 cut: None,
             },
             camera: view.camera,

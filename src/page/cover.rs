@@ -90,6 +90,9 @@ fn facts(sheet: &Checklist) -> Markup {
     html! {
         table class="facts" {
             @for (name, words) in rows { tr { th scope="row" { (name) } td { (words) } } }
+            @if let Some(time) = &sheet.print_time {
+                tr { th scope="row" { "Print time" } td { (time.words()) " (" (time.slicer) " with its default speeds)" } }
+            }
             @if let Some(foot) = words::spins_on(sheet) {
                 tr { th scope="row" { "Spins on" } td { (foot) } }
             }

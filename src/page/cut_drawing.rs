@@ -21,8 +21,8 @@ const BELOW_PX: f64 = 120.0;
 /// pixels.
 const LEGEND_PX: [f64; 2] = [20.0, 14.0];
 
-/// Height of words, pixels: 8 points at the width of an A4 page.
-const TEXT_PX: f64 = 19.0;
+/// Height of words, pixels: 10 points on a picture 150 mm wide.
+const TEXT_PX: f64 = 24.0;
 
 /// Frame of the section inside the drawing: left, top, right, bottom, pixels. Names and dimensions
 /// stand outside of it.

@@ -15,6 +15,8 @@ pub enum Role {
     Exploded,
     /// Table of parts: a part in its print pose.
     Part,
+    /// Print: a plate from above.
+    Plate,
     /// Table of parts: a part from below, with what support touches.
     Below,
     /// Join: both faces of a joint, opened like a book.
@@ -27,8 +29,10 @@ pub enum Role {
     Halves,
     /// Proof: mass properties before.
     Inertia,
-    /// Proof and test: mass properties as made.
+    /// Proof: mass properties as made.
     Made,
+    /// Test: the centre of mass and the axis.
+    Test,
     /// Proof: plots of the search.
     Proof,
     /// Telescope: a state of its opening.
@@ -44,6 +48,7 @@ impl Role {
             Self::Cut | Self::CutJoint => "pictures wide",
             Self::Exploded | Self::Halves => "pictures wide whole",
             Self::Joint => "pictures joints",
+            Self::Plate => "pictures plates",
             _ => "pictures",
         }
     }

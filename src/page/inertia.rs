@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use super::figure::{Picture, Role};
 use super::subject::Subject;
 use super::viewpoint::Viewpoint;
-use crate::base::numbers::quantity;
+use crate::base::numbers::{measured, quantity};
 use crate::base::watch::Watch;
 use crate::draw::{
     Anchor, BODY, Camera, Drawing, Drawn, INK, Item, PAPER, Paint, PictureError, Projection, Scene,
@@ -21,8 +21,8 @@ use crate::verify::Figures;
 /// Opacity of the pale picture.
 const PALE: f64 = 0.35;
 
-/// Height of words, pixels.
-const TEXT_PX: f64 = 22.0;
+/// Height of words, pixels: 10 points at half the width of an A4 page.
+const TEXT_PX: f64 = 28.0;
 
 /// Radius of the symbol of a centre of mass, pixels.
 const CENTER_PX: f64 = 13.0;
@@ -33,6 +33,12 @@ const ELLIPSOID_RATIO: f64 = 5.0;
 
 /// The colour of the ellipsoid: blue.
 const ELLIPSOID: &str = "#0072b2";
+
+/// Height of words on the picture of the test, pixels: 10 points at 72 mm of width.
+const TEST_TEXT_PX: f64 = 35.0;
+
+/// Distance of the height of the centre from it, pixels.
+const HEIGHT_ASIDE_PX: f64 = 60.0;
 
 /// A state of the object: filled solid, or as made.
 struct State<'a> {
@@ -83,7 +89,40 @@ pub(super) fn pictures(
         watch.check()?;
         picture(state, &side, sheet)
     };
-    states.par_iter().map(draw).collect()
+    let (drawn, test) = rayon::join(
+        || states.par_iter().map(draw).collect::<Result<Vec<_>, _>>(),
+        || test_picture(&states[1], &side, sheet),
+    );
+    let mut drawn = drawn?;
+    drawn.push(test?);
+    Ok(drawn)
+}
+
+/// Draws what the test looks for: the centre of mass, its height, and the axis.
+fn test_picture(state: &State, side: &Camera, sheet: &Checklist) -> Result<Picture, PictureError> {
+    let projection = Projection::of(&state.scene, side, 1);
+    let mut drawing = Drawing::new(side.size_px, TEST_TEXT_PX);
+    drawing.picture(&render(&state.scene, side).to_png()?, side.size_px, PALE);
+    draw_goal_axis(&mut drawing, &projection, sheet);
+    let center = Point::from(state.body.center_mm);
+    let at = projection.at(&center);
+    if matches!(sheet.goal.aim.kind, GoalKind::Top | GoalKind::Stand) {
+        let height_mm = state.body.center_height_mm;
+        let [_, ground] = projection.at(&(center - projection.axes[1] * height_mm));
+        let words = measured(height_mm, "mm");
+        let foot = [at[0] + HEIGHT_ASIDE_PX, ground];
+        drawing.dimension([[foot[0], at[1]], foot], [HEIGHT_ASIDE_PX, 0.0], &words);
+    }
+    draw_center(&mut drawing, at);
+    Ok(Picture {
+        file: "pictures/test.svg".to_owned(),
+        role: Role::Test,
+        caption: "The quartered disc is the centre of mass, the dash-dotted line the axis."
+            .to_owned(),
+        alt: "The finished object from the side, cut open, with its centre of mass and the axis."
+            .to_owned(),
+        drawn: Drawn::Svg(drawing),
+    })
 }
 
 fn picture(state: &State, side: &Camera, sheet: &Checklist) -> Result<Picture, PictureError> {

@@ -12,11 +12,11 @@ use crate::verify::PartEvidence;
 /// Width and height of a picture, pixels: sharp at a third of the width of an A4 page.
 const SIZE_PX: [usize; 2] = [560, 460];
 
-/// Height of words, pixels: 8 points at a third of the width of an A4 page.
-const TEXT_PX: f64 = 24.0;
+/// Height of words, pixels: 10 points at a third of the width of an A4 page.
+const TEXT_PX: f64 = 32.0;
 
 /// Share of the picture left free on each side for dimensions.
-const MARGIN_RATIO: f64 = 0.17;
+const MARGIN_RATIO: f64 = 0.2;
 
 /// Angles of the viewer to the right and above the plate, radians: high enough to see into a hollow
 /// that is open upward.

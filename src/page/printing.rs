@@ -4,10 +4,10 @@ use maud::{Markup, html};
 
 use super::below;
 use super::fields::{THIN_LAYER_MM, UM_PER_MM, file_name, half_name};
-use super::figure::Picture;
+use super::figure::{Picture, Role, figures};
 use super::hardware::bar;
 use super::support;
-use crate::base::numbers::{measured_extent, quantity};
+use crate::base::numbers::{measured, measured_extent, quantity};
 use crate::base::units::MM3_PER_CM3;
 use crate::sheet::{Checklist, PartRow, Process};
 
@@ -18,19 +18,22 @@ const LEAST_CUP_MM3: f64 = 150.0;
 /// Returns the step in which the parts are printed, with a card for every part.
 pub(super) fn print_step(sheet: &Checklist, pictures: &[Picture]) -> Markup {
     html! {
-        ul class="plain" {
-            li { strong { "Load: " } (load(sheet)) }
-            li { strong { "Solid, 100 % infill: " } (solid(sheet)) }
-            li { strong { "Support: " } (support::of_all(sheet)) }
-            @if sheet.printer.process == Process::Fdm {
-                li { strong { "Brim: " } "in the 3MF files, on parts that stand on a small spot. Add one if you load STL files, and cut it off flush." }
+        div class="load" {
+            ul class="plain" {
+                li { strong { "Load: " } (load(sheet)) }
+                li { strong { "Solid, 100 % infill: " } (solid(sheet)) }
+                li { strong { "Support: " } (support::of_all(sheet)) }
+                @if sheet.printer.process == Process::Fdm {
+                    li { strong { "Brim: " } "in the 3MF files, on parts that stand on a small spot. Add one if you load STL files, and cut it off flush." }
+                }
+                @if sheet.printer.build_volume_mm.is_none() {
+                    li { strong { "Room: " } "the build volume of this printer is not known; check by hand that every part fits." }
+                }
+                @if let Some(parts) = parts_without_id(sheet) {
+                    li { strong { "Names: " } "write the id on these parts when they come off the plate: " strong { (parts) } "." }
+                }
             }
-            @if sheet.printer.build_volume_mm.is_none() {
-                li { strong { "Room: " } "the build volume of this printer is not known; check by hand that every part fits." }
-            }
-            @if let Some(parts) = parts_without_id(sheet) {
-                li { strong { "Names: " } "write the id on these parts when they come off the plate: " strong { (parts) } "." }
-            }
+            (figures(pictures, Role::Plate))
         }
         div class="cards" { @for part in &sheet.parts { (card(sheet, part, pictures)) } }
         (jigs(sheet))
@@ -42,12 +45,13 @@ pub(super) fn print_step(sheet: &Checklist, pictures: &[Picture]) -> Markup {
 fn jigs(sheet: &Checklist) -> Markup {
     html! {
         @if !sheet.jigs.is_empty() {
-            p { "Tools to print as well, of any material. Each lies as in its file and needs no support; it is not weighed:" }
+            p { "Tools to print as well, of any material. Each lies as in its file and needs no support; its mass does not matter:" }
             ul class="ticks" {
                 @for jig in &sheet.jigs {
                     li {
                         strong { (jig.order.id) } ", for joint " (jig.order.joint) ", "
-                        (measured_extent(&jig.size_mm)) ": " (file_name(&jig.order.file))
+                        (measured_extent(&jig.size_mm)) ", " (measured(jig.mass_g, "g")) ": "
+                        (file_name(&jig.order.file))
                     }
                 }
             }
@@ -101,14 +105,22 @@ fn orders(sheet: &Checklist, part: &PartRow) -> Markup {
 
 /// Returns the files to load into the slicer.
 fn load(sheet: &Checklist) -> Markup {
-    let plates: Vec<&str> = sheet.plates().collect();
+    let plates: Vec<&str> = sheet.plate_files().collect();
     html! {
         @if plates.is_empty() { "the part files below" }
         @else {
             @for (index, plate) in plates.iter().enumerate() { @if index > 0 { ", " } code { (plate) } }
-            " (all parts laid out on the plate), or the part files below one by one"
+            (all_that_is_on(plates.len())) ", or the part files below one by one"
         }
         ". Lengths are in mm; every part lies as in its picture. " (handling(&sheet.printer.process))
+    }
+}
+
+/// Words what lies on the plates.
+fn all_that_is_on(plates: usize) -> &'static str {
+    match plates {
+        1 => " (everything on one plate)",
+        _ => " (everything, a plate each)",
     }
 }
 
@@ -128,7 +140,7 @@ fn solid(sheet: &Checklist) -> Markup {
     let printer = &sheet.printer;
     let how = match &printer.process {
         Process::Fdm => format!(
-            "100 % infill, line width {}, layers of {}. Do not change them: the masses depend on them.",
+            "line width {}, layers of {}. Do not change them: the masses depend on them.",
             quantity(printer.pixel_mm[0], "mm"),
             layer(sheet)
         ),

@@ -18,7 +18,7 @@ const APART_RATIO: f64 = 0.35;
 /// Gap between a shell and its cap, as a share of the shell's height.
 const BELOW_RATIO: f64 = 0.12;
 /// Height of words on the picture of a joint, pixels.
-const JOINT_TEXT_PX: f64 = 20.0;
+const JOINT_TEXT_PX: f64 = 24.0;
 
 /// A part in its shell's frame, as it is drawn.
 #[derive(Debug, Clone, Copy)]

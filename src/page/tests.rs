@@ -166,6 +166,7 @@ fn the_pictures_and_the_view_are_the_same_on_one_thread_and_on_four() {
         "cut-C1.svg",
         "inertia-before.svg",
         "inertia-after.svg",
+        "test.svg",
         "certificate.svg",
         "speed-by-height.svg",
     ];

@@ -4,7 +4,7 @@ use crate::base::watch::{Phase, Watch};
 use crate::error::Error;
 use crate::geom::Parting;
 use crate::io::stl;
-use crate::make::{File, packages, repack};
+use crate::make::{Packages, packages, repack};
 use crate::press::{Drawings, Layout};
 use crate::run::{Made, Placed, WrittenJig};
 use crate::sheet::Verdict;
@@ -21,7 +21,7 @@ pub struct Draft {
     /// The bytes of the uncut result.
     pub hollowed: Vec<u8>,
     /// The 3MF files beside the judged ones.
-    pub packages: Vec<File>,
+    pub packages: Packages,
     /// The files as they read back, and their promise.
     pub evidence: Evidence,
     /// The uncut result, taken apart.

@@ -12,11 +12,13 @@ mod papers;
 mod place;
 pub mod plans;
 mod rotor;
+mod slice;
 mod solve;
 mod upright;
 mod waterline;
 
 pub use outcome::{Failure, Impossible, Outcome, Prepared};
+pub use slice::time_kit;
 
 use crate::base::verdict::Verdict;
 use crate::base::watch::Watch;
@@ -36,6 +38,7 @@ use judge::Draft;
 /// itself, the caller stopped the run. A goal that cannot be met is an answer.
 pub fn prepare(job: &Job, watch: &Watch) -> Result<Outcome, Error> {
     let printer = load::printer(job, watch)?;
+    let slicer = slice::find(job, &printer)?;
     let model = load::model(job, &printer, watch)?;
     let shop = load::shop(job, printer, &model)?;
     let placed = place::goal(job, model, shop, watch)?;
@@ -51,7 +54,7 @@ pub fn prepare(job: &Job, watch: &Watch) -> Result<Outcome, Error> {
         let made = make(&placed, candidate, watch)?;
         judge::draft(&placed, made, watch)
     })?;
-    let prepared = papers::finish(&placed, draft, watch)?;
+    let prepared = papers::finish(&placed, draft, slicer.as_ref(), watch)?;
     let prepared = failure::on_failure(&placed, prepared, watch)?;
     Ok(Outcome::Prepared(Box::new(prepared)))
 }

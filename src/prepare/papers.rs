@@ -2,6 +2,7 @@
 
 use super::judge::Draft;
 use super::outcome::Prepared;
+use super::slice;
 use crate::base::digest::sha256_hex;
 use crate::base::watch::{Phase, Watch};
 use crate::cut::CutOrder;
@@ -13,12 +14,20 @@ use crate::page::cup_warning;
 use crate::run::Placed;
 use crate::sheet::from_run::{Facts, checklist};
 use crate::sheet::{Checklist, Timing};
+use crate::slicer::{SliceSettings, Slicer};
 use crate::verify::{
     CHECKLIST_FILE, CUTS_FILE, HOLLOWED_FILE, JOB_FILE, MODEL_FOLDER, SUMS_FILE, sums,
 };
 
 /// Puts a judged kit together, with its job sheet.
-pub fn finish(placed: &Placed, mut draft: Draft, watch: &Watch) -> Result<Prepared, Error> {
+///
+/// `slicer` tells what the plates take.
+pub fn finish(
+    placed: &Placed,
+    mut draft: Draft,
+    slicer: Option<&Slicer>,
+    watch: &Watch,
+) -> Result<Prepared, Error> {
     watch.enter(Phase::Report);
     let mut checklist = fill(placed, &draft);
     let mut drawings = draft.drawings.clone();
@@ -27,7 +36,11 @@ pub fn finish(placed: &Placed, mut draft: Draft, watch: &Watch) -> Result<Prepar
         .draw_figures(&checklist, &mut drawings, watch)?;
     draft.drawings = drawings;
     watch.check()?;
-    let mut kit = files(placed, &draft)?;
+    let mut kit = files(placed, &draft, slicer)?;
+    let settings = SliceSettings::of(&placed.shop.printer, &placed.shop.material);
+    if let (Some(slicer), Some(settings)) = (slicer, settings) {
+        checklist.print_time = Some(slice::time(&settings, slicer, kit.files(), watch)?);
+    }
     let hashed = |(file, bytes): (&str, &[u8])| (file.to_owned(), sha256_hex(&[bytes]));
     checklist.files = kit.files().map(hashed).collect();
     watch.check()?;
@@ -49,13 +62,14 @@ fn fill(placed: &Placed, draft: &Draft) -> Checklist {
         made: &draft.made,
         judgement: &draft.judgement,
         promised: draft.evidence.promise.promise,
+        plates: &draft.packages.plates,
     });
     checklist.warnings.extend(cup_warning(&checklist));
     checklist
 }
 
 /// Returns the kit with all files that the checklist lists.
-fn files(placed: &Placed, draft: &Draft) -> Result<Kit, Error> {
+fn files(placed: &Placed, draft: &Draft, slicer: Option<&Slicer>) -> Result<Kit, Error> {
     let mut kit = Kit::default();
     kit.add(HOLLOWED_FILE, draft.hollowed.clone());
     for part in &draft.made.parts {
@@ -64,10 +78,11 @@ fn files(placed: &Placed, draft: &Draft) -> Result<Kit, Error> {
     for jig in &draft.made.jigs {
         kit.add(&jig.file, jig.bytes.clone());
     }
-    for (file, bytes) in &draft.packages {
+    for (file, bytes) in &draft.packages.files {
         kit.add(file, bytes.clone());
     }
-    kit.add(JOB_FILE, placed.job.to_toml()?.into_bytes());
+    let job = slice::record(&placed.job, slicer);
+    kit.add(JOB_FILE, job.to_toml()?.into_bytes());
     let cuts = CutOrder {
         keep_clear: placed.job.keep_clear.clone(),
         ..CutOrder::of(&draft.made.plan)

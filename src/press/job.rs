@@ -82,6 +82,11 @@ impl Faults {
             let row = material_row(material);
             self.compare("material", &json!(sheet.material), &json!(row));
         }
+        let size_mm = printer.plate().map(|plate| plate.size_mm());
+        for plate in &sheet.plates {
+            let at = format!("plates[{}].size_mm", plate.file);
+            self.compare(&at, &json!(plate.size_mm), &json!(size_mm));
+        }
         let method = printer.cleaning_rule().rule.description();
         for void in &sheet.voids {
             let at = |key: &str| format!("voids[{}].{key}", void.id);

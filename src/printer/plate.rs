@@ -9,6 +9,8 @@ pub struct Plate {
     size_mm: [f64; 2],
     /// Corners that must stay free.
     corners: Vec<ExcludedCorner>,
+    /// Gap between parts, mm.
+    gap_mm: f64,
 }
 
 /// The place of a part.
@@ -27,6 +29,10 @@ pub struct Spot {
 /// Gap between parts, mm. Closer parts fuse or cannot be taken off one by one; with a wider gap,
 /// fewer fit.
 const GAP_MM: f64 = 5.0;
+/// Gap between filament parts, mm: room for the brims of both.
+const BRIM_GAP_MM: f64 = 12.0;
+/// The process whose parts may have brims.
+const FILAMENT: &str = "fdm";
 /// Assumed width of a plate of unknown size over the square root of the parts' area: above 1, as
 /// shelves leave gaps.
 const WIDTH_RATIO: f64 = 1.3;
@@ -38,6 +44,10 @@ impl Printer {
         Some(Plate {
             size_mm: [width, depth],
             corners: self.excluded_corners.clone(),
+            gap_mm: match self.process.as_deref() {
+                Some(FILAMENT) => BRIM_GAP_MM,
+                _ => GAP_MM,
+            },
         })
     }
 }
@@ -78,6 +88,11 @@ impl Plate {
         })
     }
 
+    /// Returns the width and the depth, mm.
+    pub fn size_mm(&self) -> [f64; 2] {
+        self.size_mm
+    }
+
     /// Assumes a plate that holds parts of these sizes, for a machine whose plate is not known.
     /// The arrangement comes out about as wide as deep.
     pub fn for_parts(sizes_mm: &[[f64; 2]]) -> Self {
@@ -91,6 +106,7 @@ impl Plate {
         Self {
             size_mm: [width, depth],
             corners: Vec::new(),
+            gap_mm: GAP_MM,
         }
     }
 
@@ -109,6 +125,34 @@ impl Plate {
             spots[part] = Some(self.place(&mut shelves, sizes_mm[part]));
         }
         spots.into_iter().flatten().collect()
+    }
+
+    /// Moves the things of one plate together, so that they lie in its middle. They stay where they
+    /// are if one would then lie on an excluded corner, or if one does not fit.
+    pub fn center(&self, spots: &mut [(usize, Spot)], sizes_mm: &[[f64; 2]]) {
+        let placed = |(index, spot): &(usize, Spot)| {
+            let [x, y] = sizes_mm[*index];
+            (spot.low_mm, if spot.is_turned { [y, x] } else { [x, y] })
+        };
+        let boxes: Vec<([f64; 2], [f64; 2])> = spots.iter().map(placed).collect();
+        let shift: [f64; 2] = std::array::from_fn(|axis| {
+            let ends = boxes.iter().map(|(low, size)| low[axis] + size[axis]);
+            let starts = boxes.iter().map(|(low, _)| low[axis]);
+            let (first, last) = (
+                starts.fold(f64::INFINITY, f64::min),
+                ends.fold(0.0, f64::max),
+            );
+            0.5 * (self.size_mm[axis] - last - first)
+        });
+        let moved = |low: [f64; 2]| [low[0] + shift[0], low[1] + shift[1]];
+        let all_free = boxes
+            .iter()
+            .all(|(low, size)| self.is_free(moved(*low), *size));
+        if all_free {
+            for (_, spot) in spots {
+                spot.low_mm = moved(spot.low_mm);
+            }
+        }
     }
 
     /// Returns the size of a part as placed, and whether it is turned: only if it fits no other
@@ -131,19 +175,19 @@ impl Plate {
         };
         for shelf in shelves.iter_mut().filter(|shelf| size[1] <= shelf.depth_mm) {
             if let Some(left) = self.leftmost([shelf.free_from_mm, shelf.front_mm], size) {
-                shelf.free_from_mm = left + size[0] + GAP_MM;
+                shelf.free_from_mm = left + size[0] + self.gap_mm;
                 return spot(shelf.plate, [left, shelf.front_mm], true);
             }
         }
         let last = shelves.last();
-        let behind = last.map(|shelf| (shelf.plate, shelf.front_mm + shelf.depth_mm + GAP_MM));
+        let behind = last.map(|shelf| (shelf.plate, shelf.front_mm + shelf.depth_mm + self.gap_mm));
         let found = behind.and_then(|(plate, front)| Some((plate, self.shelf_start(size, front)?)));
         let next_plate = last.map_or(0, |shelf| shelf.plate + 1);
         let (plate, low) =
             found.unwrap_or_else(|| (next_plate, self.shelf_start(size, 0.0).unwrap_or_default()));
         let fits = self.is_free(low, size);
         let free_from_mm = if fits {
-            low[0] + size[0] + GAP_MM
+            low[0] + size[0] + self.gap_mm
         } else {
             f64::INFINITY
         };
@@ -215,6 +259,7 @@ mod tests {
         Plate {
             size_mm,
             corners: corners.collect(),
+            gap_mm: GAP_MM,
         }
     }
 
@@ -287,6 +332,25 @@ mod tests {
                 assert_eq!(spots, plate.arrange(&sizes));
             }
         }
+    }
+
+    #[test]
+    fn what_lies_on_a_plate_is_moved_to_its_middle_unless_a_corner_is_in_the_way() {
+        let sizes = [[40.0, 20.0], [30.0, 10.0]];
+        let centered = |plate: &Plate| {
+            let spots = plate.arrange(&sizes).into_iter();
+            let mut spots: Vec<(usize, Spot)> = spots.enumerate().collect();
+            plate.center(&mut spots, &sizes);
+            spots
+                .iter()
+                .map(|(_, spot)| spot.low_mm)
+                .collect::<Vec<_>>()
+        };
+        // Together they are 75 mm wide and 20 mm deep.
+        let free = plate([200.0, 100.0], &[]);
+        assert_eq!(centered(&free), [[62.5, 40.0], [107.5, 40.0]]);
+        let cornered = plate([200.0, 100.0], &[(Corner::BackRight, [80.0, 60.0])]);
+        assert_eq!(centered(&cornered), [[0.0, 0.0], [45.0, 0.0]]);
     }
 
     #[test]

@@ -8,12 +8,13 @@ use super::certificate::Certificate;
 use super::goal::{FootRow, GoalRow, TurnRow};
 use super::joints::{BallastRow, CutListRow, JigRow, JointRow, RoundRow};
 use super::parts::PartRow;
+use super::print_time::PrintTimeRow;
 use super::printer::{GridRow, MaterialRow, PrinterRow, WallRow};
 use super::timing::Timing;
 use super::voids::{CutRow, VoidRow};
 use crate::printer::Plate;
 use crate::repair::RepairOrder;
-use crate::verify::{Check, Figures, FillOrder, Hardware, PromisedFigure, SCHEMA};
+use crate::verify::{Check, Figures, FillOrder, Hardware, PromisedFigure, PromisedPlate, SCHEMA};
 
 /// The job sheet of a kit, for machines; the room `page` renders the same for people.
 ///
@@ -60,6 +61,12 @@ pub struct Checklist {
     /// Jigs that hold parts while their glue sets: tools, not counted in any mass.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub jigs: Vec<JigRow>,
+    /// Plates, and what lies where on them; empty in kits without 3MF files.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub plates: Vec<PromisedPlate>,
+    /// Time and filament of the plates by a slicer; `None` if none was ordered.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub print_time: Option<PrintTimeRow>,
     /// Lengths of walls, pins and cut faces as the machine's pixels, lines and layers make them.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub grid: Vec<GridRow>,
@@ -237,7 +244,7 @@ impl Checklist {
     }
 
     /// Returns the names of the kit's plates: the files that hold all parts of a print.
-    pub fn plates(&self) -> impl Iterator<Item = &str> {
+    pub fn plate_files(&self) -> impl Iterator<Item = &str> {
         let files = self.files.keys().map(String::as_str);
         files.filter(|file| Plate::is_file_name(file))
     }

@@ -6,6 +6,7 @@ pub mod from_run;
 mod goal;
 mod joints;
 mod parts;
+mod print_time;
 mod printer;
 mod shortfall;
 pub mod telescope;
@@ -21,6 +22,7 @@ pub use checklist::{
 pub use goal::{FootRow, GoalRow, ObjectiveName, ShaftKind, ShaftRow, TurnRow};
 pub use joints::{BallastRow, BossRow, CutListRow, JigRow, JointRow, RoundRow};
 pub use parts::{Half, PartRow, SupportRow, finished_size_mm, part_picture_file};
+pub use print_time::{PlateTimeRow, PrintTimeRow};
 pub use printer::{
     Direction, GlueRow, GridRow, MaterialRow, PrinterRow, Process, SupportMethod, WallRow,
 };

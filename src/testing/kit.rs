@@ -138,6 +138,8 @@ fn checklist(evidence: &Evidence, found: &Judgement) -> Checklist {
         parts: parts(evidence, found),
         joints: vec![joint()],
         jigs: Vec::new(),
+        plates: Vec::new(),
+        print_time: None,
         grid: vec![grid_row()],
         hardware: vec![],
         dowels: vec![],

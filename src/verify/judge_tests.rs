@@ -80,6 +80,7 @@ fn promise(poses: &[Pose]) -> Promise {
         fill: None,
         joints: vec![],
         jigs: Vec::new(),
+        plates: Vec::new(),
         files: Default::default(),
     }
 }

@@ -34,6 +34,7 @@ mod mouths;
 mod part_probe;
 mod peg_shape;
 mod pegs;
+mod plates;
 mod play;
 mod rim;
 mod rooms;
@@ -92,6 +93,7 @@ pub use crate::printer::{Cleaning, CleaningRule};
 pub use ballast::{BallastOrder, FillOrder};
 pub use fingerprint::{Fingerprint, Likeness};
 pub use hardware::{Hardware, HardwareKind};
+pub use plates::{PlateSpot, PromisedPlate};
 pub use pose::Pose;
 pub use promise::{
     Aim, Density, FigureName, GlueFilm, HeldBy, Mark, Peg, PrinterLimits, Promise, PromisedCut,

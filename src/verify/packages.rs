@@ -6,13 +6,17 @@ use rayon::prelude::*;
 
 use super::fingerprint::Likeness;
 use super::reading::{read_file, undo_print_scale};
-use super::{Check, CheckKind, Evidence, Fingerprint, Limit, Promise, VerifyError};
+use super::{
+    Check, CheckKind, Evidence, Fingerprint, Limit, PartEvidence, PlateSpot, Promise, VerifyError,
+};
 use crate::io::threemf::{PlacedObject, decode_objects};
 
 /// The file with all parts in place.
 const ASSEMBLY_FILE: &str = "assembly.3mf";
 /// The prefix of the names of plates.
 const PLATE: &str = "plate";
+/// The rounding of a place on a plate in a 3MF file, mm.
+const IN_PLACE_MM: f64 = 1e-3;
 
 /// A package, or all plates together.
 struct Package {
@@ -32,7 +36,7 @@ struct Parts<'a> {
 enum Kind {
     /// All parts in place.
     Assembly,
-    /// All parts in print pose, anywhere on the plates.
+    /// All parts and jigs in print pose, on plates.
     Plates,
     /// One part.
     Part,
@@ -71,7 +75,10 @@ pub fn packages_check(folder: &Path, evidence: &Evidence) -> Result<Option<Check
     for read in decoded {
         match read? {
             (file, Err(error)) => faults.push(format!("{file}: {error}")),
-            (file, Ok(objects)) => packages.push(Package::new(file, objects, promise)),
+            (file, Ok(objects)) => {
+                faults.extend(misplaced(file, &objects, promise));
+                packages.push(Package::new(file, objects, promise));
+            }
         }
     }
     let packages = merge_plates(packages);
@@ -115,6 +122,39 @@ impl Package {
     }
 }
 
+/// Returns the faults of where things lie on a plate, in words; none for other packages.
+fn misplaced(file: &str, objects: &[PlacedObject], promise: &Promise) -> Vec<String> {
+    if !file.starts_with(PLATE) {
+        return Vec::new();
+    }
+    let Some(plate) = promise.plates.iter().find(|plate| plate.file == *file) else {
+        return vec![format!("the checklist does not say what lies on {file}")];
+    };
+    let is_there = |spot: &PlateSpot, object: &PlacedObject| {
+        let found = object.mesh.aabb();
+        let size = found.size();
+        let pairs = [
+            (found.min.x, spot.low_mm[0]),
+            (found.min.y, spot.low_mm[1]),
+            (size.x, spot.size_mm[0]),
+            (size.y, spot.size_mm[1]),
+        ];
+        object.name == spot.id && pairs.iter().all(|(a, b)| (a - b).abs() <= IN_PLACE_MM)
+    };
+    let lost = plate.holds.iter().filter(|spot| {
+        let mut objects = objects.iter();
+        !objects.any(|object| is_there(spot, object))
+    });
+    let lost = lost.map(|spot| format!("{file}: {} does not lie where the sheet says", spot.id));
+    let count = (plate.holds.len() != objects.len()).then(|| {
+        format!(
+            "{file} holds {} objects, not as the sheet says",
+            objects.len()
+        )
+    });
+    count.into_iter().chain(lost).collect()
+}
+
 /// Merges the plates into one package, since each part lies on only one of them.
 fn merge_plates(packages: Vec<Package>) -> Vec<Package> {
     let (plates, mut all): (Vec<Package>, Vec<Package>) = packages
@@ -148,14 +188,16 @@ fn find_faults(package: &Package, parts: &Parts) -> Vec<String> {
     let wanted: Vec<usize> = all
         .filter(|part| *kind != Kind::Part || is_own(part))
         .collect();
+    let jigs: &[PartEvidence] = match kind {
+        Kind::Plates => &evidence.jigs,
+        Kind::Assembly | Kind::Part => &[],
+    };
+    let (found, count) = (objects.len(), wanted.len() + jigs.len());
     let mut faults = Vec::new();
-    if objects.len() != wanted.len() {
-        faults.push(format!(
-            "{name} holds {} objects instead of {}",
-            objects.len(),
-            wanted.len()
-        ));
+    if found != count {
+        faults.push(format!("{name} holds {found} objects instead of {count}"));
     }
+    faults.extend(jigs.iter().filter_map(|jig| jig_fault(name, objects, jig)));
     let fault = |part: usize| {
         let id = &evidence.parts[part].id;
         let found: Vec<&PlacedObject> =
@@ -171,6 +213,19 @@ fn find_faults(package: &Package, parts: &Parts) -> Vec<String> {
     let of_parts = wanted.into_par_iter().filter_map(fault);
     faults.extend(of_parts.collect::<Vec<String>>());
     faults
+}
+
+/// Returns the fault of a jig on the plates, in words.
+fn jig_fault(plates: &str, objects: &[PlacedObject], jig: &PartEvidence) -> Option<String> {
+    let mut found = objects.iter().filter(|object| object.name == jig.id);
+    let is_right = |object: &PlacedObject| {
+        !matches!(
+            Fingerprint::of(&jig.mesh).likeness(&Fingerprint::of(&object.mesh)),
+            Likeness::Scaled(_) | Likeness::Mirrored | Likeness::Other
+        )
+    };
+    let is_sound = found.next().is_some_and(is_right) && found.next().is_none();
+    (!is_sound).then(|| format!("{plates}: {} is not as in its own file", jig.id))
 }
 
 /// Returns true if an object is the part. In the assembly its place counts too; in its own package

@@ -5,7 +5,8 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use super::{
-    BallastOrder, Cleaning, FillOrder, Fingerprint, Hardware, Pose, RotorOrder, WaterOrder,
+    BallastOrder, Cleaning, FillOrder, Fingerprint, Hardware, Pose, PromisedPlate, RotorOrder,
+    WaterOrder,
 };
 use crate::geom::{Frame, Point, Vector};
 use crate::goal::GoalKind;
@@ -61,6 +62,9 @@ pub struct Promise {
     /// The jigs that hold parts while their glue sets.
     #[serde(default)]
     pub jigs: Vec<PromisedJig>,
+    /// The plates, and what lies where on them.
+    #[serde(default)]
+    pub plates: Vec<PromisedPlate>,
     /// The SHA-256 of every other file of the kit, by path relative to its folder.
     #[serde(default)]
     pub files: BTreeMap<String, String>,

@@ -113,6 +113,8 @@ const ARROWS: &[(&str, &[&str])] = &[
         ],
     ),
     ("kit", &["base"]),
+    // A slicer is another program: it gets a plate and a profile, and gives toolpaths.
+    ("slicer", &["base", "io", "printer"]),
     (
         "coupon",
         &["geom", "io", "kit", "mesh", "page", "printer", "base"],
@@ -122,8 +124,8 @@ const ARROWS: &[(&str, &[&str])] = &[
         "error",
         &[
             "base", "repair", "ballast", "cut", "draw", "goal", "hardware", "hollow", "interior",
-            "io", "job", "kit", "mend", "mesh", "printer", "sheet", "shell", "thin", "verify",
-            "voids",
+            "io", "job", "kit", "mend", "mesh", "printer", "sheet", "shell", "slicer", "thin",
+            "verify", "voids",
         ],
     ),
     (
@@ -152,7 +154,7 @@ const ARROWS: &[(&str, &[&str])] = &[
         &[
             "advice", "ballast", "base", "cut", "error", "geom", "goal", "hardware", "hollow",
             "interior", "io", "job", "kit", "make", "mass", "mend", "mesh", "open", "page",
-            "press", "printer", "repair", "run", "sheet", "shell", "thin", "verify",
+            "press", "printer", "repair", "run", "sheet", "shell", "slicer", "thin", "verify",
         ],
     ),
     (
@@ -214,6 +216,7 @@ const ARROWS: &[(&str, &[&str])] = &[
             "sheet",
             "shell",
             "skeleton",
+            "slicer",
             "telescope",
             "voids",
         ],

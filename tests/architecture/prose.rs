@@ -14,9 +14,10 @@ const QUESTIONS: [&str; 6] = ["What", "How", "Whether", "Where", "Which", "Why"]
 /// Translated idioms for "`None` if".
 const NONE_WHERE: [&str; 2] = ["none where", "none if there"];
 /// The files that define or word the flags of the command line.
-const FLAG_FILES: [&str; 2] = [
+const FLAG_FILES: [&str; 3] = [
     "src/cli/args", // and all that begins so
     "src/cli/flags.rs",
+    "src/slicer", // another program's flags
 ];
 
 /// The share of the doc comments that still begin with a question. Final value: 0.01.

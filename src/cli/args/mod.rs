@@ -1,5 +1,6 @@
 //! The arguments of the command line, and the job they make.
 
+mod again;
 mod ballast;
 mod cut;
 mod error;
@@ -22,6 +23,7 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand};
 use clap_complete::Shell;
 
+pub use again::again;
 pub use error::ArgsError;
 pub use missing::Missing;
 pub use prepare::{DEFAULT_PLANS, PrepareArgs, Request};

@@ -15,7 +15,7 @@ use super::values::{EXIT_CODES, GoalReader, PREPARE_EXAMPLES, words};
 use crate::base::units::Length;
 use crate::cli::shop::chosen_printer;
 use crate::goal::{self, Contact, GoalKind, Objective, SpinPoint, Up};
-use crate::job::{Job, ModelChoice, PartFormat};
+use crate::job::{Job, ModelChoice, PartFormat, SlicerChoice};
 use crate::repair::RepairOrder;
 
 /// The usage: the required arguments, and the options.
@@ -166,6 +166,10 @@ pub struct PrepareArgs {
     /// both]
     #[arg(long, value_parser = words::<PartFormat>(PartFormat::WORDS), help_heading = "Kit")]
     pub format: Option<PartFormat>,
+    /// Ask this slicer (PrusaSlicer or SuperSlicer, by name or path) what the plates take, and put
+    /// its time and filament on the sheet
+    #[arg(long, value_name = "CMD", help_heading = "Kit")]
+    pub slicer: Option<String>,
     /// Leave the copy of the model out of the kit; `verify` then needs --model to compare with it
     #[arg(long, help_heading = "Kit")]
     pub no_model: bool,
@@ -178,7 +182,8 @@ pub struct PrepareArgs {
 pub const DEFAULT_PLANS: u8 = 3;
 
 /// The arguments that a replayed job decides.
-const DECIDED_BY_JOB: [&str; 38] = [
+const DECIDED_BY_JOB: [&str; 39] = [
+    "slicer",
     "printer",
     "material",
     "wall",
@@ -304,6 +309,10 @@ impl PrepareArgs {
             joint_price_ratio: self.cutting.joint_price,
             thicken: self.thicken,
             no_model: self.no_model,
+            slicer: self.slicer.map(|command| SlicerChoice {
+                command,
+                version: None,
+            }),
             format: self.format.unwrap_or(default.format),
             ballast: self.load.ballast.unwrap_or(default.ballast),
             fill: self.load.fill,

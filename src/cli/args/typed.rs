@@ -63,7 +63,7 @@ fn is_option(word: &OsStr) -> bool {
 }
 
 /// Returns true if a word ends as the name of a model file does.
-fn has_model_ending(word: &OsStr) -> bool {
+pub(super) fn has_model_ending(word: &OsStr) -> bool {
     let ending = Path::new(word).extension().and_then(OsStr::to_str);
     let is_it = |ending: &str| {
         MODEL_ENDINGS

@@ -57,6 +57,8 @@ pub fn checklist(facts: &Facts) -> Checklist {
         parts,
         joints: joint_rows(facts),
         jigs: jig_rows(facts),
+        plates: facts.plates.to_vec(),
+        print_time: None,
         grid: grid_rows(facts),
         hardware: hardware(placed),
         dowels: dowels(&facts.made.plan),

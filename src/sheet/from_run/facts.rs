@@ -1,7 +1,7 @@
 //! The facts from which a checklist is filled.
 
 use crate::run::{Made, Placed};
-use crate::verify::{Judgement, PromisedFigure};
+use crate::verify::{Judgement, PromisedFigure, PromisedPlate};
 
 /// The facts from which a checklist is filled.
 pub struct Facts<'a> {
@@ -13,4 +13,6 @@ pub struct Facts<'a> {
     pub judgement: &'a Judgement,
     /// Figure that the buyer is promised.
     pub promised: Option<PromisedFigure>,
+    /// Plates, and what lies where on them.
+    pub plates: &'a [PromisedPlate],
 }

@@ -45,6 +45,7 @@ pub fn promise(placed: &Placed, made: &Made) -> Promise {
         string_gap_mm: placed.string_gap_mm(),
         joints: promised_joints(placed, made),
         jigs: made.jigs.iter().map(promised_jig).collect(),
+        plates: Vec::new(),
         ballast: ballast_orders(&made.load),
         fill: fill_order(placed),
         files: Default::default(),

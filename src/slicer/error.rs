@@ -1,0 +1,102 @@
+//! The reasons why a slicer gives no figures.
+
+use crate::base::setting::{Key, Setting};
+use crate::base::watch::Cancelled;
+use crate::io::gcode::GcodeError;
+
+/// The package of Debian that has a slicer.
+const PACKAGE: &str = "apt-get install --no-install-recommends prusa-slicer";
+
+/// A reason why a slicer gives no figures.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum SlicerError {
+    /// The program is not there, or cannot be started.
+    #[error(
+        "the slicer {command} cannot be started; remedy: install one (on Debian: {PACKAGE}), or name another with `{}`",
+        Setting::open(Key::Slicer)
+    )]
+    Absent {
+        /// The command asked for.
+        command: String,
+        /// The error of the operating system.
+        source: std::io::Error,
+    },
+    /// The program is no slicer that is understood.
+    #[error(
+        "{command} does not name itself as PrusaSlicer or SuperSlicer; remedy: name one of these with `{}`",
+        Setting::open(Key::Slicer)
+    )]
+    Unknown {
+        /// The command asked for.
+        command: String,
+    },
+    /// The printer is not one whose plates this slicer slices.
+    #[error(
+        "{printer} prints no filament on a plate of known size, and the slicer knows only such; remedy: leave out `{}`",
+        Setting::open(Key::Slicer)
+    )]
+    NoFilament {
+        /// The name of the printer.
+        printer: String,
+    },
+    /// The kit has no plates to slice.
+    #[error(
+        "STL files alone have no plates to slice; remedy: leave out `{}` or `{}`",
+        Setting::open(Key::Slicer),
+        Setting::open(Key::Format)
+    )]
+    NoPlates,
+    /// The slicer wrote no toolpaths, whatever its exit code.
+    #[error("{version} wrote no toolpaths for {plate}: {said}")]
+    NoToolpaths {
+        /// The slicer.
+        version: String,
+        /// The plate.
+        plate: String,
+        /// The last line that it said.
+        said: String,
+    },
+    /// The slicer left a layer of a part empty.
+    #[error("{version} cannot print a layer of {plate}: {said}")]
+    EmptyLayer {
+        /// The slicer.
+        version: String,
+        /// The plate.
+        plate: String,
+        /// What it said.
+        said: String,
+    },
+    /// The slicer took too long.
+    #[error("{version} was stopped after {limit_s} s on {plate}; remedy: slice the plate by hand")]
+    Slow {
+        /// The slicer.
+        version: String,
+        /// The plate.
+        plate: String,
+        /// The limit, s.
+        limit_s: u64,
+    },
+    /// The toolpaths cannot be read.
+    #[error("the toolpaths of {plate} cannot be read")]
+    Toolpaths {
+        /// The plate.
+        plate: String,
+        /// The fault and its place.
+        source: GcodeError,
+    },
+    /// The toolpaths name no print time.
+    #[error("{version} names no print time for {plate}")]
+    NoTime {
+        /// The slicer.
+        version: String,
+        /// The plate.
+        plate: String,
+    },
+    /// The folder in which it runs cannot be used.
+    #[error("the folder for temporary files cannot be used; remedy: free some room there")]
+    Folder(#[source] std::io::Error),
+    /// The run was stopped.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+}

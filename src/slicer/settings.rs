@@ -1,0 +1,95 @@
+//! A printer's profile in a slicer's words.
+
+use std::fmt::Write as _;
+
+use crate::printer::{Material, Printer};
+
+/// The process whose plates are sliced.
+const FILAMENT: &str = "fdm";
+/// Width of a line over the nozzle's diameter: what slicers lay by default.
+const LINE_PER_NOZZLE: f64 = 1.125;
+/// The diameter of nearly all filament that is sold, mm.
+const FILAMENT_MM: f64 = 1.75;
+
+/// What a slicer must know of a printer and its material.
+///
+/// The plate's own file says what else the parts need. Speeds are the slicer's defaults.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SliceSettings {
+    /// Width, depth and height of the build volume, mm.
+    room_mm: [f64; 3],
+    /// Height of a layer, mm.
+    layer_mm: f64,
+    /// Width of a line, mm.
+    line_mm: f64,
+    /// Density of the filament, g/cm³.
+    density_g_cm3: f64,
+}
+
+impl SliceSettings {
+    /// Returns the settings of a filament printer; `None` for other processes, and if its plate is
+    /// not known.
+    pub fn of(printer: &Printer, material: &Material) -> Option<Self> {
+        let room_mm = printer.build_volume_mm.as_ref()?.value;
+        (printer.process.as_deref() == Some(FILAMENT)).then_some(Self {
+            room_mm,
+            layer_mm: printer.layer_mm.value,
+            line_mm: printer.pixel_x_mm.value,
+            density_g_cm3: material.density_g_cm3.value,
+        })
+    }
+
+    /// Returns the settings as PrusaSlicer and SuperSlicer read them.
+    pub(super) fn to_ini(&self) -> String {
+        let [width, depth, height] = self.room_mm;
+        let nozzle_mm = self.line_mm / LINE_PER_NOZZLE;
+        let pairs = [
+            (
+                "bed_shape",
+                format!("0x0,{width}x0,{width}x{depth},0x{depth}"),
+            ),
+            ("max_print_height", height.to_string()),
+            ("nozzle_diameter", format!("{nozzle_mm:.3}")),
+            ("filament_diameter", FILAMENT_MM.to_string()),
+            ("filament_density", self.density_g_cm3.to_string()),
+            ("extrusion_width", self.line_mm.to_string()),
+            ("layer_height", self.layer_mm.to_string()),
+            ("first_layer_height", self.layer_mm.to_string()),
+            ("gcode_flavor", "marlin2".to_owned()),
+        ];
+        pairs.iter().fold(String::new(), |mut ini, (key, value)| {
+            // Writing into a string cannot fail.
+            let _ = writeln!(ini, "{key} = {value}");
+            ini
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn of(id: &str) -> Option<SliceSettings> {
+        let printer = Printer::find(id).unwrap();
+        let material = printer.material(None).unwrap();
+        SliceSettings::of(&printer, material)
+    }
+
+    #[test]
+    fn a_filament_printer_is_worded_with_its_plate_its_lines_and_its_density() {
+        let ini = of("prusa-mk4").unwrap().to_ini();
+        for line in [
+            "bed_shape = 0x0,250x0,250x210,0x210",
+            "nozzle_diameter = 0.400",
+            "filament_density = 1.24",
+            "layer_height = 0.2",
+        ] {
+            assert!(ini.lines().any(|found| found == line), "{line}: {ini}");
+        }
+    }
+
+    #[test]
+    fn other_processes_have_no_such_settings() {
+        assert_eq!(of("formlabs-form3"), None);
+    }
+}
