@@ -15,8 +15,8 @@ const SIZE_PX: [usize; 2] = [560, 460];
 /// Height of words, pixels: 10 points at a third of the width of an A4 page.
 const TEXT_PX: f64 = 32.0;
 
-/// Share of the picture left free on each side for dimensions.
-const MARGIN_RATIO: f64 = 0.2;
+/// Shares of the picture left free for dimensions: at the sides, and above and below.
+const MARGIN_RATIO: [f64; 2] = [0.24, 0.16];
 
 /// Angles of the viewer to the right and above the plate, radians: high enough to see into a hollow
 /// that is open upward.
@@ -93,7 +93,7 @@ pub(super) fn draft<'a>(
                 toward_viewer: view_direction(&-Vector::y(), &Vector::z(), TURN_AND_LIFT),
                 up: Vector::z(),
                 size_px: SIZE_PX,
-                margin_ratio: [MARGIN_RATIO; 2],
+                margin_ratio: MARGIN_RATIO,
             },
             text_px: TEXT_PX,
             labels: dimensions(&part.mesh.aabb()),

@@ -1345,6 +1345,33 @@ def judge_surfaces(table, sheet, parts, outer, voids):
     return walls
 
 
+def judge_model(table, sheet, kit, outer):
+    """The outside of the uncut body is the surface of the model in the kit, scaled, and nothing of the model is missing.
+
+    Where the program was told to change the surface, or bores holes into it, nothing is compared. What of a model lies inside
+    itself or is open is repaired: then the outside alone is held against the model, and not the model against the outside."""
+    row, files = sheet["model"], sorted((kit / "model").glob("*")) if (kit / "model").is_dir() else []
+    changed = [word for word in ("redrawn", "thickened") if word in row] + [word for word in ("hardware", "string_gap_mm") if sheet.get(word)]
+    if not files or changed:
+        print(f"  outside not held against the model: {', '.join(changed) or 'no copy'}")
+        return
+    table.line("model's sha256", row["sha256"], digest(files[0]), digest(files[0]) == row["sha256"])
+    loaded = trimesh.load(files[0], force="mesh", process=False)
+    model = np.asarray(loaded.triangles, dtype=np.float64) * row["scale_ratio"]
+    if moments(model)[0] < 0:
+        model = model[:, ::-1]
+    surface = np.concatenate(outer)
+    pairs = [("outside off the model, mm", surface, model)]
+    whole = welded(model.astype(np.float32).astype(np.float64))
+    if whole.is_watertight and len(groups_of(whole)) == 1 and self_intersections(model) == 0:
+        pairs.append(("missing of the model, mm", model, surface))
+    else:
+        print("  the model is open or crosses itself: not looked for in the outside")
+    for name, corners, sheets in pairs:
+        cut = same_triangles(corners, sheets) < 0
+        table.at_most(name, ON_SURFACE_MM, farthest_off(corners[cut], sheets)[0].max(initial=0.0))
+
+
 def groups_of(mesh):
     """The triangles of each connected piece of a welded mesh."""
     return trimesh.graph.connected_components(mesh.face_adjacency, nodes=np.arange(len(mesh.faces)))
@@ -1412,6 +1439,7 @@ def judge(kit):
     judge_dowels(table, sheet, parts)
     judge_films(table, sheet, parts)
     judge_marks(table, sheet, parts)
+    judge_model(table, sheet, kit, outer)
     outer_of_parts, voids_of_parts = judge_surfaces(table, sheet, parts, outer, voids)
     if voids:
         wall = smallest_wall(outer_of_parts, voids_of_parts)
