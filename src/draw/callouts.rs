@@ -7,6 +7,9 @@ use super::svg::{Anchor, Drawing, Paint, Spot, Stroke};
 /// lost in print.
 const DOT_PX: f64 = 3.5;
 
+/// Width of a letter with its share of the gap before a line, in heights of the words.
+const LETTER_TEXTS: f64 = 0.62;
+
 /// A name at the edge of a drawing, and the place it names.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mark {
@@ -60,9 +63,13 @@ impl Drawing {
                 1.35 * self.text_px(),
                 [self.text_px(), height - self.text_px()],
             );
+            let inward = if is_left { 1.0 } else { -1.0 };
+            let letter_px = inward * LETTER_TEXTS * self.text_px();
+            let start =
+                |mark: &Mark, y: f64| [edge + letter_px * mark.words.chars().count() as f64, y];
+            uncross(&mut side, &heights, start);
             for (mark, y) in side.into_iter().zip(heights) {
-                let reach = 0.62 * self.text_px() * mark.words.chars().count() as f64;
-                self.leader([if is_left { edge + reach } else { edge - reach }, y], mark);
+                self.leader(start(mark, y), mark);
                 self.text([edge, y], anchor, &mark.words);
             }
         }
@@ -84,6 +91,36 @@ impl Drawing {
             self.circle(end, DOT_PX, paint);
         }
     }
+}
+
+/// Exchanges names whose lines cross, so that no two lines on a side do. `start` is where the line
+/// of a name at a height begins.
+///
+/// Each exchange shortens both lines together, but for names of unlike lengths; so the number of
+/// passes is limited.
+fn uncross(side: &mut [&Mark], heights: &[f64], start: impl Fn(&Mark, f64) -> Spot) {
+    for _ in 0..side.len() {
+        let mut is_done = true;
+        for i in 0..side.len() {
+            for j in i + 1..side.len() {
+                let line = |at: usize| [start(side[at], heights[at]), side[at].at];
+                if do_cross(line(i), line(j)) {
+                    side.swap(i, j);
+                    is_done = false;
+                }
+            }
+        }
+        if is_done {
+            break;
+        }
+    }
+}
+
+/// Returns whether two lines cross between their ends.
+fn do_cross([a, b]: [Spot; 2], [c, d]: [Spot; 2]) -> bool {
+    let turn =
+        |p: Spot, q: Spot, r: Spot| (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]);
+    turn(a, b, c) * turn(a, b, d) < 0.0 && turn(c, d, a) * turn(c, d, b) < 0.0
 }
 
 /// Returns places at least `gap` apart between two ends, as near as fits to the wanted ones, which
@@ -111,6 +148,30 @@ mod tests {
     fn labels_are_spread_in_order_and_stay_on_the_paper() {
         let placed = spread(&[5.0, 6.0, 50.0, 99.0, 100.0], 10.0, [0.0, 100.0]);
         assert_eq!(placed, [5.0, 15.0, 50.0, 90.0, 100.0]);
+    }
+
+    #[test]
+    fn no_two_lines_on_a_side_cross() {
+        // In the order of their heights the line to the far place would cross the other two.
+        let marks = [[90.0, 10.0], [20.0, 12.0], [60.0, 14.0], [30.0, 40.0]];
+        let marks: Vec<Mark> = marks
+            .iter()
+            .map(|at| Mark::new(*at, "P01".to_owned()))
+            .collect();
+        let heights = [10.0, 40.0, 70.0, 100.0];
+        let lines = |side: &[&Mark]| -> Vec<[Spot; 2]> {
+            let line = |(mark, y): (&&Mark, &f64)| [[5.0, *y], mark.at];
+            side.iter().zip(&heights).map(line).collect()
+        };
+        let crossings = |side: &[&Mark]| {
+            let lines = lines(side);
+            let pairs = (0..4).flat_map(|i| (i + 1..4).map(move |j| (i, j)));
+            pairs.filter(|&(i, j)| do_cross(lines[i], lines[j])).count()
+        };
+        let mut side: Vec<&Mark> = marks.iter().collect();
+        assert!(crossings(&side) > 0);
+        uncross(&mut side, &heights, |_, y| [5.0, y]);
+        assert_eq!(crossings(&side), 0);
     }
 
     #[test]
