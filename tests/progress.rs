@@ -28,9 +28,8 @@ const LONGEST_STILL: Duration = Duration::from_secs(2);
 const LONGEST_STOP: Duration = Duration::from_secs(2);
 /// Points of a run at which it is stopped, evenly spread over its progress.
 const STOPS: u32 = 12;
-/// The acceptance table, and the folder of its models beside the checkout.
+/// The acceptance table.
 const TABLE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/.ci/models");
-const BESIDE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/models");
 
 /// Returns the order that a command line of `prepare` makes.
 fn order(model: &Path, out: &Path, options: &str) -> Request {
@@ -174,7 +173,7 @@ fn rows() -> Vec<Row> {
     let table = std::fs::read_to_string(TABLE).unwrap();
     let usual = table.lines().find_map(|line| line.strip_prefix("usual="));
     let usual = usual.unwrap().trim_matches('"').to_owned();
-    let folder = std::env::var_os("EQUIPOISE_MODELS").map_or(PathBuf::from(BESIDE), PathBuf::from);
+    let folder = common::shared_folder();
     let row = |line: &str| {
         let line = line.strip_prefix("case_ ")?.replace("$usual", &usual);
         let [name, code, model, options @ ..] = &words(&line)[..] else {
@@ -196,8 +195,8 @@ impl Still {
     }
 }
 
-/// Run it on an otherwise idle machine, with --nocapture. `EQUIPOISE_MODELS` names the folder of
-/// models, and `EQUIPOISE_ROWS` the rows by parts of their names, between commas.
+/// Run it on an otherwise idle machine, with --nocapture. `EQUIPOISE_SHARED_MODELS` names the folder
+/// of models, and `EQUIPOISE_ROWS` the rows by parts of their names, between commas.
 #[test]
 #[ignore = "takes half an hour, and needs models that are not part of the project"]
 fn progress_never_stands_still_on_the_acceptance_table() {

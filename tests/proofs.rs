@@ -12,6 +12,7 @@
     reason = "the module also serves the program that writes the models"
 )]
 
+mod common;
 #[path = "../examples/make_models/models.rs"]
 mod models;
 
@@ -246,15 +247,9 @@ fn a_yoyo_proved_not_dominant_is_not_on_a_grid_either() {
 
 /// The folder of real models beside the checkout. The acceptance table expects that hollowing alone
 /// is not enough for some of them.
-const SHARED: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/models");
-
 /// Solves for a shared model, 100 mm long, with a wall of 1 mm; `None` if it is not there.
 fn solve_shared(name: &str, request: &Request) -> Option<Case> {
-    let path = std::path::Path::new(SHARED).join(name);
-    if !path.is_file() {
-        eprintln!("SKIPPED: {} is not there", path.display());
-        return None;
-    }
+    let path = common::shared_model(name)?;
     let mesh = weld(&read_model(&path).unwrap());
     let scale = 100.0 / mesh.longest_side_mm();
     let solid = Solid::new(mesh.map_vertices(|p| p * scale)).unwrap();

@@ -13,9 +13,8 @@ use std::path::{Path, PathBuf};
 use common::{ELLIPSOID, QUICK, assert_exit, equipoise, json, list, path, printed, words};
 use serde_json::Value;
 
-/// The acceptance table, and the folder of its models beside the checkout.
+/// The acceptance table.
 const TABLE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/.ci/models");
-const BESIDE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/models");
 
 /// Returns what to type for a setting of a remedy.
 fn flag(setting: &Value) -> (String, String) {
@@ -112,7 +111,7 @@ fn impossible_rows() -> Vec<Row> {
     let table = std::fs::read_to_string(TABLE).unwrap();
     let usual = table.lines().find_map(|line| line.strip_prefix("usual="));
     let usual = usual.unwrap().trim_matches('"').to_owned();
-    let folder = std::env::var_os("EQUIPOISE_MODELS").map_or(PathBuf::from(BESIDE), PathBuf::from);
+    let folder = common::shared_folder();
     let row = |line: &str| {
         let line = line.strip_prefix("case_ no-")?.replace("$usual", &usual);
         let [name, _, model, options @ ..] = &words(&line)[..] else {
@@ -127,8 +126,8 @@ fn impossible_rows() -> Vec<Row> {
     table.lines().filter_map(row).collect()
 }
 
-/// Run it with --nocapture. `EQUIPOISE_MODELS` names the folder of models, and `EQUIPOISE_ROWS` the
-/// rows by parts of their names, between commas.
+/// Run it with --nocapture. `EQUIPOISE_SHARED_MODELS` names the folder of models, and
+/// `EQUIPOISE_ROWS` the rows by parts of their names, between commas.
 #[test]
 #[ignore = "takes half an hour, and needs models that are not part of the project"]
 fn every_remedy_on_the_acceptance_table_makes_a_kit() {

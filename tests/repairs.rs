@@ -6,7 +6,7 @@
 )]
 #![allow(clippy::print_stdout, reason = "the table is shown with --nocapture")]
 
-use std::path::PathBuf;
+mod common;
 
 use equipoise::base::watch::Watch;
 use equipoise::geom::{Point, Vector};
@@ -16,15 +16,11 @@ use equipoise::mesh::primitives::ball;
 use equipoise::mesh::{MeshDistance, Solid, TriMesh, scaled, spread_points};
 use equipoise::repair::{one_body, repair};
 
-const SHARED: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/models");
-
 /// Largest error of a volume, as a share of it.
 const VOLUME_RATIO: f64 = 0.005;
 
 fn shared(name: &str) -> TriMesh {
-    let folder = std::env::var_os("EQUIPOISE_SHARED_MODELS");
-    let folder = folder.map_or_else(|| PathBuf::from(SHARED), PathBuf::from);
-    read_model(&folder.join(name)).unwrap()
+    read_model(&common::shared_folder().join(name)).unwrap()
 }
 
 /// Returns the volume of a mesh that is repaired to one body, and the words for the repairs.

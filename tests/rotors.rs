@@ -12,16 +12,13 @@ use std::f64::consts::TAU;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use common::{assert_exit, checklist, equipoise, list, path, printed, words};
+use common::{assert_exit, checklist, equipoise, list, path, printed, shared_model, words};
 use equipoise::base::watch::Watch;
 use equipoise::geom::{Point, Vector};
 use equipoise::goal::{ShaftAxis, find_shafts};
 use equipoise::io::{read_model, stl};
 use equipoise::mesh::{Csg, Solid, TriMesh, primitives};
 use equipoise::repair::repair;
-
-/// The models beside the project. They are no part of it.
-const SHARED: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/models");
 
 /// Returns a pulley: a disc of 60 mm and 20 mm width, heavier on one side, with bores along z.
 fn pulley(bores: &[[f64; 3]]) -> TriMesh {
@@ -189,13 +186,7 @@ fn an_axle_that_is_ordered_too_short_breaks_a_promise() {
 }
 
 fn shared(name: &str) -> Option<Vec<ShaftAxis>> {
-    let folder = std::env::var_os("EQUIPOISE_SHARED_MODELS");
-    let folder = folder.map_or_else(|| PathBuf::from(SHARED), PathBuf::from);
-    let model = folder.join(name);
-    if !model.is_file() {
-        eprintln!("SKIPPED: there is no {}", model.display());
-        return None;
-    }
+    let model = shared_model(name)?;
     let mended = repair(read_model(&model).unwrap(), &Watch::silent())
         .unwrap()
         .0;

@@ -21,8 +21,6 @@ use equipoise::mesh::{Csg, primitives};
 use equipoise::repair::repair;
 use equipoise::thin::find_thin;
 
-const SHARED: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/models");
-
 /// Writes a block with an antenna of 0.5 × 0.5 mm that is 8 mm long.
 fn write_block_with_antenna(folder: &Path) -> PathBuf {
     let cuboid = |min: [f64; 3], max: [f64; 3]| {
@@ -90,10 +88,8 @@ fn real_models_at_100_mm() {
         "knight.stl",
         "three-spheres.obj",
     ] {
-        let folder = std::env::var_os("EQUIPOISE_SHARED_MODELS");
-        let folder = folder.map_or_else(|| PathBuf::from(SHARED), PathBuf::from);
         let mesh = repair(
-            read_model(&Path::new(&folder).join(name)).unwrap(),
+            read_model(&common::shared_folder().join(name)).unwrap(),
             &Watch::silent(),
         )
         .unwrap()

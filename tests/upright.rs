@@ -10,7 +10,7 @@
 mod common;
 
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use equipoise::base::watch::Watch;
 use equipoise::geom::{Matrix, Point, Vector};
@@ -19,11 +19,6 @@ use equipoise::io::{read_model, stl};
 use equipoise::mesh::{Csg, Solid};
 use equipoise::repair::repair;
 use serde::Deserialize;
-
-/// The models beside the project, with `faces.toml`. They are no part of it.
-const SHARED: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/models");
-/// Another folder of the same content.
-const SHARED_VARIABLE: &str = "EQUIPOISE_SHARED_MODELS";
 
 /// The least lead over the second best pose. Rounding and the phase of samples move a lead by 0.03.
 const LEAST_LEAD: f64 = 0.08;
@@ -48,13 +43,9 @@ impl Known {
     }
 }
 
-fn folder() -> PathBuf {
-    std::env::var_os(SHARED_VARIABLE).map_or_else(|| PathBuf::from(SHARED), PathBuf::from)
-}
-
 /// Returns the models with a known up; empty if they are not there.
 fn known() -> BTreeMap<String, Known> {
-    let list = folder().join("faces.toml");
+    let list = common::shared_folder().join("faces.toml");
     let Ok(text) = std::fs::read_to_string(&list) else {
         eprintln!("SKIPPED: there is no {}", list.display());
         return BTreeMap::new();
@@ -107,7 +98,7 @@ fn turned(solid: &Solid, turn: &Matrix) -> Solid {
 fn assert_found(files: Option<&[&str]>, turns: &[Matrix]) {
     let is_asked = |known: &Known| files.is_none_or(|files| files.contains(&known.file.as_str()));
     for (name, known) in known().iter().filter(|(_, known)| is_asked(known)) {
-        let solid = read(&folder().join(&known.file));
+        let solid = read(&common::shared_folder().join(&known.file));
         let (mut least_lead, mut most_deg) = (f64::INFINITY, 0.0_f64);
         for turn in turns {
             let found = find_upright(&turned(&solid, turn), &Watch::silent()).unwrap();

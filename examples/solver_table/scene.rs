@@ -71,7 +71,7 @@ fn solid(model: &str, file: Option<&str>) -> Result<Option<Solid>> {
         return Ok(Some(models::solid(make)?));
     };
     let beside = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/models");
-    let path = std::env::var_os("EQUIPOISE_MODELS")
+    let path = std::env::var_os("EQUIPOISE_SHARED_MODELS")
         .map_or_else(|| PathBuf::from(beside), PathBuf::from)
         .join(file);
     if !path.is_file() {

@@ -28,14 +28,16 @@ const SHARED_VARIABLE: &str = "EQUIPOISE_SHARED_MODELS";
 
 /// Returns a file of the models beside the project; says that the test skips it if it is absent.
 pub fn shared_model(name: &str) -> Option<PathBuf> {
-    let folder = std::env::var_os(SHARED_VARIABLE);
-    let file = folder
-        .map_or_else(|| SHARED_MODELS.into(), PathBuf::from)
-        .join(name);
+    let file = shared_folder().join(name);
     if !file.is_file() {
         eprintln!("SKIPPED: there is no {}", file.display());
     }
     file.is_file().then_some(file)
+}
+
+/// Returns the folder of the models beside the project. They are no part of it.
+pub fn shared_folder() -> PathBuf {
+    std::env::var_os(SHARED_VARIABLE).map_or_else(|| SHARED_MODELS.into(), PathBuf::from)
 }
 
 /// The options of a quick run: a small model, and few columns for the solver.
