@@ -38,3 +38,4 @@
 //! | How does a tube slide along its own axis? | `Helix` in `curve/helix.rs`: frames along a helix compose, so it slides in itself |
 //! | Where does a limb of a model begin and end, and how thick is it? | `Skeleton::of` in `skeleton/tree.rs`, by the contraction of `skeleton/flow.rs` and the pruning of `skeleton/tidy.rs` |
 //! | Which limbs become telescopes, and which stay solid? | `mark_solid` in `skeleton/solid.rs` and `Limbs` in `skeleton/limbs.rs` |
+//! | What does a print lay down, and where? | `read_gcode` in `io/gcode/open.rs` unpacks, `Machine` in `io/gcode/machine.rs` follows the nozzle, `Bead` in `mass/bead.rs` is weighed |

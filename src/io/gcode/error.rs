@@ -14,7 +14,7 @@ pub enum Limit {
     Objects,
     /// Tallies: one for each object, feature and tool that meet.
     Tallies,
-    /// Unpacked bytes for each packed byte, beyond the first 64 MiB.
+    /// Unpacked bytes for each packed byte, beyond the first 16 MiB.
     Unpacked,
     /// Plates in a package.
     Plates,
@@ -123,7 +123,7 @@ pub enum GcodeError {
         lines: u64,
     },
     /// There are no bytes.
-    #[error("it is empty (0 bytes); remedy: export the G-code again")]
+    #[error("it is empty; remedy: export the G-code again")]
     Empty,
     /// The bytes cannot be read to the end.
     #[error("line {line}: it cannot be read further: {source}; remedy: copy or export it again")]

@@ -11,9 +11,9 @@ const STEP_MM: f64 = 1e-4;
 
 /// Follows the layers of a file.
 ///
-/// A stated height counts (`;HEIGHT:`, `; LAYER_HEIGHT:`). Cura states none: there the height is the
-/// rise over the layer before, or the plate. It is believed from half to four times the stated
-/// layer height. Otherwise, as in a spiral vase or over a raft's gap, the layer height itself counts.
+/// A stated height counts (`;HEIGHT:`, `; LAYER_HEIGHT:`). Cura states none. There the height is
+/// the rise over the layer before, or over the plate, from half to four times the file's layer
+/// height. Beyond these, as in a spiral vase, the layer height itself counts.
 #[derive(Debug, Default)]
 pub struct Heights {
     stated_mm: Option<f64>,

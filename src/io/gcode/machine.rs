@@ -9,6 +9,8 @@ use crate::mass::Turn;
 
 /// Tools that are counted apart; numbers beyond are commands of other kinds.
 const MOST_TOOLS: u32 = 256;
+/// The letters of the axes.
+const AXES: &[u8; 3] = b"XYZ";
 /// Full turns that an arc may add.
 const MOST_TURNS: f64 = 1000.0;
 
@@ -105,7 +107,7 @@ impl Machine {
             (b'G', 18 | 19, 0) => self.is_level = false,
             (b'G', 20, 0) => self.set(line, |machine| machine.unit_mm = MM_PER_INCH)?,
             (b'G', 21, 0) => self.set(line, |machine| machine.unit_mm = 1.0)?,
-            (b'G', 28, 0) => self.home(line)?,
+            (b'G', 28, 0) => self.home(line),
             (b'G', 90, 0) => self.set(line, |machine| machine.is_relative = false)?,
             (b'G', 91, 0) => self.set(line, |machine| machine.is_relative = true)?,
             (b'G', 90, 1) => self.has_absolute_centres = true,
@@ -219,20 +221,19 @@ impl Machine {
         }
     }
 
-    /// Takes `G28`: the named axes, or all, stand at zero.
-    fn home(&mut self, line: &Line) -> Result<(), GcodeError> {
-        let mut named = [false; 3];
-        line.each_word(|letter, _| {
-            if let Some(axis) = axis_of(letter) {
-                named[axis] = true;
-            }
-            Ok(())
-        })?;
-        let are_all = named == [false; 3];
-        for axis in (0..3).filter(|axis| are_all || named[*axis]) {
-            (self.at[axis], self.origin[axis]) = (0.0, 0.0);
+    /// Takes `G28`: the named axes, or all, stand at zero. Firmware allows `G28 XY`.
+    fn home(&mut self, line: &Line) {
+        let ends = |byte: &u8| matches!(byte, b';' | b'(');
+        let text = line.rest.split(ends).next().unwrap_or_default();
+        let is_named = |axis: &u8| text.iter().any(|byte| byte.to_ascii_uppercase() == *axis);
+        let are_all = !AXES.iter().any(is_named);
+        for (index, _) in AXES
+            .iter()
+            .enumerate()
+            .filter(|(_, axis)| are_all || is_named(axis))
+        {
+            (self.at[index], self.origin[index]) = (0.0, 0.0);
         }
-        Ok(())
     }
 
     /// Takes `G92`: gives the present place another name, and moves nothing.
@@ -314,7 +315,7 @@ impl Words {
 }
 
 fn axis_of(letter: u8) -> Option<usize> {
-    b"XYZ".iter().position(|axis| *axis == letter)
+    AXES.iter().position(|axis| *axis == letter)
 }
 
 /// Takes `G10`: a retraction, unless its words set offsets of a tool.
@@ -378,6 +379,10 @@ mod tests {
         assert_eq!(last("G20\nG1 X1\nG21\nG1 Y1"), Point::new(25.4, 1.0, 0.0));
         assert_eq!(last("G1 X10\nG92 X0\nG1 X5"), Point::new(15.0, 0.0, 0.0));
         assert_eq!(last("G1 X10 Y4\nG28 X\nG1 Z1"), Point::new(0.0, 4.0, 1.0));
+        assert_eq!(
+            last("G1 X10 Y4\nG28 XY ; Z\nG1 Z1"),
+            Point::new(0.0, 0.0, 1.0)
+        );
         assert_eq!(
             last("G1 X10 Y4\nG92\nG28 W\nG1 Z1"),
             Point::new(0.0, 0.0, 1.0)

@@ -1,6 +1,7 @@
 //! G-code: reads what a print lays down, and what its slicer says about it.
 //!
-//! * [`read_gcode`] opens a file in any packing; `plates` unpacks sliced 3MF, `bgcode` Prusa's binary.
+//! * [`read_gcode`] opens a file in any packing; `plates` unpacks sliced 3MF, `bgcode` Prusa's
+//!   binary.
 //! * [`read_text`] follows a program and returns a [`Toolpath`].
 //! * `lines` bounds memory, `words` reads commands, `machine` and `arc` follow the nozzle.
 //! * `feature`, `label`, `height` and `notes` read the comments of slicers into [`Feature`],

@@ -18,7 +18,7 @@ const SLICE_INFO: &str = "Metadata/slice_info.config";
 /// Bytes of that part that are read.
 const MOST_INFO: u64 = 1 << 24;
 /// Unpacked size allowed for a file of any size, bytes.
-const FREE_BYTES: u64 = 64 << 20;
+const FREE_BYTES: u64 = 16 << 20;
 /// Bytes that are read at once.
 const CHUNK: usize = 1 << 16;
 

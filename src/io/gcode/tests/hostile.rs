@@ -8,7 +8,7 @@ use super::*;
 
 /// Programs that are refused, with words of the fault for each.
 const REFUSED: &[(&str, &str)] = &[
-    ("", "empty (0 bytes)"),
+    ("", "it is empty"),
     ("solid cube\nfacet normal 0 0 1\n", "no move in its 2 lines"),
     ("G1 X10\n", "no move in its 1 lines"),
     ("M83\nG1 Xnan E1\n", "line 2: `X` is followed by \"nan\""),
@@ -17,7 +17,7 @@ const REFUSED: &[(&str, &str)] = &[
     ("M83\nG1 X1-2 E1\n", "line 2: `X`"),
     ("G1 X1 E1 G1 X2\n", "line 1: a second command"),
     ("G90 M83\nG1 X1 E1\n", "line 1: a second command"),
-    ("G1 X1 E1\nG2 X5 E1\n", "line 2: the arc has no centre"),
+    ("G1 X1 E1\nG2 X5 E2\n", "line 2: the arc has no centre"),
     (
         "G1 X1 E1\n\nG2 X5 I1 E2\n",
         "line 3: the arc ends off its circle",
@@ -36,9 +36,14 @@ const REFUSED: &[(&str, &str)] = &[
 ];
 
 fn message(text: impl AsRef<[u8]>) -> String {
-    read(text)
-        .expect_err("a bad program is refused")
-        .to_string()
+    let text = text.as_ref();
+    match read(text) {
+        Ok(_) => panic!(
+            "it was read: {}",
+            String::from_utf8_lossy(&text[..text.len().min(60)])
+        ),
+        Err(fault) => fault.to_string(),
+    }
 }
 
 #[test]
