@@ -23,9 +23,9 @@
 //! [`coupon`] lets a shop measure what its printer does. [`guide::map`] answers where things are.
 //!
 //! # The modules
-//! This page lists thirteen modules. Five of them, [`model`], [`solve`], [`stages`], [`report`] and
-//! [`extend`], gather rooms: `equipoise::model::mesh` is also `equipoise::mesh`, and its files lie in
-//! `src/mesh`.
+//! This page lists fourteen modules. Six of them, [`model`], [`solve`], [`stages`], [`report`],
+//! [`extend`] and [`large`], gather rooms: `equipoise::model::mesh` is also `equipoise::mesh`, and its
+//! files lie in `src/mesh`.
 //!
 //! # Example
 //! ```no_run
@@ -84,13 +84,19 @@ pub mod extend {
     pub use crate::{curve, skeleton, telescope};
 }
 
+/// Objects larger than the printer: the machines, sheets and fasteners of a laser-cut base.
+pub mod large {
+    #[doc(inline)]
+    pub use crate::cutter;
+}
+
 /// Checklists, job sheets, drawings and coupons.
 pub mod report {
     #[doc(inline)]
     pub use crate::{coupon, draw, page, press, sheet};
 }
 
-// The rooms of the five groups, and the command line, which is no library.
+// The rooms of the six groups, and the command line, which is no library.
 #[doc(hidden)]
 pub mod advice;
 #[doc(hidden)]
@@ -102,6 +108,8 @@ pub mod cli;
 pub mod coupon;
 #[doc(hidden)]
 pub mod curve;
+#[doc(hidden)]
+pub mod cutter;
 #[doc(hidden)]
 pub mod draw;
 #[doc(hidden)]

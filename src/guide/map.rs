@@ -29,7 +29,7 @@
 //! | Where does a number on the job sheet come from? | `sheet/from_run/checklist.rs` fills the `Checklist` that `page/job_sheet.rs` prints |
 //! | Which words does a remedy use for an option? | `Setting` in `base/setting.rs` is the option, `flag` in `cli/flags.rs` its word |
 //! | What is left behind when a run is killed? | `Staging` in `kit/staging.rs`, swept by the next run |
-//! | What does a printer's number rest on? | `Sourced` in `printer/sourced.rs`; the profiles lie in `profiles`, read by `printer/library.rs` |
+//! | What does a printer's number rest on? | `Sourced` in `base/sourced.rs`; the profiles lie in `profiles`, read by `printer/library.rs` |
 //! | Where is a curve met by a chain of tubes? | `fit` in `curve/fit/mod.rs`, from the starts of `curve/fit/starts.rs` down by `descend` in `curve/fit/descent.rs` |
 //! | How thick is a shell of a telescope, and why? | `Telescope::nest` in `telescope/nest.rs` adds clearances and walls from `telescope/sizes.rs` |
 //! | Who says that a telescope opens without a collision? | `Telescope::open_in` in `telescope/motion.rs`, over the gaps of `telescope/clearance.rs` |
@@ -38,3 +38,4 @@
 //! | How does a tube slide along its own axis? | `Helix` in `curve/helix.rs`: frames along a helix compose, so it slides in itself |
 //! | Where does a limb of a model begin and end, and how thick is it? | `Skeleton::of` in `skeleton/tree.rs`, by the contraction of `skeleton/flow.rs` and the pruning of `skeleton/tidy.rs` |
 //! | Which limbs become telescopes, and which stay solid? | `mark_solid` in `skeleton/solid.rs` and `Limbs` in `skeleton/limbs.rs` |
+//! | How wide is a laser's cut? | `Cutter::kerf` in `cutter/machine.rs`, from the profiles that `cutter/library.rs` lists |

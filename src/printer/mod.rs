@@ -47,7 +47,6 @@ mod resolve;
 mod room;
 mod shop;
 mod size;
-mod sourced;
 mod wall;
 
 pub use calibrate::{CalibrateError, Measured, calibrate};
@@ -60,5 +59,5 @@ pub use plate::{Plate, Spot};
 pub use quantity::Quantity;
 pub use shop::{CONFIGURATION, SHOP_FILE, ShopDefaults, ShopError};
 pub use size::{SizeError, check_room_for_void};
-pub use sourced::{Sourced, Sure};
+pub use crate::base::sourced::{Sourced, Sure};
 pub use wall::{WallChoice, WallError, whole_steps};

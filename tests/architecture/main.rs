@@ -68,6 +68,8 @@ const ARROWS: &[(&str, &[&str])] = &[
     // A new surface is drawn as voids are; the ladder below knows nothing of drawing.
     ("mend", &["base", "geom", "mesh", "repair", "voids"]),
     ("poses", &["base", "geom", "mesh"]),
+    // Profiles of cutters, sheets and fasteners are data, checked as those of printers are.
+    ("cutter", &["base"]),
     (
         "cut",
         &[
@@ -162,6 +164,7 @@ const ARROWS: &[(&str, &[&str])] = &[
             "ballast",
             "coupon",
             "cut",
+            "cutter",
             "draw",
             "error",
             "geom",
@@ -192,6 +195,7 @@ const ARROWS: &[(&str, &[&str])] = &[
             "ballast",
             "coupon",
             "curve",
+            "cutter",
             "draw",
             "error",
             "geom",
