@@ -84,10 +84,11 @@ pub mod extend {
     pub use crate::{curve, skeleton, telescope};
 }
 
-/// Objects larger than the printer: the machines, sheets and fasteners of a laser-cut base.
+/// Objects larger than the printer: the polyhedra of a laser-cut base, and the machines, sheets and
+/// fasteners that it is made with.
 pub mod large {
     #[doc(inline)]
-    pub use crate::cutter;
+    pub use crate::{cutter, polyhedra};
 }
 
 /// Checklists, job sheets, drawings and coupons.
@@ -138,6 +139,8 @@ pub mod mesh;
 pub mod open;
 #[doc(hidden)]
 pub mod page;
+#[doc(hidden)]
+pub mod polyhedra;
 #[doc(hidden)]
 pub mod poses;
 #[doc(hidden)]

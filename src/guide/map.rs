@@ -38,4 +38,7 @@
 //! | How does a tube slide along its own axis? | `Helix` in `curve/helix.rs`: frames along a helix compose, so it slides in itself |
 //! | Where does a limb of a model begin and end, and how thick is it? | `Skeleton::of` in `skeleton/tree.rs`, by the contraction of `skeleton/flow.rs` and the pruning of `skeleton/tidy.rs` |
 //! | Which limbs become telescopes, and which stay solid? | `mark_solid` in `skeleton/solid.rs` and `Limbs` in `skeleton/limbs.rs` |
+//! | Which part of a large object is its base? | `grow_polyhedron` in `polyhedra/inscribe.rs`; `Growth` in `polyhedra/growth.rs` moves the faces, `drop_cheapest` in `polyhedra/dropping.rs` leaves few |
+//! | Who says that a base stays inside the model? | `Separation::check` in `polyhedra/separation.rs`, one face for each triangle |
+//! | Where is a base parted into several? | `grow_polyhedra` in `polyhedra/plan.rs`; `polyhedra/connection.rs` joins them |
 //! | How wide is a laser's cut? | `Cutter::kerf` in `cutter/machine.rs`, from the profiles that `cutter/library.rs` lists |

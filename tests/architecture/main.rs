@@ -68,6 +68,8 @@ const ARROWS: &[(&str, &[&str])] = &[
     // A new surface is drawn as voids are; the ladder below knows nothing of drawing.
     ("mend", &["base", "geom", "mesh", "repair", "voids"]),
     ("poses", &["base", "geom", "mesh"]),
+    // A base is found in a solid alone: it knows of sheets and printers only lengths and angles.
+    ("polyhedra", &["base", "geom", "mesh"]),
     // Profiles of cutters, sheets and fasteners are data, checked as those of printers are.
     ("cutter", &["base"]),
     (
@@ -210,6 +212,7 @@ const ARROWS: &[(&str, &[&str])] = &[
             "mesh",
             "open",
             "page",
+            "polyhedra",
             "poses",
             "press",
             "repair",
