@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use super::error::{ProfileError, suggest};
 use super::fastener::Fastener;
-use super::library::{CUTTERS, FASTENERS, Profile, SHEETS, by_id, ids, is_path, read_text};
+use super::library::{CUTTERS, FASTENERS, SHEETS, by_id, ids, is_path, read_text};
 use super::machine::Cutter;
 use super::stock::StockSheet;
 

@@ -150,22 +150,24 @@ pub(super) fn complete_sheet(profile: Profile) -> Result<StockSheet, ProfileErro
         reader.note(0, Problem::Missing("size"));
     }
     reader.refuse_faults()?;
-    let sheet = (|| {
-        Some(StockSheet {
-            id: values.id,
-            name: values.name,
-            inherits: values.inherits,
-            profile_sha256: sha256,
-            material: material?,
-            thickness_mm: thickness_mm?,
-            thickness_range_mm: values.thickness_range_mm,
-            density_g_cm3: density_g_cm3?,
-            grain: grain?,
-            sizes: values.sizes,
-        })
-    })();
-    // Without a fault, no required value is missing.
-    sheet.ok_or_else(|| Faults(Vec::new()).into())
+    let (Some(material), Some(thickness_mm), Some(density_g_cm3), Some(grain)) =
+        (material, thickness_mm, density_g_cm3, grain)
+    else {
+        // Without a fault, no required value is missing.
+        return Err(Faults(Vec::new()).into());
+    };
+    Ok(StockSheet {
+        id: values.id,
+        name: values.name,
+        inherits: values.inherits,
+        profile_sha256: sha256,
+        material,
+        thickness_mm,
+        thickness_range_mm: values.thickness_range_mm,
+        density_g_cm3,
+        grain,
+        sizes: values.sizes,
+    })
 }
 
 /// Notes a thickness outside of the range of sheets on sale.

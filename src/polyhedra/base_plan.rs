@@ -54,7 +54,12 @@ pub(super) fn connected(
                     polyhedra: [&polyhedra[i], &polyhedra[j]],
                     plane: split.plane,
                 };
-                connections.extend(pair.connect(connector));
+                let is_free = |connection: &Connection| {
+                    let others = polyhedra.iter().enumerate();
+                    let mut others = others.filter(|(at, _)| *at != i && *at != j);
+                    !others.any(|(_, other)| connection.is_barred_by(other))
+                };
+                connections.extend(pair.connect(connector).filter(is_free));
             }
         }
     }

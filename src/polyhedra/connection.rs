@@ -35,6 +35,26 @@ pub struct Connection {
 }
 
 impl Connection {
+    /// Returns true if the connection comes within its radius of a polyhedron that it does not
+    /// join. Errs on the safe side near edges.
+    pub fn is_barred_by(&self, other: &Polyhedron) -> bool {
+        let way = self.ends[1] - self.ends[0];
+        // The stretch of the axis below all faces, moved out by the radius.
+        let [mut from, mut to] = [0.0_f64, 1.0];
+        for face in other.faces() {
+            let room_mm = self.radius_mm - face.plane.distance(&self.ends[0]);
+            let climb_mm = face.plane.normal.dot(&way);
+            if climb_mm > 0.0 {
+                to = to.min(room_mm / climb_mm);
+            } else if climb_mm < 0.0 {
+                from = from.max(room_mm / climb_mm);
+            } else if room_mm < 0.0 {
+                return false;
+            }
+        }
+        from <= to
+    }
+
     /// Returns the distance between the faces along the axis, mm.
     pub fn length_mm(&self) -> f64 {
         (self.ends[1] - self.ends[0]).norm()
@@ -109,6 +129,14 @@ impl Pair<'_> {
         let places = places(&shadows, &disc, request.radius_mm);
         let tubes = places.into_iter().filter_map(|center| {
             let (faces, ends) = self.exits(center)?;
+            // The whole disc leaves through one face on each side.
+            let is_in_face = |side: usize| {
+                let outline = self.flat_outline(side, faces[side]);
+                has_room(&outline, center, request.radius_mm)
+            };
+            if !is_in_face(0) || !is_in_face(1) {
+                return None;
+            }
             let bvh = self.ground.distance().bvh();
             let free_mm = bvh.segment_distance(&ends[0], &ends[1], f64::INFINITY);
             (free_mm >= least_mm).then_some((free_mm, faces, ends))
@@ -167,6 +195,15 @@ impl Pair<'_> {
     }
 }
 
+/// Returns true if a disc lies inside a convex outline that runs counterclockwise.
+fn has_room(outline: &[[f64; 2]], center: [f64; 2], radius_mm: f64) -> bool {
+    (0..outline.len()).all(|k| {
+        let [from, to] = [outline[k], outline[(k + 1) % outline.len()]];
+        let length = (to[0] - from[0]).hypot(to[1] - from[1]);
+        hull::turn(from, to, center) >= radius_mm * length
+    })
+}
+
 /// Returns places in both shadows at which a disc of the radius has room, the middle first.
 fn places(shadows: &[Vec<[f64; 2]>; 2], disc: &Disc, radius_mm: f64) -> Vec<[f64; 2]> {
     let corners = || shadows[0].iter();
@@ -179,15 +216,7 @@ fn places(shadows: &[Vec<[f64; 2]>; 2], disc: &Disc, radius_mm: f64) -> Vec<[f64
         low[axis] + (high[axis] - low[axis]) * (k as f64 + 0.5) / PLACES as f64
     };
     let grid = (0..PLACES * PLACES).map(|cell| [at(0, cell % PLACES), at(1, cell / PLACES)]);
-    let has_room = |p: &[f64; 2]| {
-        let edges = shadows.iter().flat_map(|shadow| {
-            (0..shadow.len()).map(|k| [shadow[k], shadow[(k + 1) % shadow.len()]])
-        });
-        edges.into_iter().all(|[from, to]| {
-            let length = (to[0] - from[0]).hypot(to[1] - from[1]);
-            hull::turn(from, to, *p) >= radius_mm * length
-        })
-    };
+    let has_room = |p: &[f64; 2]| shadows.iter().all(|shadow| has_room(shadow, *p, radius_mm));
     std::iter::once(disc.center)
         .chain(grid.filter(has_room))
         .collect()

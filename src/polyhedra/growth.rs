@@ -1,6 +1,7 @@
 //! Growth of a polyhedron, face by face, under a certificate that every step keeps.
 
 use super::convex::{Convex, FaceMeasure};
+use super::dealing::{deal_to_best, deal_to_idle};
 use super::limits::{Breach, Limits};
 use super::obstacles::Obstacles;
 use super::programme::{Row, maximise};
@@ -77,6 +78,13 @@ pub(super) struct Tilts {
     pub least: f64,
 }
 
+/// The rule by which obstacles are dealt to faces.
+#[derive(Debug, Clone, Copy)]
+enum Rule {
+    Best,
+    Idle,
+}
+
 impl<'a> Growth<'a> {
     /// Begins with planes that part every obstacle; `None` if they leave no room.
     pub fn new(terms: Terms<'a>, sides: &[Side]) -> Option<Self> {
@@ -115,7 +123,8 @@ impl<'a> Growth<'a> {
         let mut tilt = tilts.first;
         while tilt >= tilts.least {
             let before = self.merit_mm3;
-            self.round(tilt);
+            self.round(tilt, Rule::Best);
+            self.round(tilt, Rule::Idle);
             if self.merit_mm3 - before < LEAST_GAIN * self.volume_mm3 {
                 tilt *= TILT_RATIO;
             }
@@ -123,8 +132,8 @@ impl<'a> Growth<'a> {
     }
 
     /// Deals the obstacles to the faces and improves every face once.
-    fn round(&mut self, tilt: f64) {
-        let dealt = self.deal();
+    fn round(&mut self, tilt: f64, rule: Rule) {
+        let dealt = self.deal(rule);
         for (face, corners) in dealt.iter().enumerate() {
             if !self.is_locked[face] {
                 self.improve(face, corners, tilt);
@@ -143,7 +152,7 @@ impl<'a> Growth<'a> {
         for round in 0..rounds {
             // A move keeps the face's own corners parted, so that an old deal stays good.
             if round % ROUNDS_PER_DEAL == 0 {
-                dealt = self.deal();
+                dealt = self.deal(Rule::Best);
             }
             for (face, corners) in dealt.iter().enumerate() {
                 if self.is_locked[face] {
@@ -168,21 +177,20 @@ impl<'a> Growth<'a> {
         }
     }
 
-    /// Returns, for each face, the corners of the obstacles that it parts best.
-    fn deal(&mut self) -> Vec<Vec<u32>> {
+    /// Returns, for each face, the corners of the obstacles that are dealt to it.
+    fn deal(&mut self, rule: Rule) -> Vec<Vec<u32>> {
         self.measure_parted();
         let obstacles = self.terms.obstacles;
-        let mut best = vec![(f64::NEG_INFINITY, 0_usize); obstacles.len()];
-        for (face, parted) in self.parted.iter().enumerate() {
-            for (best, &parted) in best.iter_mut().zip(parted) {
-                if parted > best.0 {
-                    *best = (parted, face);
-                }
+        let owners = match rule {
+            Rule::Best => deal_to_best(&self.parted),
+            Rule::Idle => {
+                let most_mm = SHIFT_RATIO * self.size_mm;
+                deal_to_idle(&self.parted, self.terms.distance_mm, most_mm)
             }
-        }
+        };
         let mut dealt = vec![Vec::new(); self.planes.len()];
         let mut taken = vec![0_u64; obstacles.points().len()];
-        for (index, &(_, face)) in best.iter().enumerate() {
+        for (index, &face) in owners.iter().enumerate() {
             for &corner in obstacles.corners(index) {
                 let taken = &mut taken[corner as usize];
                 if *taken & 1 << face == 0 {

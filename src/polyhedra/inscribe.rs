@@ -6,10 +6,10 @@ use super::limits::Limits;
 use super::polyhedron::Polyhedron;
 use super::search::{Wish, search, widest_start_mm};
 use super::side::Side;
-use super::starts::{Deep, deep_points};
+use super::starts::{Deep, deep_points, flat_normals};
 use crate::base::verdict::Verdict;
 use crate::base::watch::{Cancelled, Watch};
-use crate::geom::{Plane, Point};
+use crate::geom::{Plane, Point, Vector};
 
 /// The usual number of faces.
 pub const FACES: usize = 12;
@@ -67,7 +67,7 @@ pub struct NoRoom {
 fn remedy(least_factor: Option<f64>) -> String {
     match least_factor {
         Some(factor) => format!("make the model {factor:.2} times as large, or ask for less wall"),
-        None => "make the model larger, or ask for less wall".to_owned(),
+        None => "make the model larger, ask for less wall or for more faces".to_owned(),
     }
 }
 
@@ -117,6 +117,7 @@ pub(super) struct Region<'a> {
     /// The planes that bound the part.
     pub locked: Vec<Plane>,
     deep: Vec<Deep>,
+    flats: Vec<Vector>,
 }
 
 impl<'a> Region<'a> {
@@ -130,6 +131,7 @@ impl<'a> Region<'a> {
         };
         Self {
             deep: deep_points(&ground.obstacles().aabb(), depth),
+            flats: flat_normals(ground.solid().mesh()),
             ground,
             request,
             locked,
@@ -182,6 +184,7 @@ impl<'a> Region<'a> {
             locked: &self.locked,
             faces: None,
             starts,
+            flats: &self.flats,
         }
     }
 
@@ -194,7 +197,7 @@ impl<'a> Region<'a> {
         NoRoom {
             deepest_mm: self.deep.first().map_or(0.0, |deep| deep.depth_mm),
             distance_mm,
-            least_factor: factor.is_finite().then_some(factor),
+            least_factor: (factor.is_finite() && factor > 1.0).then_some(factor),
         }
     }
 }

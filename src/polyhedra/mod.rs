@@ -27,6 +27,7 @@ mod base_file;
 mod base_plan;
 mod connection;
 mod convex;
+mod dealing;
 mod disc;
 mod dropping;
 mod ground;

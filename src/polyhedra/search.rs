@@ -6,12 +6,14 @@ use super::dropping::{drop_cheapest, drop_idle};
 use super::growth::{Growth, Terms, Tilts};
 use super::mending::mend;
 use super::random::Random;
-use super::starts::{Deep, Normals, common_mm, directions, first_sides};
+use super::starts::{Deep, Normals, common_mm, directions, directions_with, first_sides, regular};
 use crate::base::watch::{Cancelled, Watch};
 use crate::geom::{Plane, Vector};
 
 /// Least number of faces at the start: dropping some is better than starting with few.
 const FIRST_FACES: usize = 24;
+/// One start of so many begins with the final number of faces.
+const DIRECT_STRIDE: usize = 3;
 /// The tilts of the first growth.
 const FIRST: Tilts = Tilts {
     first: 0.35,
@@ -46,6 +48,8 @@ pub(super) struct Wish<'a> {
     pub faces: Option<usize>,
     /// The number of starts.
     pub starts: usize,
+    /// The normals of the model's flats: with any, there is one start more.
+    pub flats: &'a [Vector],
 }
 
 impl Wish<'_> {
@@ -54,9 +58,32 @@ impl Wish<'_> {
         Normals { free, locked }
     }
 
-    fn first_faces(&self) -> usize {
-        self.faces
-            .map_or(FIRST_FACES, |faces| faces.max(FIRST_FACES))
+    fn start_count(&self) -> usize {
+        self.starts + usize::from(!self.flats.is_empty())
+    }
+
+    /// Returns the deep point of a start: every other one, and that of the flats, is the deepest.
+    fn seat(&self, start: usize, seats: usize) -> usize {
+        if start.is_multiple_of(2) || start >= self.starts {
+            0
+        } else {
+            start / 2 % seats
+        }
+    }
+
+    /// Returns the directions of the first faces.
+    ///
+    /// Dropping faces is better than starting with few in most models, but not in round ones. One
+    /// start of three begins with as many faces as are asked for.
+    fn directions(&self, start: usize) -> Vec<Vector> {
+        let faces = self.faces.unwrap_or(FIRST_FACES);
+        if start >= self.starts {
+            directions_with(self.flats, FIRST_FACES)
+        } else if start % DIRECT_STRIDE == DIRECT_STRIDE - 1 {
+            regular(faces, start).unwrap_or_else(|| directions(faces, start))
+        } else {
+            directions(faces.max(FIRST_FACES), start)
+        }
     }
 }
 
@@ -73,22 +100,23 @@ pub(super) fn search<'a>(
     if seats == 0 {
         return Ok(None);
     }
-    let started: Result<Vec<Option<Growth>>, Cancelled> = (0..wish.starts)
+    let started: Result<Vec<Option<Growth>>, Cancelled> = (0..wish.start_count())
         .into_par_iter()
         .map(|start| {
             watch.check()?;
-            Ok(start_at(wish, &deep[seat_of(start, seats)], start))
+            Ok(start_at(wish, &deep[wish.seat(start, seats)], start))
         })
         .collect();
     let mut grown: Vec<Growth> = started?.into_iter().flatten().collect();
     grown.sort_by(|a, b| b.volume_mm3.total_cmp(&a.volume_mm3));
     if let Some(faces) = wish.faces {
-        grown.truncate(grown.len().div_ceil(STARTS_PER_FINALIST));
+        grown = finalists(grown, faces);
         let finished: Result<Vec<Growth>, Cancelled> = grown
             .into_par_iter()
             .map(|growth| finished(growth, faces, watch))
             .collect();
         grown = finished?;
+        grown.retain(|growth| growth.planes.len() <= faces);
     }
     let better = |a: Growth<'a>, b: Growth<'a>| if b.merit_mm3 > a.merit_mm3 { b } else { a };
     Ok(grown.into_iter().reduce(better))
@@ -99,12 +127,23 @@ pub(super) fn search<'a>(
 pub(super) fn widest_start_mm(wish: &Wish, deep: &[Deep]) -> f64 {
     let seats = seats(deep);
     let start = |start: usize| {
-        let at = &deep[seat_of(start, seats)].at;
-        let first = directions(wish.first_faces(), start);
+        let at = &deep[wish.seat(start, seats)].at;
+        let first = wish.directions(start);
         common_mm(&wish.terms, at, &wish.normals(&first))
     };
-    let starts = if seats == 0 { 0 } else { wish.starts };
+    let starts = if seats == 0 { 0 } else { wish.start_count() };
     (0..starts).map(start).fold(0.0, f64::max)
+}
+
+/// Returns the largest of the growths that have faces to drop, and of those that have none.
+fn finalists(grown: Vec<Growth>, faces: usize) -> Vec<Growth> {
+    let has_few = |growth: &Growth| growth.planes.len() <= faces;
+    let (few, many): (Vec<Growth>, Vec<Growth>) = grown.into_iter().partition(has_few);
+    let best = [few, many].into_iter().flat_map(|group| {
+        let count = group.len().div_ceil(STARTS_PER_FINALIST);
+        group.into_iter().take(count)
+    });
+    best.collect()
 }
 
 /// Counts the deep points at which a start is worth its time.
@@ -115,22 +154,16 @@ fn seats(deep: &[Deep]) -> usize {
         .count()
 }
 
-/// Returns the deep point of a start: every other one is the deepest.
-fn seat_of(start: usize, seats: usize) -> usize {
-    if start.is_multiple_of(2) {
-        0
-    } else {
-        start / 2 % seats
-    }
-}
-
 fn start_at<'a>(wish: &Wish<'a>, deep: &Deep, seed: usize) -> Option<Growth<'a>> {
     let terms = Terms {
         price: 0.0,
         ..wish.terms
     };
-    let first = directions(wish.first_faces(), seed);
-    let sides = first_sides(&terms, &deep.at, &wish.normals(&first))?;
+    let flats_alone = wish.normals(wish.flats);
+    let from_flats = first_sides(&terms, &deep.at, &flats_alone).filter(|_| seed >= wish.starts);
+    let first = wish.directions(seed);
+    let mixed = || first_sides(&terms, &deep.at, &wish.normals(&first));
+    let sides = from_flats.or_else(mixed)?;
     let mut growth = Growth::new(terms, &sides)?;
     growth.grow(FIRST);
     Some(growth)

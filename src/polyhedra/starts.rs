@@ -5,6 +5,7 @@ use rayon::prelude::*;
 use super::growth::Terms;
 use super::side::Side;
 use crate::geom::{Aabb, Plane, Point, Vector};
+use crate::mesh::TriMesh;
 
 /// Cells of the grid along the longest side on which deep points are looked for.
 const CELLS: usize = 24;
@@ -122,14 +123,87 @@ fn climb(depth: &impl Fn(&Point) -> f64, start: Point, step_mm: f64) -> Deep {
 /// better way to construct the sunflower head", Mathematical Biosciences 44, 1979, on a sphere.)
 pub(super) fn directions(count: usize, seed: usize) -> Vec<Vector> {
     let golden = std::f64::consts::PI * (3.0 - 5.0_f64.sqrt());
-    let [a, b, c] = [1.3, 2.1, 0.7].map(|rate| rate * seed as f64);
-    let turn = nalgebra::Rotation3::from_euler_angles(a, b, c);
+    let turn = turn(seed);
     let direction = |k: usize| {
         let z = 1.0 - (2.0 * k as f64 + 1.0) / count as f64;
         let (radius, angle) = ((1.0 - z * z).sqrt(), golden * k as f64);
         turn * Vector::new(radius * angle.cos(), radius * angle.sin(), z)
     };
     (0..count).map(direction).collect()
+}
+
+/// Returns the face normals of the regular polyhedron of `faces` faces, turned by the seed; `None`
+/// if there is no such polyhedron.
+pub(super) fn regular(faces: usize, seed: usize) -> Option<Vec<Vector>> {
+    let golden = (1.0 + 5.0_f64.sqrt()) / 2.0;
+    let turned = |[x, y, z]: [f64; 3]| [[x, y, z], [y, z, x], [z, x, y]];
+    let signs = [[1.0, 1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, -1.0]];
+    let in_planes = |a: f64, b: f64| signs.map(|[s, t]| turned([0.0, s * a, t * b])).concat();
+    let corners = signs.map(|[s, t]| [[s, t, 1.0], [s, t, -1.0]]).concat();
+    let normals: Vec<[f64; 3]> = match faces {
+        4 => vec![
+            [1.0, 1.0, 1.0],
+            [1.0, -1.0, -1.0],
+            [-1.0, 1.0, -1.0],
+            [-1.0, -1.0, 1.0],
+        ],
+        6 => [turned([1.0, 0.0, 0.0]), turned([-1.0, 0.0, 0.0])].concat(),
+        8 => corners,
+        12 => in_planes(1.0, golden),
+        20 => [in_planes(golden.recip(), golden), corners].concat(),
+        _ => return None,
+    };
+    let turn = turn(seed);
+    let unit = |normal: [f64; 3]| turn * Vector::from(normal).normalize();
+    Some(normals.into_iter().map(unit).collect())
+}
+
+/// Returns the rotation of a seed.
+fn turn(seed: usize) -> nalgebra::Rotation3<f64> {
+    let [a, b, c] = [1.3, 2.1, 0.7].map(|rate| rate * seed as f64);
+    nalgebra::Rotation3::from_euler_angles(a, b, c)
+}
+
+/// Normals within this angle belong to one flat, as a cosine: 8°.
+const FLAT_COSINE: f64 = 0.99;
+/// Directions of a spiral within this angle of a flat's normal are left out, as a cosine: 25°.
+const NEAR_COSINE: f64 = 0.9;
+/// The least share of the surface that counts as a flat.
+const FLAT_RATIO: f64 = 0.04;
+
+/// Returns the outward normals of the flats of a surface, the largest first; none for one that is
+/// round all over.
+///
+/// Triangles join the first flat of nearly their normal, the largest triangles first.
+pub(super) fn flat_normals(mesh: &TriMesh) -> Vec<Vector> {
+    let doubled = mesh.iter_corners().map(|[a, b, c]| (b - a).cross(&(c - a)));
+    let mut areas: Vec<Vector> = doubled.collect();
+    areas.sort_by(|a, b| b.norm_squared().total_cmp(&a.norm_squared()));
+    let total: f64 = areas.iter().map(Vector::norm).sum();
+    let mut flats: Vec<(Vector, Vector)> = Vec::new();
+    for area in areas {
+        let Some(normal) = area.try_normalize(0.0) else {
+            continue;
+        };
+        match flats
+            .iter_mut()
+            .find(|(first, _)| first.dot(&normal) > FLAT_COSINE)
+        {
+            Some((_, sum)) => *sum += area,
+            None => flats.push((normal, area)),
+        }
+    }
+    flats.retain(|(_, sum)| sum.norm() >= FLAT_RATIO * total);
+    flats.sort_by(|a, b| b.1.norm_squared().total_cmp(&a.1.norm_squared()));
+    flats.into_iter().map(|(_, sum)| sum.normalize()).collect()
+}
+
+/// Returns the normals of flats, and of directions spread over the sphere those that are far from
+/// all of them.
+pub(super) fn directions_with(flats: &[Vector], count: usize) -> Vec<Vector> {
+    let is_far = |way: &Vector| flats.iter().all(|flat| flat.dot(way) < NEAR_COSINE);
+    let others = directions(count, 0).into_iter().filter(is_far);
+    flats.iter().copied().chain(others).collect()
 }
 
 /// The directions of the first sides, and the planes that stay.
@@ -185,6 +259,7 @@ pub(super) fn common_mm(terms: &Terms, at: &Point, normals: &Normals) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::mesh::primitives;
 
     #[test]
     fn the_deep_points_of_two_balls_are_their_centres() {
@@ -201,6 +276,33 @@ mod tests {
             assert!((deep.at - centers[k]).norm() < 0.1, "{deep:?}");
             assert!((deep.depth_mm - radii[k]).abs() < 0.1, "{deep:?}");
         }
+    }
+
+    #[test]
+    fn the_normals_of_regular_polyhedra_are_evenly_spread() {
+        for (faces, least_deg) in [(4, 109.4), (6, 89.9), (8, 70.5), (12, 63.4), (20, 41.8)] {
+            let normals = regular(faces, 3).unwrap();
+            assert_eq!(normals.len(), faces);
+            for (k, a) in normals.iter().enumerate() {
+                let others = normals.iter().skip(k + 1);
+                let nearest = others.map(|b| a.angle(b)).fold(f64::INFINITY, f64::min);
+                assert!(nearest.to_degrees() > least_deg, "{faces}: {nearest}");
+            }
+        }
+        assert_eq!(regular(7, 0), None);
+    }
+
+    #[test]
+    fn a_block_has_six_flats_and_a_ball_none() {
+        let block = primitives::cuboid(&Point::origin(), &Point::new(9.0, 5.0, 3.0));
+        let flats = flat_normals(&block);
+        assert_eq!(flats.len(), 6);
+        assert!(flats[0].x == 0.0 && flats[0].y == 0.0 && flats[5].x.abs() == 1.0);
+        let with_others = directions_with(&flats, 24);
+        assert_eq!(with_others[..6], flats);
+        assert!((7..30).contains(&with_others.len()));
+        let ball = primitives::ball(&Point::origin(), 9.0, 4);
+        assert_eq!(flat_normals(&ball), []);
     }
 
     #[test]

@@ -1,8 +1,9 @@
 //! The polyhedra from which vertices are moved.
 
 use super::super::convex::Convex;
+use super::super::starts::regular;
 use crate::base::words::choice;
-use crate::geom::{Aabb, Plane, Point, Vector};
+use crate::geom::{Aabb, Plane, Point};
 
 choice! {
     /// A regular polyhedron.
@@ -16,9 +17,6 @@ choice! {
     }
 }
 
-/// The golden ratio.
-const GOLDEN: f64 = 1.618_033_988_749_895;
-
 /// Corners and faces, each face a loop of corners counterclockwise from outside.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Shape {
@@ -27,31 +25,17 @@ pub(super) struct Shape {
 }
 
 impl StartSolid {
-    fn normals(self) -> Vec<Vector> {
-        let turned = |x: f64, y: f64, z: f64| [[x, y, z], [y, z, x], [z, x, y]];
-        let signed = |[a, b]: [f64; 2]| {
-            let signs = [[1.0, 1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, -1.0]];
-            signs.map(|[s, t]| turned(0.0, s * a, t * b)).concat()
-        };
-        let normals = match self {
-            Self::Cube => [turned(1.0, 0.0, 0.0), turned(-1.0, 0.0, 0.0)].concat(),
-            Self::Dodecahedron => signed([1.0, GOLDEN]),
-            Self::Icosahedron => {
-                let sign = |bits: usize, k: usize| if bits >> k & 1 == 1 { 1.0 } else { -1.0 };
-                let corner = |bits: usize| [sign(bits, 0), sign(bits, 1), sign(bits, 2)];
-                let mut all = signed([GOLDEN.recip(), GOLDEN]);
-                all.extend((0..8).map(corner));
-                all
-            }
-        };
-        let unit = |normal: [f64; 3]| Vector::from(normal).normalize();
-        normals.into_iter().map(unit).collect()
+    fn face_count(self) -> usize {
+        match self {
+            Self::Cube => 6,
+            Self::Dodecahedron => 12,
+            Self::Icosahedron => 20,
+        }
     }
 
     /// Returns the polyhedron about a point with its corners at a radius, mm.
     pub(super) fn shape(self, center: &Point, radius_mm: f64) -> Option<Shape> {
-        let planes: Vec<Plane> = self
-            .normals()
+        let planes: Vec<Plane> = regular(self.face_count(), 0)?
             .into_iter()
             .map(|normal| Plane {
                 normal,
