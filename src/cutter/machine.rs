@@ -131,14 +131,10 @@ impl Cutter {
     /// of the nearest.
     pub fn kerf(&self, material: SheetMaterial, thickness_mm: f64) -> Result<KerfAt, CannotCut> {
         let is_of = |kerf: &&Kerf| kerf.material == material;
-        let below = self.kerfs.iter().filter(is_of);
-        let below = below
-            .filter(|kerf| kerf.thickness_mm <= thickness_mm)
-            .last();
-        let above = self.kerfs.iter().filter(is_of);
-        let above = above
-            .into_iter()
-            .find(|kerf| kerf.thickness_mm >= thickness_mm);
+        let mut below = self.kerfs.iter().filter(is_of);
+        let below = below.rfind(|kerf| kerf.thickness_mm <= thickness_mm);
+        let mut above = self.kerfs.iter().filter(is_of);
+        let above = above.find(|kerf| kerf.thickness_mm >= thickness_mm);
         match (below, above) {
             (Some(thin), Some(thick)) if thin != thick => Ok(between(thin, thick, thickness_mm)),
             (Some(only), _) | (None, Some(only)) => Ok(KerfAt {

@@ -1,8 +1,8 @@
 //! The face that keeps each obstacle away.
 //!
-//! Two rules take turns. The first is safe for faces that tilt, but can stall: a face that could
-//! move far takes obstacles beside it, and stays for their sake. The second leaves those to faces
-//! that cannot move anyway.
+//! Two rules take turns. The first is good for faces that tilt, but it can stall. A face that could
+//! move far takes obstacles beside it, and stays for their sake. The second rule leaves those to
+//! faces that cannot move anyway.
 
 /// For each plane, by how much it parts each obstacle, mm.
 pub(super) type Parted = [Vec<f64>];

@@ -45,8 +45,8 @@ pub(super) fn mend<'a>(mut growth: Growth<'a>, faces: usize, random: &mut Random
 /// Returns the growth with a bevel along the edge of two faces, at several depths.
 fn bevelled<'a>(growth: &Growth<'a>, [f, g]: [usize; 2]) -> Vec<Growth<'a>> {
     let edges = growth.body.edges().into_iter();
-    let edge = edges.filter(|edge| edge.planes == [f, g] || edge.planes == [g, f]);
-    let Some(edge) = edge.last() else {
+    let mut edge = edges.filter(|edge| edge.planes == [f, g] || edge.planes == [g, f]);
+    let Some(edge) = edge.next_back() else {
         return Vec::new();
     };
     let normals = [f, g].map(|face| growth.planes[face].normal);

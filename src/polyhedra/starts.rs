@@ -302,7 +302,7 @@ mod tests {
         assert_eq!(with_others[..6], flats);
         assert!((7..30).contains(&with_others.len()));
         let ball = primitives::ball(&Point::origin(), 9.0, 4);
-        assert_eq!(flat_normals(&ball), []);
+        assert!(flat_normals(&ball).is_empty());
     }
 
     #[test]

@@ -7,7 +7,22 @@
 //! the mean of its corners until every sample keeps the distance.
 //!
 //! Between samples nothing is promised. [`VertexPolyhedron::certified_mm`] says what the planes of
-//! the faces do promise.
+//! the faces do promise. Less than the distance does not mean that it is broken: a triangle beside
+//! an edge may be parted by no single face.
+//!
+//! The table has shares of the volume of models of 600 mm at a distance of 5 mm. In brackets is
+//! the distance that the faces certify, mm. The last column is that of planes
+//! (`tests/polyhedra.rs`).
+//!
+//! | model | cube | dodecahedron | icosahedron | 12 planes |
+//! | --- | --- | --- | --- | --- |
+//! | bunny | 0.301 (-1.0) | 0.503 (-3.6) | 0.515 (-5.3) | 0.487 (5.0) |
+//! | homer | 0.034 (-3.8) | 0.037 (2.7) | 0.230 (-0.2) | 0.310 (5.0) |
+//! | humpty | 0.287 (-0.5) | 0.054 (1.4) | 0.080 (3.6) | 0.425 (5.0) |
+//! | elephant | 0.213 (-0.9) | 0.048 (-1.0) | 0.259 (1.3) | 0.242 (5.0) |
+//!
+//! The descent often stalls where a vertex meets the surface. In the bunny, the distance from
+//! samples alone leaves room for 4 to 6 % more than one face for each triangle does.
 
 mod descent;
 mod energy;
@@ -17,6 +32,7 @@ pub use start::StartSolid;
 
 use super::ground::Ground;
 use super::inscribe::NoRoom;
+use super::separation::ROUNDING_MM;
 use super::starts::deep_points;
 use crate::base::verdict::Verdict;
 use crate::base::watch::{Cancelled, Watch};
@@ -86,11 +102,7 @@ pub fn grow_by_vertices(
     let start = deep.first().filter(|_| room_mm > 0.0);
     let shape = start.and_then(|deep| request.start.shape(&deep.at, START_RATIO * room_mm));
     let Some(shape) = shape else {
-        return Ok(Verdict::No(NoRoom {
-            deepest_mm,
-            distance_mm: request.distance_mm,
-            least_factor: None,
-        }));
+        return Ok(Verdict::No(no_room(deepest_mm, request)));
     };
     let structure = Structure::new(&shape, request.samples_per_edge);
     let field = Field {
@@ -113,12 +125,21 @@ pub fn grow_by_vertices(
         };
     }
     let corners = shrunk(&structure, corners, &field);
-    Ok(Verdict::Found(measured(
-        ground,
-        &structure,
-        corners,
-        shape.faces,
-    )))
+    let found = measured(ground, &structure, corners, shape.faces);
+    // Bent around a hole, even its middle may be too near to the surface.
+    Ok(if found.sampled_mm < request.distance_mm - ROUNDING_MM {
+        Verdict::No(no_room(deepest_mm, request))
+    } else {
+        Verdict::Found(found)
+    })
+}
+
+fn no_room(deepest_mm: f64, request: &VertexRequest) -> NoRoom {
+    NoRoom {
+        deepest_mm,
+        distance_mm: request.distance_mm,
+        least_factor: None,
+    }
 }
 
 /// Shrinks the polyhedron about the mean of its corners until every sample keeps the distance.
