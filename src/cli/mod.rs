@@ -4,6 +4,7 @@ pub mod args;
 pub mod bars;
 pub mod broken;
 pub mod coupon;
+pub mod cutters;
 mod cuts;
 mod exit;
 mod flags;
@@ -75,6 +76,10 @@ fn dispatch(cli: Cli, manner: Manner) -> Result<Exit, Box<dyn Error + Send + Syn
         }
         Command::Printers(args) => {
             printers::run(args.action, voice.json, out)?;
+            Ok(Exit::Kept)
+        }
+        Command::Cutters(args) => {
+            cutters::run(args.action, voice.json, out)?;
             Ok(Exit::Kept)
         }
         Command::Coupon(args) => Ok(coupon::coupon(&args, voice, &Stop::on_signals(), out)?),

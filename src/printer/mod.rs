@@ -48,7 +48,6 @@ mod resolve;
 mod room;
 mod shop;
 mod size;
-mod sourced;
 mod wall;
 
 pub use calibrate::{CalibrateError, Measured, calibrate};
@@ -62,5 +61,5 @@ pub use plate::{Plate, Spot};
 pub use quantity::Quantity;
 pub use shop::{CONFIGURATION, SHOP_FILE, ShopDefaults, ShopError};
 pub use size::{SizeError, check_room_for_void};
-pub use sourced::{Sourced, Sure};
+pub use crate::base::sourced::{Sourced, Sure};
 pub use wall::{WallChoice, WallError, whole_steps};

@@ -3,6 +3,7 @@
 mod again;
 mod ballast;
 mod cut;
+mod cutters;
 mod error;
 mod goal;
 mod missing;
@@ -24,6 +25,7 @@ use clap::{Args, Parser, Subcommand};
 use clap_complete::Shell;
 
 pub use again::again;
+pub use cutters::{CuttersAction, CuttersArgs, NewCutterArgs};
 pub use error::ArgsError;
 pub use missing::Missing;
 pub use prepare::{DEFAULT_PLANS, PrepareArgs, Request};
@@ -110,6 +112,8 @@ pub enum Command {
     Skeleton(SkeletonArgs),
     /// List the known printers, show one, or check a profile of your own
     Printers(PrintersArgs),
+    /// List the known laser cutters, sheets and fasteners, show one, or check a profile of your own
+    Cutters(CuttersArgs),
     /// Make coupons to weigh and try, to fit a profile to the machine
     Coupon(CouponArgs),
     /// Check a kit's files, and name those that changed
