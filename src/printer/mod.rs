@@ -50,6 +50,7 @@ mod shop;
 mod size;
 mod wall;
 
+pub use crate::base::sourced::{Sourced, Sure};
 pub use calibrate::{CalibrateError, Measured, calibrate};
 pub use cleaning::{Cleaning, CleaningRule};
 pub use corner::{Corner, ExcludedCorner};
@@ -61,5 +62,4 @@ pub use plate::{Plate, Spot};
 pub use quantity::Quantity;
 pub use shop::{CONFIGURATION, SHOP_FILE, ShopDefaults, ShopError};
 pub use size::{SizeError, check_room_for_void};
-pub use crate::base::sourced::{Sourced, Sure};
 pub use wall::{WallChoice, WallError, whole_steps};
