@@ -142,6 +142,7 @@ fn more_faces_fill_more_of_a_ball() {
 }
 
 #[test]
+#[ignore = "takes minutes, and needs models that are not part of the project"]
 fn the_reference_table_is_reached_and_every_certificate_holds() {
     for (name, reference) in TABLE {
         let Some(ground) = shared(name) else { return };
@@ -155,6 +156,7 @@ fn the_reference_table_is_reached_and_every_certificate_holds() {
 }
 
 #[test]
+#[ignore = "takes minutes, and needs models that are not part of the project"]
 fn with_all_limits_the_share_is_085_of_the_reference_or_the_limit_is_named() {
     for (name, reference) in TABLE {
         let Some(ground) = shared(name) else { return };
@@ -178,6 +180,7 @@ fn with_all_limits_the_share_is_085_of_the_reference_or_the_limit_is_named() {
 }
 
 #[test]
+#[ignore = "takes minutes, and needs models that are not part of the project"]
 fn many_triangles_and_thin_limbs_end_with_a_polyhedron() {
     for name in ["armadillo.obj", "rocker-arm.obj"] {
         let Some(ground) = shared(name) else { return };
@@ -190,6 +193,7 @@ fn many_triangles_and_thin_limbs_end_with_a_polyhedron() {
 }
 
 #[test]
+#[ignore = "takes minutes, and needs models that are not part of the project"]
 fn two_polyhedra_fill_more_than_one_and_are_parted() {
     for (name, reference, one) in [("bunny.stl", 0.55, 0.5), ("homer.obj", 0.37, 0.33)] {
         let Some(ground) = shared(name) else { return };
@@ -477,6 +481,7 @@ fn the_method_of_the_paper_agrees_on_simple_bodies_and_keeps_its_samples_away() 
 }
 
 #[test]
+#[ignore = "takes minutes, and needs models that are not part of the project"]
 fn what_the_method_of_the_paper_fills_more_it_cannot_certify() {
     for (name, _) in TABLE {
         let Some(ground) = shared(name) else { return };

@@ -106,13 +106,13 @@ pub enum Command {
     Telescope(Box<TelescopeArgs>),
     /// Show a model's facts, and which of the five goals it can reach
     Inspect(InspectArgs),
-    /// Find the skeleton of a model, for telescopes: its limbs, and how thick they are
+    /// Find the limbs inside a model, for telescopes, and how thick they are
     ///
     /// It writes a file to edit and a picture. Given such a file, it checks it.
     Skeleton(SkeletonArgs),
     /// List the known printers, show one, or check a profile of your own
     Printers(PrintersArgs),
-    /// List the known laser cutters, sheets and fasteners, show one, or check a profile of your own
+    /// List laser cutters, sheets and fasteners, or check a profile
     Cutters(CuttersArgs),
     /// Make coupons to weigh and try, to fit a profile to the machine
     Coupon(CouponArgs),
