@@ -106,7 +106,7 @@ pub enum Command {
     Telescope(Box<TelescopeArgs>),
     /// Show a model's facts, and which of the five goals it can reach
     Inspect(InspectArgs),
-    /// Find the limbs inside a model, for telescopes, and how thick they are
+    /// Find the limbs inside a model and their radii, for telescopes
     ///
     /// It writes a file to edit and a picture. Given such a file, it checks it.
     Skeleton(SkeletonArgs),
