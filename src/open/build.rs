@@ -8,7 +8,9 @@ use super::refused::unless_refused;
 use super::resolve::Kept;
 use super::way::Candidate;
 use crate::base::verdict::Verdict;
-use crate::cut::{Cut, CutId, CutMove, CutOrder, CutPlan, Hollowed, draft_again, finish_draft};
+use crate::cut::{
+    Cut, CutId, CutMove, CutOrder, CutPlan, Hollowed, draft_again, finish_draft, keeps_socket_walls,
+};
 use crate::error::Error;
 use crate::geom::Point;
 use crate::run::{Achieved, BossRound, Opened, Policy};
@@ -132,6 +134,11 @@ pub fn build<'a>(
         if let Some(mut built) = built {
             // A jig that holds on the copy may not hold on the body.
             if count_unaligned_of(&built.opened)? > count_unaligned_of(&planned.opened)? {
+                continue;
+            }
+            // A pin that the copy has room for may lie too near the body's outside.
+            let Opened { voids, plan, .. } = &built.opened;
+            if !keeps_socket_walls(&voids.hollowed, plan, &built.opened.request) {
                 continue;
             }
             built.opened.bosses = join(&planned.opened.bosses, built.opened.bosses);

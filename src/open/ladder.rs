@@ -139,7 +139,7 @@ impl<'a> Ladder<'a> {
             return self.climb_beyond(usual, walls);
         }
         match unless_refused(shown.climb_shown(drafted))? {
-            Some(mut aligned) if count_unaligned_in_best(&aligned)? <= left => {
+            Some(mut aligned) if count_unaligned_in_best(&aligned)? < left => {
                 aligned[0].opened.remarks.push(Remark::SeamsAligned);
                 Ok(aligned)
             }

@@ -123,6 +123,8 @@ pub struct Policy {
     pub lack_growth: f64,
     /// Number of plans with hidden seams that are tried.
     pub hidden_rounds: usize,
+    /// Number of times that plans are sought which keep clear of the spot that shows most.
+    pub clear_rounds: usize,
     /// Price of losing all of the figure, against that of seams, in circles of average weight.
     pub loss_price: f64,
     /// Greatest loss for a plan whose seams are seen less.
@@ -201,6 +203,7 @@ impl Policy {
         lack_weight: 4.0,
         lack_growth: 2.0,
         hidden_rounds: 5,
+        clear_rounds: 2,
         loss_price: 0.5,
         seam_loss_ratio: 0.1,
         part_loss_ratio: 0.02,

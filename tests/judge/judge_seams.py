@@ -190,7 +190,7 @@ class Row:
                 yield center, mark["radius"] * SIZE_MM
 
     def kit(self, suffix, *more):
-        """The kit with more options, made unless it is there; None if there is none, which the text beside it explains."""
+        """The kit with more options, made unless it is there; None if there is none, or one that breaks a promise. The text beside it explains."""
         out = self.run.out / "-".join([self.name, self.goal, self.printer, *([suffix] if suffix else [])])
         told = out.with_name(out.name + ".txt")
         if not told.exists():
@@ -198,7 +198,8 @@ class Row:
             command += ["--size", f"{SIZE_MM:g}mm", "--out", str(out), "--force", *more, *shlex.split(self.run.more)]
             done = subprocess.run(command, capture_output=True, text=True)
             told.write_text(f"{shlex.join(command)}\nexit {done.returncode}\n{done.stdout}{done.stderr}")
-        return Kit(out) if (out / "checklist.json").exists() else None
+        is_kit = (out / "checklist.json").exists() and "\nexit 0\n" in told.read_text()
+        return Kit(out) if is_kit else None
 
     def refusal(self):
         told = (self.run.out / f"{self.name}-{self.goal}-{self.printer}.txt").read_text()
@@ -211,7 +212,7 @@ class Row:
         kit, short = self.kit(""), self.kit("short", "--seam", "short")
         if kit is None:
             print(f"{label} {self.refusal()} | | | | | | |", flush=True)
-            return True
+            return not (self.run.out / f"{self.name}-{self.goal}-{self.printer}" / "checklist.json").exists()
         seams = kit.seams(self.up)
         is_cut = any(seam.enters(*face) for seam in seams for face in self.faces())
         clear = self.kit("clear", *(word for (x, y, z), r in self.faces() for word in ("--keep-clear", f"{x},{y},{z},{r}"))) if is_cut else None

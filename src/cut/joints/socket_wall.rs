@@ -48,6 +48,19 @@ pub fn find_thin_sockets(
         .map(|rooms| rooms.into_iter().flatten().collect())
 }
 
+/// Returns whether every socket keeps its wall, up to the outside and to all voids. Pins that were
+/// placed on a coarser body may not.
+pub fn keeps_socket_walls(hollowed: &Hollowed, plan: &CutPlan, request: &PlanRequest) -> bool {
+    let material = hollowed.to_mesh();
+    let surface = Bvh::new(material.iter_corners());
+    let keeps = |pin: &PinSite| {
+        let [from, to] = ends(pin);
+        let needed_mm = radius_mm(pin, request) - SLACK_MM;
+        surface.segment_distance(&from, &to, needed_mm) >= needed_mm
+    };
+    plan.pins.iter().all(keeps)
+}
+
 /// Returns the room of a pin's socket as a boss; `None` if the plan has no joint of that pin.
 fn room_of(pin: &PinSite, plan: &CutPlan, request: &PlanRequest) -> Result<Option<Boss>, CutError> {
     let joint = plan
@@ -154,6 +167,32 @@ mod tests {
         // The ball is a polyhedron: its surface lies up to some hundredths inside.
         let clear = air_below(pin, request.wall_mm + 0.01);
         assert_eq!(find_thin_sockets(&clear, &plan, &request), Ok(Vec::new()));
+    }
+
+    #[test]
+    fn a_wall_that_is_thin_up_to_the_outside_is_found_as_one_up_to_a_void() {
+        let (hollowed, plan, request) = slab();
+        let keeps = |hollowed: &Hollowed| keeps_socket_walls(hollowed, &plan, &request);
+        assert!(keeps(&hollowed));
+        assert!(!keeps(&air_below(&plan.pins[1], request.wall_mm - 0.1)));
+        // The same pins in a slab that ends close beside one of them.
+        let pin = &plan.pins[0];
+        let bore_mm = PinSite::socket_corner_mm(pin.socket_diameter_mm);
+        let narrow = |wall_mm: f64| {
+            let reach_mm = bore_mm + wall_mm;
+            let [x, _, _] = pin.center_mm;
+            let [low, high] = if x > 0.0 {
+                [-25.0, x + reach_mm]
+            } else {
+                [x - reach_mm, 25.0]
+            };
+            Hollowed {
+                outer: Hollowed::new(cuboid([low, -25.0, -8.0], [high, 25.0, 8.0]), vec![]).outer,
+                ..hollowed.clone()
+            }
+        };
+        assert!(!keeps(&narrow(request.wall_mm - 0.1)));
+        assert!(keeps(&narrow(request.wall_mm + 0.01)));
     }
 
     #[test]

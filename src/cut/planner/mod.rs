@@ -12,6 +12,7 @@ pub(crate) mod mirror;
 pub(crate) mod scene;
 pub(crate) mod score;
 pub(crate) mod search;
+pub(crate) mod shift;
 pub(crate) mod straighten;
 pub(crate) mod to_plan;
 pub(crate) mod turns;
@@ -38,6 +39,7 @@ use crate::{
             layout::Layout,
             score::{Scene, burden, estimate_seam_penalty},
             search::{Found, smallest_plans},
+            shift::shift_to_creases,
             straighten::straighten,
             to_plan::{rename_cuts, to_plan},
         },
@@ -253,6 +255,7 @@ fn check_request(request: &PlanRequest) -> Result<(), CutError> {
 fn opening_cuts(scene: &Scene, found: &Found, notes: &mut Vec<Remark>) -> Result<Layout, CutError> {
     notes.push(Remark::Fewest(found.proof()));
     let best = straighten(scene, cleanest(scene, &found.plans)?)?;
+    let best = shift_to_creases(scene, best)?;
     let mut of_extra = Vec::new();
     let full = add_extra_cuts(scene, best.clone(), &mut of_extra)?;
     let has_extra = full.planes.len() > best.planes.len();

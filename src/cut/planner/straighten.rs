@@ -64,7 +64,7 @@ fn turn_straight(scene: &Scene, plane: &Plane) -> Option<Plane> {
 
 /// Returns whether an attempt opens and cleans what another one does, and leaves hardly more out of
 /// sight.
-fn opens_as_well(scene: &Scene, before: &Attempt, after: &Attempt) -> bool {
+pub(crate) fn opens_as_well(scene: &Scene, before: &Attempt, after: &Attempt) -> bool {
     let is_open = |void: &VoidAccess| void.opening_mm >= scene.request.min_opening_mm;
     let mut pairs = before.voids.iter().zip(&after.voids);
     let spare_mm2 = STRAIGHT_WORTH_RATIO * before.area_mm2();

@@ -10,11 +10,18 @@ use crate::{
         ids::CutId,
         plan::CutPlan,
         request::PlanRequest,
-        seam::skin::SeamLie,
+        seam::{
+            clear::KeepClear,
+            skin::{SeamLie, Stretch},
+        },
     },
     geom::{Parting, Plane, Point},
     mesh::TriMesh,
 };
+
+/// Radius of the ball about the dearest stretch of a seam, in diagonals: half a face on the shared
+/// figures. With less, the next plan crosses the other half; with more, few plans are left.
+const SPOT_RATIO: f64 = 0.08;
 
 /// The seam that one cut leaves on the outside.
 #[derive(Debug, Clone, PartialEq)]
@@ -69,6 +76,45 @@ pub fn seams(
     Ok(partings.iter().enumerate().map(note).collect())
 }
 
+/// Returns the ball about the dearest stretch of a plan's seams: a face, if they cross one. `None`
+/// if there is no seam, or nobody looked.
+///
+/// # Errors
+/// As for [`seams`].
+pub fn dearest_spot(
+    outer: &TriMesh,
+    plan: &CutPlan,
+    request: &PlanRequest,
+) -> Result<Option<KeepClear>, CutError> {
+    let Some(skin) = request.seams.skin.as_ref() else {
+        return Ok(None);
+    };
+    let partings = plan.partings()?;
+    let planes: Vec<Plane> = partings.iter().map(|parting| parting.plane).collect();
+    let bridges = plan.bridges(&planes);
+    let stretches = partings.iter().enumerate().flat_map(|(index, parting)| {
+        let whole = bridges.iter().filter(|bridge| bridge.cut == index);
+        let whole: Vec<Point2> = whole.map(|bridge| bridge.at).collect();
+        let segments = segments(outer, parting, &whole);
+        skin.stretches(&parting.plane, segments.into_iter())
+    });
+    let stretches: Vec<Stretch> = stretches.collect();
+    let radius_mm = SPOT_RATIO * outer.aabb().size().norm();
+    let price_about = |at: &Point| -> f64 {
+        let near = stretches.iter();
+        let near = near.filter(|stretch| (stretch.at - at).norm() < radius_mm);
+        near.map(|stretch| stretch.price_mm).sum()
+    };
+    let priced = stretches
+        .iter()
+        .map(|stretch| (price_about(&stretch.at), stretch.at));
+    let dearest = priced.max_by(|a, b| a.0.total_cmp(&b.0));
+    Ok(dearest.map(|(_, at)| KeepClear {
+        center_mm: at.into(),
+        radius_mm,
+    }))
+}
+
 /// Returns the segments in which a cut meets the outside. Left out are those beyond its limits, and
 /// faces that hold one of the points `whole`.
 fn segments(outer: &TriMesh, parting: &Parting, whole: &[Point2]) -> Vec<[Point; 2]> {
@@ -91,6 +137,7 @@ mod tests {
     use super::*;
     use crate::base::watch::Watch;
     use crate::cut::scenes::{ball, cuboid, plan, plan_by, request, with_balls};
+    use crate::cut::seam::clear::ClearBalls;
     use crate::cut::{Cut, CutOrder, PlanRequest, SeamStyle, Seams};
     use crate::geom::Vector;
 
@@ -125,6 +172,37 @@ mod tests {
         assert_eq!(notes[0].lie, Some(SeamLie::Level));
         let [low, high] = notes[0].heights.unwrap();
         assert!((low - 0.45).abs() < 1e-3 && (high - 0.45).abs() < 1e-3);
+    }
+
+    #[test]
+    fn the_dearest_spot_lies_on_the_seam_and_keeps_that_cut_away() {
+        let body = with_balls(
+            cuboid([0.0; 3], [30.0, 20.0, 20.0]),
+            &[[15.0, 10.0, 10.0, 4.0]],
+        );
+        let tilted = Cut {
+            id: CutId::of(0),
+            point_mm: [15.0, 10.0, 10.0],
+            normal: [0.5, 0.0, 1.0],
+            within: Vec::new(),
+        };
+        let order = CutOrder {
+            cuts: vec![tilted],
+            ..CutOrder::default()
+        };
+        let outer = body.outer.mesh();
+        let looked = looked_at(outer);
+        let plan = plan_by(&body, &looked, &order).unwrap();
+        let spot = dearest_spot(outer, &plan, &looked).unwrap().unwrap();
+        assert!((spot.radius_mm - SPOT_RATIO * outer.aabb().size().norm()).abs() < 1e-9);
+        let plane = plan.partings().unwrap()[0].plane;
+        assert!(
+            plane.distance(&Point::from(spot.center_mm)).abs() < 1e-6,
+            "{spot:?}"
+        );
+        let balls = ClearBalls::new(&[spot], outer, 0.0);
+        assert!(balls.entered(&plane).is_some(), "it keeps that cut away");
+        assert_eq!(dearest_spot(outer, &plan, &request()), Ok(None));
     }
 
     #[test]

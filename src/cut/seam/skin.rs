@@ -124,20 +124,32 @@ impl Skin {
         plane: &Plane,
         segments: impl Iterator<Item = [Point; 2]>,
     ) -> f64 {
+        let stretches = self.stretches(plane, segments);
+        let sum_mm: f64 = stretches.iter().map(|stretch| stretch.price_mm).sum();
+        sum_mm / self.circle_mm()
+    }
+
+    /// Returns the stretches of a plane's seam along segments of its section, with their prices.
+    pub(crate) fn stretches(
+        &self,
+        plane: &Plane,
+        segments: impl Iterator<Item = [Point; 2]>,
+    ) -> Vec<Stretch> {
         let reach_mm = REACH_RATIO * self.size_mm;
         let is_near = |sample: &&Sample| plane.distance(&sample.at).abs() < 3.0 * reach_mm;
         let near: Vec<&Sample> = self.samples.iter().filter(is_near).collect();
         let step_mm = STEP_RATIO * self.size_mm;
-        let (mut sum_mm, mut held) = (0.0, Held::default());
+        let (mut stretches, mut held) = (Vec::new(), Held::default());
         for [a, b] in segments {
             let length_mm = (b - a).norm();
             let steps = (length_mm / step_mm).ceil().max(1.0);
             for step in 0..steps as usize {
                 let at = a + (b - a) * ((step as f64 + 0.5) / steps);
-                sum_mm += length_mm / steps * held.weight(&near, &at, reach_mm);
+                let price_mm = length_mm / steps * held.weight(&near, &at, reach_mm);
+                stretches.push(Stretch { at, price_mm });
             }
         }
-        sum_mm / self.circle_mm()
+        stretches
     }
 
     /// Returns the lie of a cut: a slanted one may follow a neck, a crease or the base.
@@ -229,6 +241,15 @@ impl Skin {
         let mut seam = seam.filter(|sample| plane.distance(&sample.at).abs() < half_mm);
         seam.all(|sample| self.up.dot(&sample.at.coords) < top_mm)
     }
+}
+
+/// A short stretch of a seam.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Stretch {
+    /// Its middle.
+    pub(crate) at: Point,
+    /// Its length, weighted by what is seen there, mm.
+    pub(crate) price_mm: f64,
 }
 
 /// The weight at the last place that was asked for: neighbours on a fine outline share it.

@@ -3,7 +3,7 @@
 use super::Ladder;
 use super::joined::{Fewer, Joined};
 use crate::base::verdict::Verdict;
-use crate::cut::{Cut, CutError, CutPlan, Drafts, PlanRequest, SeamWeight};
+use crate::cut::{Cut, CutError, CutPlan, Drafts, PlanRequest, SeamWeight, dearest_spot};
 use crate::error::Error;
 use crate::geom::Plane;
 use crate::open::ground::Ground;
@@ -113,19 +113,29 @@ impl<'a> Ladder<'a> {
             best: None,
             least_loss_ratio: None,
         };
-        self.try_hidden(&mut choice)?;
+        self.try_hidden(&mut choice, &self.request)?;
+        self.try_clear(&mut choice)?;
         self.notes.push(choice.remark());
         let Some(Hidden { mut way, .. }) = choice.best else {
             return Ok(choice.usual);
         };
         way.request.seams.tried.clear();
         way.request.seams.dearest_ratio = None;
+        // Only the search kept clear of what it found to be seen; nobody ordered it.
+        way.request
+            .seams
+            .keep_clear
+            .clone_from(&self.request.seams.keep_clear);
         self.request = way.request.clone();
         Ok(way)
     }
 
     /// Tries drafts that weigh what they leave unclean against their seams, each unlike the others.
-    fn try_hidden(&self, choice: &mut HiddenChoice<'a>) -> Result<(), Error> {
+    fn try_hidden(
+        &self,
+        choice: &mut HiddenChoice<'a>,
+        request: &PlanRequest,
+    ) -> Result<(), Error> {
         let mut tried = vec![planes(&choice.usual.bossed.plan)?];
         let mut lack_weight = self.policy.lack_weight;
         let dearest_ratio = choice.usual_price;
@@ -137,7 +147,7 @@ impl<'a> Ladder<'a> {
                 dearest_ratio,
             }
         };
-        let first = weight(lack_weight, &tried).weigh(&self.request);
+        let first = weight(lack_weight, &tried).weigh(request);
         let Verdict::Found(drafts) = Drafts::new(&self.ground.voids.hollowed, &first)? else {
             return Ok(());
         };
@@ -153,10 +163,33 @@ impl<'a> Ladder<'a> {
                 continue;
             };
             tried.push(planes(&draft)?);
-            let other = self.clean_hidden(choice, draft, &weight.weigh(&self.request))?;
+            let other = self.clean_hidden(choice, draft, &weight.weigh(request))?;
             if other.is_some_and(|other| choice.take(other)) {
                 break;
             }
+        }
+        Ok(())
+    }
+
+    /// Tries drafts that keep clear of the spot where the best plan so far shows most: a face, if
+    /// its seam crosses one. Such plans may be far down the list of those that the others head.
+    fn try_clear(&self, choice: &mut HiddenChoice<'a>) -> Result<(), Error> {
+        let mut request = self.request.clone();
+        for _ in 0..self.policy.clear_rounds {
+            let shown = match &choice.best {
+                Some(best) if best.price <= self.policy.dear_seam_ratio => break,
+                Some(best) => &best.way,
+                None => &choice.usual,
+            };
+            if !self.budget().allows(Untried::HiddenSeams) {
+                break;
+            }
+            let outer = self.ground.voids.hollowed.outer.mesh();
+            let Some(spot) = dearest_spot(outer, &shown.bossed.plan, &shown.request)? else {
+                break;
+            };
+            request.seams.keep_clear.push(spot);
+            self.try_hidden(choice, &request)?;
         }
         Ok(())
     }
