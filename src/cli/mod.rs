@@ -25,6 +25,7 @@ pub mod skeleton;
 mod skeleton_picture;
 mod summary;
 pub mod telescope;
+mod toolpaths;
 mod values;
 pub mod verify;
 pub mod voice;

@@ -62,6 +62,8 @@ fn promise(poses: &[Pose]) -> Promise {
             minimum_opening_mm: None,
             cleaning: None,
             seam_step_mm: Some(0.3),
+            layer_mm: None,
+            pixel_mm: None,
         },
         material: Density { density_g_cm3: 1.2 },
         goal: Aim::new(GoalKind::Top, [0.0; 3], [0.0, 0.0, 1.0]),

@@ -19,6 +19,7 @@ mod ballast;
 mod body;
 mod figures;
 mod hardware;
+mod loads;
 mod rotor;
 mod spin;
 mod support;
@@ -64,6 +65,8 @@ mod rows;
 mod seal;
 mod sheet;
 mod strangers;
+// The toolpaths of a kit.
+mod printed;
 // Telescopes.
 mod telescope;
 
@@ -140,8 +143,14 @@ pub use files::{
     SUMS_FILE,
 };
 pub use seal::sums;
-// Telescopes.
 pub use sheet::find_misstatements;
+// The toolpaths of a kit.
+pub use printed::{
+    Cause, CauseKind, MatchedBy, PRINTED_CENTER_LIMIT_MM, PRINTED_MASS_LIMIT_RATIO,
+    PRINTED_TILT_LIMIT_DEG, PrintedError, PrintedFile, PrintedJudgement, PrintedPart,
+    verify_printed,
+};
+// Telescopes.
 pub use telescope::{
     BalancePromise, DeviationPromise, JointMotion, JointPromise, MotionKey, ShellMotion,
     TelescopeEvidence, TelescopeFacts, TelescopeJudgement, TelescopeMotion, TelescopePartPromise,

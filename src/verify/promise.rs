@@ -93,6 +93,12 @@ pub struct PrinterLimits {
     /// The largest step at the rim of a seam, mm; `None` if that is not judged.
     #[serde(default)]
     pub seam_step_mm: Option<f64>,
+    /// The height of a layer, mm; `None` if it is not known.
+    #[serde(default, skip_serializing)]
+    pub layer_mm: Option<f64>,
+    /// The width of a line of filament, or a pixel, along x and y, mm; `None` if it is not known.
+    #[serde(default, skip_serializing)]
+    pub pixel_mm: Option<[f64; 2]>,
 }
 
 /// The density the masses rest on.

@@ -1,0 +1,34 @@
+//! The limits of the checks of toolpaths, with their reasons.
+//!
+//! Slicers were measured on twelve solid models at 0.2 mm layers: mass +0.2 to +1.5 %, centre up to
+//! 0.112 mm, principal axis up to 0.15°, moments of inertia at equal mass up to 1.0 %.
+
+/// The mass of a part may differ by this share. Slicers lay up to 1.5 % more than the solid has.
+pub const PRINTED_MASS_LIMIT_RATIO: f64 = 0.02;
+/// The centre of mass may be this far from its promised place, mm; slicers reach 0.112 mm.
+pub const PRINTED_CENTER_LIMIT_MM: f64 = 0.15;
+/// The principal axis may lean this far from the spin axis, degrees, as that of right prints does.
+pub const PRINTED_TILT_LIMIT_DEG: f64 = 0.15;
+/// Error of a principal moment at equal mass, as a share of it.
+pub(super) const INERTIA_RATIO: f64 = 0.01;
+/// The mean height of beads may differ from that of a layer by this share: the first layer is often
+/// higher. The next usual height differs by a quarter and more.
+pub(super) const LAYER_RATIO: f64 = 0.1;
+/// The width of lines may differ by this share. Outer lines of 0.42 mm where 0.45 mm are usual, and
+/// a flow of 0.95, are both within it.
+pub(super) const LINE_RATIO: f64 = 0.15;
+/// The density may differ by this share: the spread of a filament's density.
+pub(super) const DENSITY_RATIO: f64 = 0.02;
+/// Densities outside of these are no filament's, g/cm³: from foamed PLA to steel-filled.
+pub(super) const DENSITIES_G_CM3: [f64; 2] = [0.3, 9.0];
+/// An edge of a part's box may differ by this much across the layers, mm: a third of a line, as
+/// slicers round the outer path.
+pub(super) const EDGE_MM: f64 = 0.15;
+/// An edge may differ by this share besides.
+pub(super) const EDGE_RATIO: f64 = 0.002;
+/// A box within this distance of its promised place lies there, mm. Its own accuracy is no better.
+pub(super) const PLACE_MM: f64 = 0.1;
+/// Another pose, or a mirror image, is taken only if it fits by this factor better than the usual.
+pub(super) const CLEARLY_RATIO: f64 = 0.5;
+/// Misfits below this tell no poses apart, mm: the accuracy of a centre.
+pub(super) const MISFIT_MM: f64 = 0.15;
