@@ -127,9 +127,9 @@ pub enum CheckKind {
     PrintedShapes,
     /// Settings of the slicer that are not those of the kit.
     PrintedSettings,
-    /// Masses of the parts' toolpaths.
+    /// Mass of the toolpaths of all parts.
     PrintedMass,
-    /// Centres of mass of the parts' toolpaths.
+    /// Centre of mass of the toolpaths of all parts.
     PrintedCenters,
     /// Tubes of a telescope, round about their helices.
     ShellBodies,

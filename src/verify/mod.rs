@@ -8,6 +8,7 @@
 // The promises: the judge's view of `checklist.json`.
 mod fingerprint;
 mod pose;
+mod process;
 mod promise;
 // The evidence: reading a kit.
 mod error;
@@ -98,9 +99,10 @@ pub use fingerprint::{Fingerprint, Likeness};
 pub use hardware::{Hardware, HardwareKind};
 pub use plates::{PlateSpot, PromisedPlate};
 pub use pose::Pose;
+pub use process::{Density, PrinterLimits};
 pub use promise::{
-    Aim, Density, FigureName, GlueFilm, HeldBy, Mark, Peg, PrinterLimits, Promise, PromisedCut,
-    PromisedFigure, PromisedJig, PromisedJoint, PromisedPart, PromisedVoid, SCHEMA, WallOrder,
+    Aim, FigureName, GlueFilm, HeldBy, Mark, Peg, Promise, PromisedCut, PromisedFigure,
+    PromisedJig, PromisedJoint, PromisedPart, PromisedVoid, SCHEMA, WallOrder,
 };
 pub use rotor::RotorOrder;
 pub use water::WaterOrder;
@@ -147,8 +149,8 @@ pub use sheet::find_misstatements;
 // The toolpaths of a kit.
 pub use printed::{
     Cause, CauseKind, MatchedBy, PRINTED_CENTER_LIMIT_MM, PRINTED_MASS_LIMIT_RATIO,
-    PRINTED_TILT_LIMIT_DEG, PrintedError, PrintedFile, PrintedJudgement, PrintedPart,
-    verify_printed,
+    PRINTED_SKIN_MM, PRINTED_TILT_LIMIT_DEG, PrintedError, PrintedFile, PrintedJudgement,
+    PrintedPart, verify_printed,
 };
 // Telescopes.
 pub use telescope::{

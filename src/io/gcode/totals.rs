@@ -101,7 +101,9 @@ impl Totals {
                 }),
             }
         }
-        let supports = sums.supports.cells(|is_volumetric| gauge.volume_mm3(0, is_volumetric));
+        let supports = sums
+            .supports
+            .cells(|is_volumetric| gauge.volume_mm3(0, is_volumetric));
         Self {
             objects,
             places,

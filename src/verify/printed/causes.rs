@@ -3,7 +3,8 @@
 use super::cause::{Cause, CauseKind};
 use super::density::Densities;
 use super::limits::{
-    DENSITY_RATIO, EDGE_MM, EDGE_RATIO, LAYER_RATIO, LINE_RATIO, PRINTED_MASS_LIMIT_RATIO,
+    DENSITY_RATIO, EDGE_MM, EDGE_RATIO, EXTRA_SKIN_MM, LACKING_SKIN_MM, LAYER_RATIO, LINE_RATIO,
+    PRINTED_MASS_LIMIT_RATIO, SPREAD_SHARE, SUPPORT_RATIO,
 };
 use super::part::PrintedPart;
 use super::source::Source;
@@ -110,7 +111,8 @@ impl Printed<'_> {
         let stated = self.source.toolpath.facts.infill_ratio;
         let says_sparse = stated.is_some_and(|ratio| ratio < 1.0);
         let parts = self.those(|part| {
-            is_light(part, self.promise) && (says_sparse || part.sparse_ratio > SPARSE_RATIO)
+            wrong_ratio(part, self.promise) < 0.0
+                && (says_sparse || part.sparse_ratio > SPARSE_RATIO)
         });
         let says = match stated {
             Some(ratio) if says_sparse => format!(", and the file states {:.0} %", ratio * 100.0),
@@ -119,7 +121,7 @@ impl Printed<'_> {
         let least = parts.iter().map(|part| filled_ratio(part, self.promise));
         let least = least.fold(f64::INFINITY, f64::min) * 100.0;
         let finding = format!(
-            "{} not solid: the lines fill {least:.0} % of its volume{says}",
+            "{} not solid: its lines fill {least:.0} % of a part{says}",
             are(&ids(&parts))
         );
         let setting = CauseKind::Infill.setting(self.source.slicer());
@@ -185,9 +187,8 @@ impl Printed<'_> {
     fn flow(&self) -> Option<Cause> {
         let sparse = self.infill();
         let parts = self.those(|part| {
-            let off = filled_ratio(part, self.promise) - 1.0;
             let is_sparse = |cause: &Cause| cause.parts.contains(&part.id);
-            off.abs() > PRINTED_MASS_LIMIT_RATIO && !sparse.as_ref().is_some_and(is_sparse)
+            wrong_ratio(part, self.promise) != 0.0 && !sparse.as_ref().is_some_and(is_sparse)
         });
         let listed = parts.iter().map(|part| {
             let percent = filled_ratio(part, self.promise) * 100.0;
@@ -201,7 +202,7 @@ impl Printed<'_> {
     }
 
     fn support(&self) -> Option<Cause> {
-        let parts = self.those(|part| part.support_in_voids_mm3 > 0.0);
+        let parts = self.those(|part| part.support_in_voids_mm3 > SUPPORT_RATIO * part.volume_mm3);
         let listed = parts.iter().map(|part| {
             let density_g_mm3 = self.promise.material.density_g_cm3 * 1e-3;
             let mass_g = part.support_in_voids_mm3 * density_g_mm3;
@@ -222,14 +223,24 @@ impl Printed<'_> {
 
 /// Returns true if a part has another size than its file.
 ///
-/// Edges across the layers are known to a part of a line, those along z to a layer.
-pub(super) fn is_scaled(part: &PrintedPart, promise: &Promise) -> bool {
+/// Edges across the layers are known to a part of a line, those along z to a layer. Slicers leave
+/// out thin tips, which makes an edge shorter: then another edge or the spread must say the same.
+fn is_scaled(part: &PrintedPart, promise: &Promise) -> bool {
     let layer_mm = part.layer_mm.or(promise.printer.layer_mm).unwrap_or(0.0);
     let limits_mm = [EDGE_MM, EDGE_MM, EDGE_MM + layer_mm];
-    (0..3).any(|axis| {
-        let off = (part.size_ratio[axis] - 1.0).abs();
+    // Each edge in units of its limit.
+    let longer = [0, 1, 2].map(|axis| {
         let limit_mm = limits_mm[axis] + EDGE_RATIO * part.edges_mm[axis];
-        off * part.edges_mm[axis] > limit_mm
+        (part.size_ratio[axis] - 1.0) * part.edges_mm[axis] / limit_mm
+    });
+    let is_spread_less = |axis: usize| {
+        let [edge, spread] = [part.size_ratio, part.spread_ratio].map(|ratio| 1.0 - ratio[axis]);
+        spread > SPREAD_SHARE * edge
+    };
+    let shorter = longer.iter().filter(|longer| **longer < -0.5).count();
+    (0..3).any(|axis| {
+        let is_shorter = longer[axis] < -1.0 && (shorter > 1 || is_spread_less(axis));
+        longer[axis] > 1.0 || is_shorter
     })
 }
 
@@ -242,8 +253,18 @@ fn filled_ratio(part: &PrintedPart, promise: &Promise) -> f64 {
     }
 }
 
-fn is_light(part: &PrintedPart, promise: &Promise) -> bool {
-    filled_ratio(part, promise) < 1.0 - PRINTED_MASS_LIMIT_RATIO
+/// Returns the volume that is missing or too much, as a share.
+///
+/// It is 0 if it is within what slicers lay wrong along the surface of any part.
+fn wrong_ratio(part: &PrintedPart, promise: &Promise) -> f64 {
+    let off = filled_ratio(part, promise) - 1.0;
+    let skin_mm = if off < 0.0 {
+        LACKING_SKIN_MM
+    } else {
+        EXTRA_SKIN_MM
+    };
+    let most = PRINTED_MASS_LIMIT_RATIO.max(skin_mm * part.surface_per_mm);
+    if off.abs() > most { off } else { 0.0 }
 }
 
 fn ids(parts: &[&PrintedPart]) -> Vec<String> {

@@ -3,9 +3,11 @@
 use super::cause::{Cause, CauseKind};
 use super::judgement::PrintedJudgement;
 use super::limits::{
-    INERTIA_RATIO, PRINTED_CENTER_LIMIT_MM, PRINTED_MASS_LIMIT_RATIO, PRINTED_TILT_LIMIT_DEG,
+    INERTIA_RATIO, PRINTED_CENTER_LIMIT_MM, PRINTED_MASS_LIMIT_RATIO, PRINTED_SKIN_MM,
+    PRINTED_TILT_LIMIT_DEG,
 };
 use super::part::PrintedPart;
+use crate::geom::Vector;
 use crate::goal::GoalKind;
 use crate::verify::{
     Afloat, Aim, Check, CheckKind, DOMINANCE_LIMIT_RATIO, FIGURE_SLACK_RATIO, FigureName, Figures,
@@ -16,7 +18,8 @@ use crate::verify::{
 /// Checks all that was found. `heavier` are the figures of the written parts if every part had the
 /// most mass that is accepted.
 pub(super) fn printed_checks(aim: &Aim, found: &PrintedJudgement, heavier: &Figures) -> Vec<Check> {
-    let mut checks = part_checks(found);
+    let mut checks = cause_checks(found).to_vec();
+    checks.extend(weight_checks(found));
     if let Some(toolpaths) = &found.toolpaths {
         let whole = Whole {
             aim,
@@ -30,33 +33,18 @@ pub(super) fn printed_checks(aim: &Aim, found: &PrintedJudgement, heavier: &Figu
     checks
 }
 
-/// Checks the parts one by one.
-fn part_checks(found: &PrintedJudgement) -> Vec<Check> {
-    let count = |kinds: &[CauseKind]| {
+/// Checks that no cause of a wrong print was found.
+fn cause_checks(found: &PrintedJudgement) -> [Check; 3] {
+    let check = |kind, promise: &str, kinds: &[CauseKind]| {
         let causes = found.causes.iter().filter(|cause| cause.is_wrong);
         let those: Vec<&Cause> = causes.filter(|cause| kinds.contains(&cause.kind)).collect();
-        let names: Vec<String> = those
-            .iter()
-            .map(|cause| format!("{}: {}", cause.kind.name(), cause.finding))
-            .collect();
-        (
-            Some(those.len() as f64),
-            (!names.is_empty()).then(|| names.join("; ")),
-        )
+        let say = |cause: &&Cause| format!("{}: {}", cause.kind.name(), cause.finding);
+        let names: Vec<String> = those.iter().map(say).collect();
+        let count = Some(those.len() as f64);
+        Check::new(kind, promise, count, Limit::at_most(0.0, ""))
+            .at((!names.is_empty()).then(|| names.join("; ")))
     };
-    let none = Limit::at_most(0.0, "");
-    let check = |kind, promise: &str, kinds: &[CauseKind]| {
-        let (value, detail) = count(kinds);
-        Check::new(kind, promise, value, none).at(detail)
-    };
-    let worst = |of: fn(&PrintedPart) -> f64| {
-        let parts = found.parts.iter().map(|part| (of(part), &part.id));
-        parts.max_by(|a, b| a.0.total_cmp(&b.0))
-    };
-    let mass = worst(|part| part.mass_off_ratio().abs() * 100.0);
-    let center = worst(|part| part.center_off_mm);
-    let most_percent = PRINTED_MASS_LIMIT_RATIO * 100.0;
-    vec![
+    [
         check(
             CheckKind::PrintedParts,
             "every part is printed",
@@ -78,21 +66,36 @@ fn part_checks(found: &PrintedJudgement) -> Vec<Check> {
                 CauseKind::Flow,
             ],
         ),
-        Check::new(
-            CheckKind::PrintedMass,
-            "the toolpaths of every part weigh what the part does, within",
-            mass.map(|(percent, _)| percent),
-            Limit::at_most(most_percent, "%"),
-        )
-        .at(mass.map(|(_, id)| id.clone())),
+    ]
+}
+
+/// Checks what all parts weigh together, and their centre if none is missing.
+fn weight_checks(found: &PrintedJudgement) -> Vec<Check> {
+    let parts = &found.parts;
+    let written_g: f64 = parts.iter().map(|part| part.written_mass_g).sum();
+    let printed_g: f64 = parts.iter().map(|part| part.mass_g).sum();
+    let written = |part: &PrintedPart| Vector::from(part.written_center_mm) * part.written_mass_g;
+    let printed = |part: &PrintedPart| Vector::from(part.center_mm) * part.mass_g;
+    let written = parts.iter().map(written).sum::<Vector>() / written_g;
+    let printed = parts.iter().map(printed).sum::<Vector>() / printed_g;
+    let surface = |part: &PrintedPart| part.surface_per_mm * part.written_mass_g;
+    let surface_per_mm = parts.iter().map(surface).sum::<f64>() / written_g;
+    let most_ratio = PRINTED_MASS_LIMIT_RATIO.max(PRINTED_SKIN_MM * surface_per_mm);
+    let mass = Check::new(
+        CheckKind::PrintedMass,
+        "the toolpaths weigh what the parts do, within",
+        Some((printed_g / written_g - 1.0).abs() * 100.0),
+        Limit::at_most(most_ratio * 100.0, "%"),
+    );
+    let center = found.missing.is_empty().then(|| {
         Check::new(
             CheckKind::PrintedCenters,
-            "their centre of mass is that of the part, within",
-            center.map(|(mm, _)| mm),
+            "their centre of mass is that of the parts, within",
+            Some((printed - written).norm()),
             Limit::at_most(PRINTED_CENTER_LIMIT_MM, "mm"),
         )
-        .at(center.map(|(_, id)| id.clone())),
-    ]
+    });
+    std::iter::once(mass).chain(center).collect()
 }
 
 /// The whole object, as written and as its toolpaths lay it.

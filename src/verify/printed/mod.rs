@@ -29,6 +29,8 @@ pub use cause::{Cause, CauseKind};
 pub use error::PrintedError;
 pub use judge::verify_printed;
 pub use judgement::{PrintedFile, PrintedJudgement};
-pub use limits::{PRINTED_CENTER_LIMIT_MM, PRINTED_MASS_LIMIT_RATIO, PRINTED_TILT_LIMIT_DEG};
+pub use limits::{
+    PRINTED_CENTER_LIMIT_MM, PRINTED_MASS_LIMIT_RATIO, PRINTED_SKIN_MM, PRINTED_TILT_LIMIT_DEG,
+};
 pub use matching::MatchedBy;
 pub use part::PrintedPart;

@@ -32,8 +32,14 @@ pub struct PrintedPart {
     pub edges_mm: [f64; 3],
     /// Its edges over those of its file.
     pub size_ratio: [f64; 3],
+    /// The spread of its material over that of its file: the root of the second moments.
+    pub spread_ratio: [f64; 3],
     /// Its volume over that of its file.
     pub volume_ratio: f64,
+    /// Its volume, mm³.
+    pub volume_mm3: f64,
+    /// The area over the volume of its file, 1/mm.
+    pub surface_per_mm: f64,
     /// The mass of the part as it was written, with the density of the kit, g.
     pub written_mass_g: f64,
     /// The mass of its toolpaths, without support and the like, g.
@@ -80,7 +86,10 @@ impl PrintedPart {
             is_mirrored: found.fit.is_mirrored,
             edges_mm: found.fit.edges_mm,
             size_ratio: found.fit.size_ratio,
+            spread_ratio: found.fit.spread_ratio,
             volume_ratio: found.fit.volume_ratio,
+            volume_mm3,
+            surface_per_mm: thing.area_mm2 / thing.moments.volume(),
             written_mass_g: written.volume() * promise.material.density_g_cm3 / MM3_PER_CM3,
             mass_g: moments_g.volume(),
             written_center_mm: written.centroid().coords.into(),

@@ -3,6 +3,7 @@
 use super::limits::{CLEARLY_RATIO, MISFIT_MM, PLACE_MM};
 use crate::geom::{Aabb, Matrix, Point, Vector};
 use crate::mass::{Moments, moments_of_mesh};
+use crate::mesh::TriMesh;
 use crate::verify::{PartEvidence, PlateSpot, Pose};
 
 /// A part or jig of the kit, in the coordinates of its file.
@@ -18,6 +19,8 @@ pub(super) struct Thing<'a> {
     scale_ratio: Vector,
     /// Its box.
     pub(super) aabb: Aabb,
+    /// The area of its surface, mm².
+    pub(super) area_mm2: f64,
     /// Its moments.
     pub(super) moments: Moments,
     /// Its place on a plate; `None` in kits without plates.
@@ -42,6 +45,8 @@ pub(super) struct Fit {
     shift: Vector,
     /// Its edges over those of the part, in the axes of the file.
     pub(super) size_ratio: [f64; 3],
+    /// The spread of its material over that of the part, in the axes of the file.
+    pub(super) spread_ratio: [f64; 3],
     /// The edges of the part, mm.
     pub(super) edges_mm: [f64; 3],
     /// Its volume over that of the part.
@@ -81,6 +86,7 @@ impl<'a> Thing<'a> {
             pose: read.pose,
             scale_ratio,
             aabb: file.aabb(),
+            area_mm2: area_mm2(&file),
             moments: moments_of_mesh(&file),
             spot,
         }
@@ -136,21 +142,20 @@ impl<'a> Thing<'a> {
         let (size, wanted) = (shape.aabb.size(), turn.abs() * self.aabb.size());
         let ratio = size.component_div(&wanted);
         let scale = ratio.product().cbrt();
-        let middle = Point::from(turn * middle(&self.aabb).coords);
-        let low = middle - wanted * 0.5;
-        let volumes = [shape.moments.volume(), self.moments.volume()];
         let edges_mm: f64 = (size / scale - wanted).abs().sum();
+        let spreads = [shape.moments, self.moments.rotated(turn)].map(|m| spread_mm2(&m));
+        let spread = spreads.map(|spread_mm2| spread_mm2.diagonal().map(f64::sqrt));
         let back = |v: Vector| (turn.transpose() * v).abs();
-        let shift = self.shift(shape, &low, &wanted);
+        let (shift, is_moved) = self.shift(shape, turn);
         Fit {
             turn: *turn,
             shift,
             size_ratio: back(ratio).into(),
+            spread_ratio: back(spread[0].component_div(&spread[1])).into(),
             edges_mm: self.aabb.size().into(),
-            volume_ratio: volumes[0] / volumes[1],
+            volume_ratio: shape.moments.volume() / self.moments.volume(),
             miss_mm: edges_mm + self.misfit_mm(shape, turn, scale),
-            is_moved: self.spot.is_some()
-                && self.promised_shift(shape, &(low + wanted * 0.5)).is_none(),
+            is_moved,
             is_turned: false,
             is_mirrored: turn.determinant() < 0.0,
         }
@@ -175,23 +180,40 @@ impl<'a> Thing<'a> {
         (found - wanted).norm().hypot(spread_mm)
     }
 
-    /// Returns the shift of the promised place, or else of the middle of the box. The lowest beads
-    /// lie on the plate, or on a raft.
-    fn shift(&self, shape: &Shape, low: &Point, size: &Vector) -> Vector {
-        let promised = self.promised_shift(shape, &(low + size * 0.5));
-        let by_box = low + size * 0.5 - middle(&shape.aabb);
-        let [x, y] = promised.unwrap_or([by_box.x, by_box.y]);
-        Vector::new(x, y, low.z - shape.aabb.min.z)
-    }
-
-    /// Returns the shift along x and y if the middle of the box is where the kit says; `None` if it
-    /// is elsewhere. `wanted` is the middle in the turned coordinates of the file.
-    fn promised_shift(&self, shape: &Shape, wanted: &Point) -> Option<[f64; 2]> {
-        let spot = self.spot?;
-        let found = middle(&shape.aabb);
-        let promised_mm = [0, 1].map(|axis| spot.low_mm[axis] + 0.5 * spot.size_mm[axis]);
-        let is_there = |axis: usize| (found[axis] - promised_mm[axis]).abs() <= PLACE_MM;
-        (is_there(0) && is_there(1)).then(|| [0, 1].map(|axis| wanted[axis] - promised_mm[axis]))
+    /// Returns the shift of a shape to the turned coordinates of the file, and whether it lies
+    /// elsewhere than the kit says. The lowest beads lie on the plate, or on a raft.
+    ///
+    /// Slicers leave out tips that are thinner than a line. So a part is in its place if one of its
+    /// sides, its middle or its centre is there. One that was moved is placed by the median of both
+    /// sides and the centre.
+    fn shift(&self, shape: &Shape, turn: &Matrix) -> (Vector, bool) {
+        let corners = [self.aabb.min, self.aabb.max].map(|p| Point::from(turn * p.coords));
+        let wanted = Aabb::of_points(&corners);
+        let low = wanted.min - shape.aabb.min;
+        let high = wanted.max - shape.aabb.max;
+        let center = self.moments.rotated(turn).centroid() - shape.moments.centroid();
+        let by_shape = [0, 1].map(|axis| {
+            let mut shifts_mm = [low[axis], center[axis], high[axis]];
+            shifts_mm.sort_by(f64::total_cmp);
+            shifts_mm
+        });
+        let promised = self.spot.map(|spot| {
+            [0, 1].map(|axis| {
+                let place_mm = spot.low_mm[axis] + 0.5 * spot.size_mm[axis];
+                middle(&wanted)[axis] - place_mm
+            })
+        });
+        let is_there = |promised: &[f64; 2]| {
+            (0..2).all(|axis| {
+                let between_mm = 0.5 * (low[axis] + high[axis]);
+                let mut all = by_shape[axis].into_iter().chain([between_mm]);
+                all.any(|mm| (mm - promised[axis]).abs() <= PLACE_MM)
+            })
+        };
+        let kept = promised.filter(is_there);
+        let is_moved = promised.is_some() && kept.is_none();
+        let [x, y] = kept.unwrap_or(by_shape.map(|[_, median_mm, _]| median_mm));
+        (Vector::new(x, y, low.z), is_moved)
     }
 
     /// Returns moments of the plate in the model frame and in nominal size.
@@ -243,6 +265,14 @@ fn turns() -> impl Iterator<Item = Matrix> {
             })
         })
     })
+}
+
+/// Returns the area of a surface, mm².
+fn area_mm2(mesh: &TriMesh) -> f64 {
+    let areas = mesh
+        .iter_corners()
+        .map(|[a, b, c]| (b - a).cross(&(c - a)).norm());
+    0.5 * areas.sum::<f64>()
 }
 
 /// Returns the middle of a box.

@@ -146,8 +146,8 @@ impl Source {
     }
 }
 
-/// Returns the width and height of the lines of the outermost perimeter; of all lines in a file
-/// that names no features, and `None` if there are none.
+/// Returns the width and height of the lines of the outermost perimeter; `None` if there are none.
+/// A file that names no features has one kind of lines.
 ///
 /// Some slicers lay rounded lines, others rectangles of the same width: the one nearer to the width
 /// that the kit asks for is taken.

@@ -404,7 +404,7 @@ fn a_mirror_image_is_named() {
 #[test]
 fn support_in_a_void_is_told_with_its_mass() {
     let mut text = RIGHT.trays(LABELS);
-    text += ";LAYER_CHANGE\n;HEIGHT:0.2\n; printing object P01 id:0 copy 0\n\
+    text += ";LAYER_CHANGE\n;HEIGHT:0.2\n; printing object P01.stl id:0 copy 0\n\
         ;TYPE:Support material\nG1 X20 Y30 Z4.5\nG1 X50 Y30 E100\n\
         G1 X5 Y5 Z4.5\nG1 X5 Y8 E7\n";
     let found = judged(&kit(), text);
