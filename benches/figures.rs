@@ -168,7 +168,8 @@ fn made(name: &'static str) -> PathBuf {
     path
 }
 
-/// A model of the folder that `EQUIPOISE_SHARED_MODELS` names, by default the one beside the repository.
+/// A model of the folder that `EQUIPOISE_SHARED_MODELS` names, by default the one beside the
+/// repository.
 fn shared(file: &str) -> PathBuf {
     let beside = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/models");
     let folder = std::env::var_os("EQUIPOISE_SHARED_MODELS")

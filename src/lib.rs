@@ -23,9 +23,9 @@
 //! [`coupon`] lets a shop measure what its printer does. [`guide::map`] answers where things are.
 //!
 //! # The modules
-//! This page lists thirteen modules. Five of them, [`model`], [`solve`], [`stages`], [`report`] and
-//! [`extend`], gather rooms: `equipoise::model::mesh` is also `equipoise::mesh`, and its files lie in
-//! `src/mesh`.
+//! This page lists fourteen modules. Six of them, [`model`], [`solve`], [`stages`], [`report`],
+//! [`extend`] and [`large`], gather rooms: `equipoise::model::mesh` is also `equipoise::mesh`, and its
+//! files lie in `src/mesh`.
 //!
 //! # Example
 //! ```no_run
@@ -84,13 +84,20 @@ pub mod extend {
     pub use crate::{curve, skeleton, telescope};
 }
 
+/// Objects larger than the printer: the polyhedra of a laser-cut base, and the machines, sheets and
+/// fasteners that it is made with.
+pub mod large {
+    #[doc(inline)]
+    pub use crate::{cutter, polyhedra};
+}
+
 /// Checklists, job sheets, drawings and coupons.
 pub mod report {
     #[doc(inline)]
     pub use crate::{coupon, draw, page, press, sheet, slicer};
 }
 
-// The rooms of the five groups, and the command line, which is no library.
+// The rooms of the six groups, and the command line, which is no library.
 #[doc(hidden)]
 pub mod advice;
 #[doc(hidden)]
@@ -102,6 +109,8 @@ pub mod cli;
 pub mod coupon;
 #[doc(hidden)]
 pub mod curve;
+#[doc(hidden)]
+pub mod cutter;
 #[doc(hidden)]
 pub mod draw;
 #[doc(hidden)]
@@ -130,6 +139,8 @@ pub mod mesh;
 pub mod open;
 #[doc(hidden)]
 pub mod page;
+#[doc(hidden)]
+pub mod polyhedra;
 #[doc(hidden)]
 pub mod poses;
 #[doc(hidden)]

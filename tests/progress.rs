@@ -195,8 +195,8 @@ impl Still {
     }
 }
 
-/// Run it on an otherwise idle machine, with --nocapture. `EQUIPOISE_SHARED_MODELS` names the folder
-/// of models, and `EQUIPOISE_ROWS` the rows by parts of their names, between commas.
+/// Run it on an otherwise idle machine, with --nocapture. `EQUIPOISE_SHARED_MODELS` names the
+/// folder of models, and `EQUIPOISE_ROWS` the rows by parts of their names, between commas.
 #[test]
 #[ignore = "takes half an hour, and needs models that are not part of the project"]
 fn progress_never_stands_still_on_the_acceptance_table() {

@@ -15,7 +15,7 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use common::{ELLIPSOID, list, make_kit, number, printed};
+use common::{ELLIPSOID, list, make_kit, number, prepare, printed, words};
 use equipoise::base::watch::Watch;
 use equipoise::io::gcode::{Options, read_gcode};
 use serde_json::Value;
@@ -136,6 +136,16 @@ fn a_slicer_finds_a_missing_triangle() {
     }
 }
 
+/// Makes a coarse standing kit for a filament printer, with more options. It keeps its promises.
+fn make_standing(out: &Path, more: &str) -> Value {
+    let options = format!(
+        "--goal stand --up y --least-angle 2 --printer prusa-mk4 --size 60mm --pitch 0.5mm {more}"
+    );
+    let output = prepare(out, &words(&options));
+    common::assert_exit(&output, 0);
+    common::json(&output)
+}
+
 /// A printer's profile in which nobody thought of infill.
 const SPARSE: &str = "layer_height = 0.2\nfirst_layer_height = 0.2\nnozzle_diameter = 0.4\n\
     filament_diameter = 1.75\nfilament_density = 1.24\nextrusion_width = 0.45\nfill_density = 15%\n\
@@ -153,8 +163,7 @@ fn a_plate_sliced_with_sparse_infill_still_weighs_what_the_sheet_says() {
     }
     let folder = tempfile::tempdir().unwrap();
     let at = |file: &str| folder.path().join(file);
-    let options = "--goal stand --up y --least-angle 2 --printer prusa-mk4";
-    let sheet = make_kit(&at("kit"), options);
+    let sheet = make_standing(&at("kit"), "");
     fs::write(at("sparse.ini"), SPARSE).unwrap();
     let output = Command::new("prusa-slicer")
         .args(["--export-gcode", "--dont-arrange", "--load"])
@@ -181,16 +190,15 @@ fn the_print_time_by_a_slicer_is_on_the_sheet_and_the_same_again() {
         return;
     }
     let folder = tempfile::tempdir().unwrap();
-    let options = "--goal stand --up y --least-angle 2 --printer prusa-mk4 --slicer prusa-slicer";
     let [one, two] = ["one", "two"].map(|name| folder.path().join(name));
-    let sheet = make_kit(&one, options);
+    let sheet = make_standing(&one, "--slicer prusa-slicer");
     let minutes = number(&sheet["print_time"]["plates"][0], "/minutes");
     assert!((30.0..600.0).contains(&minutes), "{minutes}");
     let page = fs::read_to_string(one.join("job.html")).unwrap();
     assert!(page.contains("Print time") && page.contains("PrusaSlicer 2."));
     let job = fs::read_to_string(one.join("job.toml")).unwrap();
     assert!(job.contains("version = \"PrusaSlicer 2."), "{job}");
-    make_kit(&two, options);
+    make_standing(&two, "--slicer prusa-slicer");
     let again = fs::read_to_string(two.join("checklist.json")).unwrap();
     assert_eq!(
         fs::read_to_string(one.join("checklist.json")).unwrap(),
@@ -203,7 +211,7 @@ fn the_print_time_by_a_slicer_is_on_the_sheet_and_the_same_again() {
 fn a_slicer_that_is_of_no_use_is_named_before_any_work() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("kit");
-    for (options, words) in [
+    for (options, expected) in [
         (
             "--printer prusa-mk4 --slicer no-such-slicer",
             "no-such-slicer cannot be started",
@@ -212,16 +220,19 @@ fn a_slicer_that_is_of_no_use_is_named_before_any_work() {
             "--printer prusa-mk4 --slicer echo",
             "echo does not name itself",
         ),
-        ("--slicer echo", "prints no filament"),
+        (
+            "--printer objet-connex350 --slicer echo",
+            "prints no filament",
+        ),
         (
             "--printer prusa-mk4 --slicer echo --format stl",
             "no plates to slice",
         ),
     ] {
-        let output = common::prepare_quickly(&out, &format!("--goal stand {options}"));
+        let output = prepare(&out, &words(&format!("--goal stand --size 60mm {options}")));
         common::assert_exit(&output, 2);
         let said = printed(&output);
-        assert!(said.contains(words), "{options}: {said}");
+        assert!(said.contains(expected), "{options}: {said}");
         assert!(!out.exists(), "{options}");
     }
 }

@@ -6,7 +6,8 @@
 //! cargo run --release --features papers --example solver_table
 //! ```
 //!
-//! `EQUIPOISE_SHARED_MODELS` names a folder with the larger models; those that are not there are left out.
+//! `EQUIPOISE_SHARED_MODELS` names a folder with the larger models; those that are not there are
+//! left out.
 
 #![allow(
     clippy::print_stdout,

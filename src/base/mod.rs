@@ -6,11 +6,13 @@
 //! * [`toml_text`]: TOML with faults that name line, column and the nearest known name.
 //! * [`digest`]: SHA-256 of files.
 //! * [`verdict`]: an answer that may be no, with the reason.
+//! * [`sourced`]: values with their sources and their certainty.
 //! * [`watch`]: progress and cancellation of a run.
 
 pub mod digest;
 pub mod numbers;
 pub mod setting;
+pub mod sourced;
 pub mod toml_text;
 pub mod units;
 pub mod verdict;

@@ -5,6 +5,7 @@ pub mod bars;
 pub mod broken;
 pub mod coupon;
 mod cuts;
+pub mod cutters;
 mod exit;
 mod flags;
 pub mod inspect;
@@ -76,6 +77,10 @@ fn dispatch(cli: Cli, manner: Manner) -> Result<Exit, Box<dyn Error + Send + Syn
         }
         Command::Printers(args) => {
             printers::run(args.action, voice.json, out)?;
+            Ok(Exit::Kept)
+        }
+        Command::Cutters(args) => {
+            cutters::run(args.action, voice.json, out)?;
             Ok(Exit::Kept)
         }
         Command::Coupon(args) => Ok(coupon::coupon(&args, voice, &Stop::on_signals(), out)?),

@@ -112,7 +112,7 @@ from: measured = by the shop, on its own prints; published = in the source named
 third party = in the source named, which is not the maker's; ours = our own choice, for the reason given";
 
 /// Returns the word for where a number is from.
-fn origin(sure: Sure) -> &'static str {
+pub(super) fn origin(sure: Sure) -> &'static str {
     match sure {
         Sure::Measured => "measured",
         Sure::Read | Sure::Computed | Sure::Paper => "published",

@@ -29,7 +29,7 @@
 //! | Where does a number on the job sheet come from? | `sheet/from_run/checklist.rs` fills the `Checklist` that `page/job_sheet.rs` prints |
 //! | Which words does a remedy use for an option? | `Setting` in `base/setting.rs` is the option, `flag` in `cli/flags.rs` its word |
 //! | What is left behind when a run is killed? | `Staging` in `kit/staging.rs`, swept by the next run |
-//! | What does a printer's number rest on? | `Sourced` in `printer/sourced.rs`; the profiles lie in `profiles`, read by `printer/library.rs` |
+//! | What does a printer's number rest on? | `Sourced` in `base/sourced.rs`; the profiles lie in `profiles`, read by `printer/library.rs` |
 //! | Where is a curve met by a chain of tubes? | `fit` in `curve/fit/mod.rs`, from the starts of `curve/fit/starts.rs` down by `descend` in `curve/fit/descent.rs` |
 //! | How thick is a shell of a telescope, and why? | `Telescope::nest` in `telescope/nest.rs` adds clearances and walls from `telescope/sizes.rs` |
 //! | Who says that a telescope opens without a collision? | `Telescope::open_in` in `telescope/motion.rs`, over the gaps of `telescope/clearance.rs` |
@@ -39,3 +39,7 @@
 //! | Where does a limb of a model begin and end, and how thick is it? | `Skeleton::of` in `skeleton/tree.rs`, by the contraction of `skeleton/flow.rs` and the pruning of `skeleton/tidy.rs` |
 //! | Which limbs become telescopes, and which stay solid? | `mark_solid` in `skeleton/solid.rs` and `Limbs` in `skeleton/limbs.rs` |
 //! | What does a print lay down, and where? | `read_gcode` in `io/gcode/open.rs` unpacks, `Machine` in `io/gcode/machine.rs` follows the nozzle, `Bead` in `mass/bead.rs` is weighed |
+//! | Which part of a large object is its base? | `grow_polyhedron` in `polyhedra/inscribe.rs`; `Growth` in `polyhedra/growth.rs` moves the faces, `drop_cheapest` in `polyhedra/dropping.rs` leaves few |
+//! | Who says that a base stays inside the model? | `Separation::check` in `polyhedra/separation.rs`, one face for each triangle |
+//! | Where is a base parted into several? | `grow_polyhedra` in `polyhedra/plan.rs`; `polyhedra/connection.rs` joins them |
+//! | How wide is a laser's cut? | `Cutter::kerf` in `cutter/machine.rs`, from the profiles that `cutter/library.rs` lists |

@@ -48,9 +48,9 @@ mod resolve;
 mod room;
 mod shop;
 mod size;
-mod sourced;
 mod wall;
 
+pub use crate::base::sourced::{Sourced, Sure};
 pub use calibrate::{CalibrateError, Measured, calibrate};
 pub use cleaning::{Cleaning, CleaningRule};
 pub use corner::{Corner, ExcludedCorner};
@@ -62,5 +62,4 @@ pub use plate::{Plate, Spot};
 pub use quantity::Quantity;
 pub use shop::{CONFIGURATION, SHOP_FILE, ShopDefaults, ShopError};
 pub use size::{SizeError, check_room_for_void};
-pub use sourced::{Sourced, Sure};
 pub use wall::{WallChoice, WallError, whole_steps};

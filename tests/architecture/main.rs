@@ -69,6 +69,10 @@ const ARROWS: &[(&str, &[&str])] = &[
     // A new surface is drawn as voids are; the ladder below knows nothing of drawing.
     ("mend", &["base", "geom", "mesh", "repair", "voids"]),
     ("poses", &["base", "geom", "mesh"]),
+    // A base is found in a solid alone: it knows of sheets and printers only lengths and angles.
+    ("polyhedra", &["base", "geom", "mesh"]),
+    // Profiles of cutters, sheets and fasteners are data, checked as those of printers are.
+    ("cutter", &["base"]),
     (
         "cut",
         &[
@@ -165,6 +169,7 @@ const ARROWS: &[(&str, &[&str])] = &[
             "ballast",
             "coupon",
             "cut",
+            "cutter",
             "draw",
             "error",
             "geom",
@@ -195,6 +200,7 @@ const ARROWS: &[(&str, &[&str])] = &[
             "ballast",
             "coupon",
             "curve",
+            "cutter",
             "draw",
             "error",
             "geom",
@@ -209,6 +215,7 @@ const ARROWS: &[(&str, &[&str])] = &[
             "mesh",
             "open",
             "page",
+            "polyhedra",
             "poses",
             "press",
             "repair",

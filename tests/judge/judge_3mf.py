@@ -5,7 +5,8 @@
 
 Every file must be read without a warning, in millimetres, with a title, the program and the job in its metadata; every mesh must be
 closed and oriented, named after a part of checklist.json and coloured; its volume must be the checklist's. In assembly.3mf the
-objects must lie where print_from_model says, on plates in print pose apart from each other; every part on exactly one plate.
+objects must lie where print_from_model says, on plates in print pose apart from each other; every part and every jig on exactly one
+plate, in the box that the checklist's plate map says.
 Exit code 0: all is so; 1: something is not; 2: no kit, or no 3MF file in it.
 """
 
@@ -130,7 +131,8 @@ def judge_assembly(placings, sheet):
     return faults
 
 
-def judge_plate(placings):
+def judge_plate(placings, told):
+    """The faults of one plate; told is what the plate map of the checklist says about it."""
     faults, boxes = Faults(), []
     for name, triangles, at in placings:
         laid = triangles.reshape(-1, 3) @ at[:3, :3].T + at[:3, 3]
@@ -141,6 +143,17 @@ def judge_plate(placings):
         for other, from_, to in boxes[i + 1:]:
             gap = max((low - to).max(), (from_ - high).max())
             faults.must(gap > GAP_MM, f"{name} and {other} are {gap} mm apart")
+    if told is None:
+        return Faults(faults + ["the plate map does not name it"])
+    spots = {spot["id"]: spot for spot in told["holds"]}
+    faults.must(sorted(spots) == sorted(name for name, _, _ in boxes), f"its plate map holds {sorted(spots)}")
+    for name, low, high in boxes:
+        if name in spots:
+            mapped = np.array(spots[name]["low_mm"])
+            off = max(abs(mapped - low).max(), abs(mapped + spots[name]["size_mm"] - high).max())
+            faults.must(off < PLACE_MM, f"{name} lies {off} mm from where the plate map says")
+        beyond = max((-low).max(), (high - told["size_mm"]).max())
+        faults.must(beyond < PLACE_MM, f"{name} reaches {beyond} mm beyond the plate")
     return faults
 
 
@@ -151,17 +164,18 @@ def judge_kit(kit):
         print(f"{kit}: no 3MF files")
         return 2
     failed, on_plates = False, []
+    told = {plate["file"]: plate for plate in sheet.get("plates", [])}
     for path in files:
         name = path.relative_to(kit).as_posix()
         faults, placings = judge_file(path, sheet)
         if name == "assembly.3mf":
             faults += judge_assembly(placings, sheet)
         elif name.startswith("plate"):
-            faults += judge_plate(placings)
+            faults += judge_plate(placings, told.get(name))
             on_plates += [part for part, _, _ in placings]
         failed |= bool(faults)
         print(f"  {'FAIL' if faults else 'ok  '} {name:<44} {len(placings)} objects" + "".join(f"\n         {fault}" for fault in faults))
-    if sorted(on_plates) != sorted(part["id"] for part in sheet["parts"]):
+    if sorted(on_plates) != sorted(part["id"] for part in sheet["parts"] + sheet.get("jigs", [])):
         failed = True
         print(f"  FAIL the plates hold {sorted(on_plates)}")
     return int(failed)

@@ -3,6 +3,7 @@
 mod again;
 mod ballast;
 mod cut;
+mod cutters;
 mod error;
 mod goal;
 mod missing;
@@ -24,6 +25,7 @@ use clap::{Args, Parser, Subcommand};
 use clap_complete::Shell;
 
 pub use again::again;
+pub use cutters::{CuttersAction, CuttersArgs, NewCutterArgs};
 pub use error::ArgsError;
 pub use missing::Missing;
 pub use prepare::{DEFAULT_PLANS, PrepareArgs, Request};
@@ -104,12 +106,14 @@ pub enum Command {
     Telescope(Box<TelescopeArgs>),
     /// Show a model's facts, and which of the five goals it can reach
     Inspect(InspectArgs),
-    /// Find the skeleton of a model, for telescopes: its limbs, and how thick they are
+    /// Find the limbs inside a model and their radii, for telescopes
     ///
     /// It writes a file to edit and a picture. Given such a file, it checks it.
     Skeleton(SkeletonArgs),
     /// List the known printers, show one, or check a profile of your own
     Printers(PrintersArgs),
+    /// List laser cutters, sheets and fasteners, or check a profile
+    Cutters(CuttersArgs),
     /// Make coupons to weigh and try, to fit a profile to the machine
     Coupon(CouponArgs),
     /// Check a kit's files, and name those that changed

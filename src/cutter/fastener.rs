@@ -1,0 +1,365 @@
+//! The fasteners of a shop: screws, inserts and washers, each number with its source.
+
+use std::f64::consts::FRAC_PI_4;
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+use toml::Spanned;
+
+use super::error::{Problem, ProfileError, suggest};
+use super::library::{FASTENERS, Profile, by_id, ids, is_path, read_text};
+use super::reader::{Key, Reader};
+use crate::base::sourced::Sure;
+use crate::base::units::MM3_PER_CM3;
+
+/// Plausible sizes of fasteners, mm.
+const SIZE_MM: std::ops::RangeInclusive<f64> = 0.1..=200.0;
+/// Plausible masses of fasteners, g.
+const MASS_G: std::ops::RangeInclusive<f64> = 0.005..=500.0;
+/// The plausible densities of the nominal shape, g/cm³: threads, sockets and knurls take some of
+/// it away. Outside them a size or mass is misprinted.
+const DENSITY_G_CM3: std::ops::RangeInclusive<f64> = 3.0..=10.0;
+/// The share of the cylinder around it that a round head fills.
+const HEAD_RATIO: f64 = 0.55;
+
+/// The source of a fastener's sizes, or of its mass.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Provenance {
+    /// The source, in words.
+    pub source: String,
+    /// The confidence in it.
+    pub sure: Sure,
+}
+
+/// The sizes of a fastener, mm.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
+pub enum FastenerShape {
+    /// A machine screw with a round head.
+    Screw {
+        /// Nominal diameter of the thread.
+        thread_mm: f64,
+        /// Length below the head.
+        length_mm: f64,
+        /// Diameter of the head.
+        head_diameter_mm: f64,
+        /// Height of the head.
+        head_height_mm: f64,
+        /// Diameter of the hole that it passes with play.
+        hole_mm: f64,
+    },
+    /// A threaded insert that is pressed hot into a print.
+    Insert {
+        /// Nominal diameter of the thread.
+        thread_mm: f64,
+        /// Length.
+        length_mm: f64,
+        /// Diameter over the knurl.
+        diameter_mm: f64,
+        /// Diameter of the hole that is printed for it.
+        hole_mm: f64,
+    },
+    /// A flat washer.
+    Washer {
+        /// Nominal diameter of the thread that it fits.
+        thread_mm: f64,
+        /// Outer diameter.
+        diameter_mm: f64,
+        /// Diameter of its hole.
+        bore_mm: f64,
+        /// Thickness.
+        thickness_mm: f64,
+    },
+}
+
+impl FastenerShape {
+    /// Returns the nominal diameter of its thread, mm.
+    pub fn thread_mm(&self) -> f64 {
+        match *self {
+            Self::Screw { thread_mm, .. }
+            | Self::Insert { thread_mm, .. }
+            | Self::Washer { thread_mm, .. } => thread_mm,
+        }
+    }
+
+    /// Returns the greatest diameter, mm.
+    pub fn diameter_mm(&self) -> f64 {
+        match *self {
+            Self::Screw {
+                head_diameter_mm, ..
+            } => head_diameter_mm,
+            Self::Insert { diameter_mm, .. } | Self::Washer { diameter_mm, .. } => diameter_mm,
+        }
+    }
+
+    /// Returns the volume of the nominal shape, mm³, threads and knurls as full cylinders.
+    pub fn volume_mm3(&self) -> f64 {
+        let rod = |diameter: f64, length: f64| FRAC_PI_4 * diameter * diameter * length;
+        match *self {
+            Self::Screw {
+                thread_mm,
+                length_mm,
+                head_diameter_mm,
+                head_height_mm,
+                ..
+            } => rod(thread_mm, length_mm) + HEAD_RATIO * rod(head_diameter_mm, head_height_mm),
+            Self::Insert {
+                thread_mm,
+                length_mm,
+                diameter_mm,
+                ..
+            } => rod(diameter_mm, length_mm) - rod(thread_mm, length_mm),
+            Self::Washer {
+                diameter_mm,
+                bore_mm,
+                thickness_mm,
+                ..
+            } => rod(diameter_mm, thickness_mm) - rod(bore_mm, thickness_mm),
+        }
+    }
+
+    /// Returns every size with its key, mm.
+    pub fn sizes_mm(&self) -> Vec<(&'static str, f64)> {
+        match *self {
+            Self::Screw {
+                thread_mm,
+                length_mm,
+                head_diameter_mm,
+                head_height_mm,
+                hole_mm,
+            } => vec![
+                ("thread_mm", thread_mm),
+                ("length_mm", length_mm),
+                ("head_diameter_mm", head_diameter_mm),
+                ("head_height_mm", head_height_mm),
+                ("hole_mm", hole_mm),
+            ],
+            Self::Insert {
+                thread_mm,
+                length_mm,
+                diameter_mm,
+                hole_mm,
+            } => vec![
+                ("thread_mm", thread_mm),
+                ("length_mm", length_mm),
+                ("diameter_mm", diameter_mm),
+                ("hole_mm", hole_mm),
+            ],
+            Self::Washer {
+                thread_mm,
+                diameter_mm,
+                bore_mm,
+                thickness_mm,
+            } => vec![
+                ("thread_mm", thread_mm),
+                ("diameter_mm", diameter_mm),
+                ("bore_mm", bore_mm),
+                ("thickness_mm", thickness_mm),
+            ],
+        }
+    }
+
+    /// Returns two sizes of which the first must be below the second, with their keys.
+    fn order(&self) -> [(&'static str, f64); 2] {
+        match *self {
+            Self::Screw {
+                hole_mm,
+                head_diameter_mm,
+                ..
+            } => [("hole_mm", hole_mm), ("head_diameter_mm", head_diameter_mm)],
+            Self::Insert {
+                thread_mm,
+                diameter_mm,
+                ..
+            } => [("thread_mm", thread_mm), ("diameter_mm", diameter_mm)],
+            Self::Washer {
+                bore_mm,
+                diameter_mm,
+                ..
+            } => [("bore_mm", bore_mm), ("diameter_mm", diameter_mm)],
+        }
+    }
+}
+
+/// A fastener on stock.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Fastener {
+    /// The id by which it is ordered, such as `screw-m3x10`.
+    pub id: String,
+    /// Its name in a shop.
+    pub name: String,
+    /// Its sizes.
+    pub shape: FastenerShape,
+    /// Its mass, g.
+    pub mass_g: f64,
+    /// The spread of the mass between good ones, as a share of it.
+    pub mass_spread_ratio: f64,
+    /// The source of the sizes.
+    pub size: Provenance,
+    /// The source of the mass.
+    pub mass: Provenance,
+}
+
+/// A file of fasteners of one kind, as written.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct FamilyText {
+    id: Spanned<String>,
+    inherits: Option<Spanned<String>>,
+    size: Spanned<Provenance>,
+    mass: Spanned<MassText>,
+    #[serde(default)]
+    part: Vec<Spanned<PartText>>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct MassText {
+    source: String,
+    sure: Sure,
+    spread_ratio: f64,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct PartText {
+    id: Spanned<String>,
+    name: Spanned<String>,
+    shape: FastenerShape,
+    mass_g: f64,
+}
+
+impl Fastener {
+    /// Returns all built-in fasteners: inserts, screws, then washers, each as its file lists them.
+    pub fn all() -> Result<Vec<Self>, ProfileError> {
+        let families = FASTENERS.iter().map(|family| read_family(*family));
+        let families: Vec<Vec<Self>> = families.collect::<Result<_, _>>()?;
+        Ok(families.concat())
+    }
+
+    /// Returns the built-in fastener of this id.
+    pub fn find(id: &str) -> Result<Self, ProfileError> {
+        let all = Self::all()?;
+        if let Some(found) = all.iter().find(|fastener| fastener.id == id) {
+            return Ok(found.clone());
+        }
+        let known: Vec<&str> = all.iter().map(|fastener| fastener.id.as_str()).collect();
+        Err(ProfileError::Unknown {
+            kind: "fastener",
+            id: id.to_owned(),
+            remedy: suggest(id, &known),
+        })
+    }
+
+    /// Reads the fasteners of a shop's own file, and those of the built-in family that it inherits
+    /// from. Its own ones come first. They replace those of the same id.
+    pub fn read(path: &Path) -> Result<Vec<Self>, ProfileError> {
+        let (text, file) = (read_text(path)?, path.to_string_lossy());
+        read_family(Profile {
+            id: &file,
+            file: &file,
+            text: &text,
+        })
+    }
+}
+
+fn read_family(profile: Profile) -> Result<Vec<Fastener>, ProfileError> {
+    let mut reader = Reader::new(profile.file, profile.text);
+    let text: FamilyText = reader.parse()?;
+    reader.id(&text.id);
+    check_sources(&mut reader, &text);
+    let mut fasteners = read_parts(&mut reader, &text);
+    if let Some(parent) = &text.inherits {
+        let inherited = read_parent(&mut reader, profile.id, parent)?;
+        let own: Vec<String> = fasteners.iter().map(|own| own.id.clone()).collect();
+        let others = inherited.into_iter().filter(|one| !own.contains(&one.id));
+        fasteners.extend(others);
+    }
+    reader.refuse_faults()?;
+    Ok(fasteners)
+}
+
+/// Reads the built-in family that a file inherits from; notes one that does not exist.
+fn read_parent(
+    reader: &mut Reader,
+    child: &str,
+    parent: &Spanned<String>,
+) -> Result<Vec<Fastener>, ProfileError> {
+    let word = parent.get_ref();
+    match by_id(FASTENERS, word).filter(|family| family.id != child && !is_path(word)) {
+        Some(family) => read_family(*family),
+        None => {
+            let problem = Problem::UnknownParent {
+                parent: word.clone(),
+                remedy: suggest(word, &ids(FASTENERS)),
+            };
+            reader.note(parent.span().start, problem);
+            Ok(Vec::new())
+        }
+    }
+}
+
+fn check_sources(reader: &mut Reader, text: &FamilyText) {
+    let sources = [
+        ("size", text.size.span().start, &text.size.get_ref().source),
+        ("mass", text.mass.span().start, &text.mass.get_ref().source),
+    ];
+    for (key, at, source) in sources {
+        if source.trim().is_empty() {
+            reader.note(at, Problem::NoSource(key.to_owned()));
+        }
+    }
+    let key = Key::new("spread_ratio", 1e-4..=0.5);
+    let at = text.mass.span().start;
+    reader.check_number(at, &key, text.mass.get_ref().spread_ratio);
+}
+
+fn read_parts(reader: &mut Reader, text: &FamilyText) -> Vec<Fastener> {
+    let mut fasteners: Vec<Fastener> = Vec::new();
+    let mass = text.mass.get_ref();
+    for part in &text.part {
+        let (at, part) = (part.span().start, part.get_ref());
+        let fastener = Fastener {
+            id: reader.id(&part.id),
+            name: reader.words("name", &part.name),
+            shape: part.shape,
+            mass_g: part.mass_g,
+            mass_spread_ratio: mass.spread_ratio,
+            size: text.size.get_ref().clone(),
+            mass: Provenance {
+                source: mass.source.clone(),
+                sure: mass.sure,
+            },
+        };
+        check_part(reader, at, &fastener);
+        if fasteners.iter().any(|known| known.id == fastener.id) {
+            reader.note(at, Problem::Twice(format!("`{}`", fastener.id)));
+        }
+        fasteners.push(fastener);
+    }
+    fasteners
+}
+
+/// Notes implausible sizes and masses.
+fn check_part(reader: &mut Reader, at: usize, fastener: &Fastener) {
+    for (key, value) in fastener.shape.sizes_mm() {
+        reader.check_number(at, &Key::new(key, SIZE_MM), value);
+    }
+    reader.check_number(at, &Key::new("mass_g", MASS_G), fastener.mass_g);
+    let [(key, value), (larger, most)] = fastener.shape.order();
+    if value >= most {
+        let problem = Problem::Contradiction {
+            key: key.to_owned(),
+            value,
+            against: format!("`{larger}` of `{}` is {most}", fastener.id),
+        };
+        reader.note(at, problem);
+        return;
+    }
+    let density = fastener.mass_g / fastener.shape.volume_mm3() * MM3_PER_CM3;
+    if !DENSITY_G_CM3.contains(&density) {
+        let id = fastener.id.clone();
+        reader.note(at, Problem::Density { id, density });
+    }
+}

@@ -1,0 +1,133 @@
+//! The base of a large object as plain data: polyhedra, planes between them, connections.
+
+use super::connection::{Connection, ConnectorRequest, Pair};
+use super::ground::Ground;
+use super::polyhedron::Polyhedron;
+use crate::geom::Plane;
+
+/// What is on one side of a split.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Child {
+    /// Another split, as an index.
+    Split(usize),
+    /// A polyhedron, as an index.
+    Polyhedron(usize),
+}
+
+/// A plane that parts polyhedra.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Split {
+    /// The plane, in the middle of the gap.
+    pub plane: Plane,
+    /// What lies below it.
+    pub below: Child,
+    /// What lies above it.
+    pub above: Child,
+}
+
+/// The base of a large object: polyhedra, the planes between them, and their connections.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BasePlan {
+    /// The polyhedra.
+    pub polyhedra: Vec<Polyhedron>,
+    /// The planes between them, a tree whose root is the first; empty for one polyhedron.
+    pub splits: Vec<Split>,
+    /// The connections across the planes.
+    pub connections: Vec<Connection>,
+}
+
+/// Connects the polyhedra across every plane.
+pub(super) fn connected(
+    ground: &Ground,
+    polyhedra: Vec<Polyhedron>,
+    splits: Vec<Split>,
+    connector: &ConnectorRequest,
+) -> BasePlan {
+    let mut connections = Vec::new();
+    for split in &splits {
+        let [below, above] = [split.below, split.above].map(|side| leaves_of(&splits, side));
+        for &i in &below {
+            for &j in &above {
+                let pair = Pair {
+                    ground,
+                    indices: [i, j],
+                    polyhedra: [&polyhedra[i], &polyhedra[j]],
+                    plane: split.plane,
+                };
+                let is_free = |connection: &Connection| {
+                    let others = polyhedra.iter().enumerate();
+                    let mut others = others.filter(|(at, _)| *at != i && *at != j);
+                    !others.any(|(_, other)| connection.is_barred_by(other))
+                };
+                connections.extend(pair.connect(connector).filter(is_free));
+            }
+        }
+    }
+    BasePlan {
+        polyhedra,
+        splits,
+        connections,
+    }
+}
+
+/// Returns the polyhedra of one side of a split.
+fn leaves_of(splits: &[Split], side: Child) -> Vec<usize> {
+    match side {
+        Child::Polyhedron(index) => vec![index],
+        Child::Split(index) => {
+            let split = &splits[index];
+            [split.below, split.above]
+                .map(|side| leaves_of(splits, side))
+                .concat()
+        }
+    }
+}
+
+impl BasePlan {
+    /// Returns the volume of all polyhedra, mm³.
+    pub fn volume_mm3(&self) -> f64 {
+        self.polyhedra.iter().map(Polyhedron::volume_mm3).sum()
+    }
+
+    /// Returns the polyhedra on each side of a split, the ones below it first.
+    pub fn polyhedra_beside(&self, split: usize) -> [Vec<usize>; 2] {
+        let Split { below, above, .. } = self.splits[split];
+        [below, above].map(|side| leaves_of(&self.splits, side))
+    }
+
+    /// Returns true if the connections join all polyhedra to one.
+    pub fn is_joined(&self) -> bool {
+        let mut joined = vec![false; self.polyhedra.len()];
+        let mut waiting = vec![0];
+        while let Some(here) = waiting.pop() {
+            let is_new = joined
+                .get_mut(here)
+                .is_some_and(|seen| !std::mem::replace(seen, true));
+            if is_new {
+                let connections = self.connections.iter();
+                let ends = connections.map(|connection| connection.polyhedra);
+                waiting.extend(ends.filter(|ends| ends.contains(&here)).flatten());
+            }
+        }
+        joined.into_iter().all(|is_joined| is_joined)
+    }
+
+    /// Returns the least distance from a split to the corners of the polyhedra beside it, mm;
+    /// positive if its plane parts them.
+    pub fn parted_by_mm(&self, split: usize) -> f64 {
+        let plane = self.splits[split].plane;
+        let sides = self.polyhedra_beside(split);
+        let distances = sides.iter().zip([-1.0, 1.0]).flat_map(|(side, sign)| {
+            let corners = side.iter().flat_map(|&at| self.polyhedra[at].corners());
+            corners.map(move |p| sign * plane.distance(p))
+        });
+        distances.fold(f64::INFINITY, f64::min)
+    }
+
+    /// Returns the least of [`Self::parted_by_mm`] over all splits, mm; infinite for one
+    /// polyhedron. Positive if all pairs are parted.
+    pub fn parted_mm(&self) -> f64 {
+        let all = (0..self.splits.len()).map(|split| self.parted_by_mm(split));
+        all.fold(f64::INFINITY, f64::min)
+    }
+}

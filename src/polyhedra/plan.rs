@@ -1,0 +1,332 @@
+//! Several polyhedra: planes first, then a polyhedron on each side.
+
+use rayon::prelude::*;
+
+use super::base_plan::{BasePlan, Child, Split, connected};
+use super::connection::{ConnectorRequest, Pair};
+use super::ground::Ground;
+use super::inscribe::{NoRoom, Region, Request};
+use super::polyhedron::Polyhedron;
+use crate::base::verdict::Verdict;
+use crate::base::watch::{Cancelled, Watch};
+use crate::geom::{Aabb, Plane, Point, Vector};
+
+/// Places of the first planes along each axis, as shares of the region's extent.
+const PLACES: [f64; 3] = [0.35, 0.5, 0.65];
+/// Step of the last places about the best ones, as a share of the extent.
+const REFINEMENT: f64 = 0.07;
+/// The least gain of volume by one more polyhedron.
+const LEAST_GAIN: f64 = 0.05;
+/// Starts on each side while planes are compared.
+const SOUNDING_STARTS: usize = 2;
+/// Planes that are tried in full.
+const FINALISTS: usize = 3;
+
+/// The number of polyhedra.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Count {
+    /// As many as each raise the volume by 5 %, but no more than this.
+    Auto(usize),
+    /// This many, or fewer if no plane gives room for one more.
+    Exactly(usize),
+}
+
+/// What is asked of several polyhedra.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Several {
+    /// Their number.
+    pub count: Count,
+    /// Their connections.
+    pub connector: ConnectorRequest,
+}
+
+/// One side of a plane, and its polyhedron.
+#[derive(Debug, Clone)]
+struct Leaf {
+    locked: Vec<Plane>,
+    polyhedron: Polyhedron,
+}
+
+/// A leaf, and the best way to part it as far as one was looked for.
+struct Branch {
+    leaf: Leaf,
+    parted: Option<Parted>,
+    is_tried: bool,
+}
+
+impl Branch {
+    fn new(leaf: Leaf) -> Self {
+        Self {
+            leaf,
+            parted: None,
+            is_tried: false,
+        }
+    }
+
+    fn polyhedron(&self) -> &Polyhedron {
+        &self.leaf.polyhedron
+    }
+}
+
+/// Returns the branch that gains most by being parted, if it gains more than the least.
+fn most_gainful(branches: &[Branch], least_mm3: f64) -> Option<usize> {
+    let gain_mm3 = |branch: &Branch| branch.parted.as_ref().map(|parted| parted.gain_mm3);
+    let gains = branches.iter().map(gain_mm3).enumerate();
+    let gains = gains.filter_map(|(index, gain)| Some((index, gain?)));
+    let enough = gains.filter(|(_, gain)| *gain > least_mm3);
+    let best = enough.reduce(|a, b| if b.1 > a.1 { b } else { a });
+    best.map(|(index, _)| index)
+}
+
+/// A leaf parted by a plane.
+struct Parted {
+    plane: Plane,
+    leaves: [Leaf; 2],
+    gain_mm3: f64,
+}
+
+/// A place for a plane square to an axis.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Place {
+    axis: usize,
+    /// The share of the extent below it.
+    share: f64,
+}
+
+/// The search for planes.
+struct Planner<'a> {
+    ground: &'a Ground,
+    request: &'a Request,
+    connector: &'a ConnectorRequest,
+    watch: &'a Watch,
+}
+
+/// Returns polyhedra on both sides of planes that part the model, or why there is no room for any.
+///
+/// Each side of a plane grows its own, with one face locked on the plane. Planes are square to the
+/// axes of the model. Every polyhedron costs a search of its own and some trials of planes, about
+/// 10 s on 2 cores. A plane is taken only if connections join all polyhedra.
+///
+/// The same bytes on any number of threads.
+pub fn grow_polyhedra(
+    ground: &Ground,
+    request: &Request,
+    several: &Several,
+    watch: &Watch,
+) -> Result<Verdict<BasePlan, NoRoom>, Cancelled> {
+    let whole = Region::new(ground, request, Vec::new());
+    let Some(polyhedron) = whole.grow(whole.starts(), watch)? else {
+        return Ok(Verdict::No(whole.no_room()));
+    };
+    let planner = Planner {
+        ground,
+        request,
+        connector: &several.connector,
+        watch,
+    };
+    let first = Leaf {
+        locked: Vec::new(),
+        polyhedron,
+    };
+    let (polyhedra, splits) = planner.divided(first, several.count)?;
+    let plan = connected(ground, polyhedra, splits, &several.connector);
+    Ok(Verdict::Found(plan))
+}
+
+impl Planner<'_> {
+    /// Parts leaves while that is asked for or gains enough.
+    fn divided(
+        &self,
+        first: Leaf,
+        count: Count,
+    ) -> Result<(Vec<Polyhedron>, Vec<Split>), Cancelled> {
+        let (most, least_gain) = match count {
+            Count::Auto(most) => (most, LEAST_GAIN),
+            Count::Exactly(most) => (most, f64::NEG_INFINITY),
+        };
+        let mut branches = vec![Branch::new(first)];
+        let mut splits: Vec<Split> = Vec::new();
+        while branches.len() < most {
+            for branch in branches.iter_mut().filter(|branch| !branch.is_tried) {
+                branch.parted = self.part(&branch.leaf)?;
+                branch.is_tried = true;
+            }
+            let polyhedra: Vec<&Polyhedron> = branches.iter().map(Branch::polyhedron).collect();
+            let total: f64 = polyhedra.iter().map(|one| one.volume_mm3()).sum();
+            let Some(index) = most_gainful(&branches, least_gain * total) else {
+                break;
+            };
+            let Some(parted) = branches[index].parted.take() else {
+                break;
+            };
+            let mut next = splits.clone();
+            add_split(&mut next, index, parted.plane, branches.len());
+            if self.holds_together(&branches, index, &parted, &next) {
+                splits = next;
+                let [below, above] = parted.leaves;
+                branches[index] = Branch::new(below);
+                branches.push(Branch::new(above));
+            }
+        }
+        let polyhedra = branches.into_iter().map(|branch| branch.leaf.polyhedron);
+        Ok((polyhedra.collect(), splits))
+    }
+
+    /// Returns true if connections join all polyhedra to one base when a branch is parted.
+    fn holds_together(
+        &self,
+        branches: &[Branch],
+        index: usize,
+        parted: &Parted,
+        splits: &[Split],
+    ) -> bool {
+        let mut polyhedra: Vec<Polyhedron> = branches
+            .iter()
+            .map(|branch| branch.polyhedron().clone())
+            .collect();
+        polyhedra[index] = parted.leaves[0].polyhedron.clone();
+        polyhedra.push(parted.leaves[1].polyhedron.clone());
+        connected(self.ground, polyhedra, splits.to_vec(), self.connector).is_joined()
+    }
+
+    /// Returns the best plane for a leaf with a polyhedron on both sides; `None` if none leaves
+    /// room for two that can be connected.
+    fn part(&self, leaf: &Leaf) -> Result<Option<Parted>, Cancelled> {
+        let Some(extent) = self.extent(&leaf.locked) else {
+            return Ok(None);
+        };
+        let first: Vec<Place> = (0..3)
+            .flat_map(|axis| PLACES.map(|share| Place { axis, share }))
+            .collect();
+        let mut sounded = self.sounded(leaf, &extent, &first)?;
+        sounded.truncate(2);
+        let near = sounded.iter().flat_map(|&(_, Place { axis, share })| {
+            let shares = [share - REFINEMENT, share + REFINEMENT];
+            shares.map(|share| Place { axis, share })
+        });
+        let near: Vec<Place> = near.collect();
+        sounded.extend(self.sounded(leaf, &extent, &near)?);
+        sounded.sort_by(|a, b| b.0.total_cmp(&a.0));
+        let mut best: Option<Parted> = None;
+        for &(_, place) in sounded.iter().take(FINALISTS) {
+            if let Some(parted) = self.parted(leaf, plane_at(&extent, place))?
+                && best
+                    .as_ref()
+                    .is_none_or(|best| parted.gain_mm3 > best.gain_mm3)
+            {
+                best = Some(parted);
+            }
+        }
+        Ok(best)
+    }
+
+    /// Returns the places with room on both sides and the volume that a quick growth reaches in
+    /// both, largest first.
+    fn sounded(
+        &self,
+        leaf: &Leaf,
+        extent: &Aabb,
+        places: &[Place],
+    ) -> Result<Vec<(f64, Place)>, Cancelled> {
+        let volumes: Result<Vec<f64>, Cancelled> = places
+            .par_iter()
+            .map(|&place| {
+                let sides = self.sides(leaf, &plane_at(extent, place));
+                let volume = |locked: Vec<Plane>| {
+                    let region = Region::new(self.ground, self.request, locked);
+                    region.sounded_mm3(SOUNDING_STARTS, self.watch)
+                };
+                let [below, above] = sides.map(volume);
+                let (below, above) = (below?, above?);
+                Ok(if below.min(above) > 0.0 {
+                    below + above
+                } else {
+                    0.0
+                })
+            })
+            .collect();
+        let sounded = volumes?.into_iter().zip(places.iter().copied());
+        let mut sounded: Vec<_> = sounded.filter(|(volume, _)| *volume > 0.0).collect();
+        sounded.sort_by(|a, b| b.0.total_cmp(&a.0));
+        Ok(sounded)
+    }
+
+    /// Parts a leaf by a plane; `None` if a side has no room or the sides cannot be connected.
+    fn parted(&self, leaf: &Leaf, plane: Plane) -> Result<Option<Parted>, Cancelled> {
+        let mut leaves = Vec::new();
+        for locked in self.sides(leaf, &plane) {
+            let region = Region::new(self.ground, self.request, locked);
+            let Some(polyhedron) = region.grow(region.starts(), self.watch)? else {
+                return Ok(None);
+            };
+            let locked = region.locked;
+            leaves.push(Leaf { locked, polyhedron });
+        }
+        let Ok(leaves) = <[Leaf; 2]>::try_from(leaves) else {
+            return Ok(None);
+        };
+        let pair = Pair {
+            ground: self.ground,
+            indices: [0, 1],
+            polyhedra: [&leaves[0].polyhedron, &leaves[1].polyhedron],
+            plane,
+        };
+        if pair.connect(self.connector).is_none() {
+            return Ok(None);
+        }
+        let sum: f64 = leaves.iter().map(|leaf| leaf.polyhedron.volume_mm3()).sum();
+        let gain_mm3 = sum - leaf.polyhedron.volume_mm3();
+        Ok(Some(Parted {
+            plane,
+            leaves,
+            gain_mm3,
+        }))
+    }
+
+    /// Returns the planes that bound the leaf's sides below and above a plane.
+    fn sides(&self, leaf: &Leaf, plane: &Plane) -> [Vec<Plane>; 2] {
+        let half_mm = self.connector.gap_mm / 2.0;
+        let below = Plane {
+            offset_mm: plane.offset_mm - half_mm,
+            ..*plane
+        };
+        let above = Plane {
+            normal: -plane.normal,
+            offset_mm: -plane.offset_mm - half_mm,
+        };
+        [below, above].map(|side| [leaf.locked.as_slice(), &[side]].concat())
+    }
+
+    /// Returns the box around the model's corners in a part; `None` if there are none.
+    fn extent(&self, locked: &[Plane]) -> Option<Aabb> {
+        let points = self.ground.obstacles().points().iter();
+        let is_inside = |p: &&Point| locked.iter().all(|plane| plane.distance(p) <= 0.0);
+        let extent = Aabb::of_points(points.filter(is_inside));
+        (!extent.is_empty()).then_some(extent)
+    }
+}
+
+/// Puts a new split in the place of a polyhedron; the one above it is new.
+fn add_split(splits: &mut Vec<Split>, index: usize, plane: Plane, new: usize) {
+    let here = splits.len();
+    for split in splits.iter_mut() {
+        for side in [&mut split.below, &mut split.above] {
+            if *side == Child::Polyhedron(index) {
+                *side = Child::Split(here);
+            }
+        }
+    }
+    splits.push(Split {
+        plane,
+        below: Child::Polyhedron(index),
+        above: Child::Polyhedron(new),
+    });
+}
+
+fn plane_at(extent: &Aabb, Place { axis, share }: Place) -> Plane {
+    let offset_mm = extent.min[axis] + share * extent.size()[axis];
+    Plane {
+        normal: Vector::ith(axis, 1.0),
+        offset_mm,
+    }
+}
