@@ -16,7 +16,7 @@ use crate::verify::{Body, Evidence, PlateSpot, Pose, PromisedPlate};
 /// Width of a line, mm.
 const LINE_MM: f64 = 0.5;
 /// Diameter of the filament, mm: a circle of 1 mm².
-const FILAMENT_MM: f64 = 1.128_379_167_095_512_6;
+const FILAMENT_MM: f64 = std::f64::consts::FRAC_2_SQRT_PI;
 /// The places of the parts on the plate, mm.
 const LOWS_MM: [[f64; 2]; 2] = [[10.0, 10.0], [80.0, 10.0]];
 
