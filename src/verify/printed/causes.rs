@@ -4,7 +4,7 @@ use super::cause::{Cause, CauseKind};
 use super::density::Densities;
 use super::limits::{
     DENSITY_RATIO, EDGE_MM, EDGE_RATIO, EXTRA_SKIN_MM, LACKING_SKIN_MM, LAYER_RATIO, LINE_RATIO,
-    PRINTED_MASS_LIMIT_RATIO, SPREAD_SHARE, SUPPORT_RATIO,
+    PRINTED_MASS_LIMIT_RATIO, SPREAD_SHARE, SUPPORT_RATIO, WHOLE_SPREAD_SHARE,
 };
 use super::part::PrintedPart;
 use super::source::Source;
@@ -197,7 +197,8 @@ impl Printed<'_> {
         let listed: Vec<String> = listed.collect();
         let finding = format!("{} of the material of its solid", listed.join(", "));
         let setting = CauseKind::Flow.setting(self.source.slicer());
-        let remedy = format!("check {setting}, the width of lines and the diameter of filament");
+        let remedy =
+            format!("check {setting}, the scale, the width of lines and the diameter of filament");
         self.cause(CauseKind::Flow, &parts, finding, remedy)
     }
 
@@ -224,7 +225,7 @@ impl Printed<'_> {
 /// Returns true if a part has another size than its file.
 ///
 /// Edges across the layers are known to a part of a line, those along z to a layer. Slicers leave
-/// out thin tips, which makes an edge shorter: then another edge or the spread must say the same.
+/// out thin tips, which makes edges shorter: then the spread of the material must say the same.
 fn is_scaled(part: &PrintedPart, promise: &Promise) -> bool {
     let layer_mm = part.layer_mm.or(promise.printer.layer_mm).unwrap_or(0.0);
     let limits_mm = [EDGE_MM, EDGE_MM, EDGE_MM + layer_mm];
@@ -233,14 +234,14 @@ fn is_scaled(part: &PrintedPart, promise: &Promise) -> bool {
         let limit_mm = limits_mm[axis] + EDGE_RATIO * part.edges_mm[axis];
         (part.size_ratio[axis] - 1.0) * part.edges_mm[axis] / limit_mm
     });
-    let is_spread_less = |axis: usize| {
-        let [edge, spread] = [part.size_ratio, part.spread_ratio].map(|ratio| 1.0 - ratio[axis]);
-        spread > SPREAD_SHARE * edge
-    };
-    let shorter = longer.iter().filter(|longer| **longer < -0.5).count();
+    let edge_loss = part.size_ratio.map(|ratio| 1.0 - ratio);
+    let spread_loss = part.spread_ratio.map(|ratio| 1.0 - ratio);
+    let is_whole_less = spread_loss.iter().sum::<f64>()
+        > WHOLE_SPREAD_SHARE * edge_loss.iter().sum::<f64>()
+        && longer.iter().filter(|longer| **longer < -0.5).count() > 1;
     (0..3).any(|axis| {
-        let is_shorter = longer[axis] < -1.0 && (shorter > 1 || is_spread_less(axis));
-        longer[axis] > 1.0 || is_shorter
+        let is_axis_less = spread_loss[axis] > SPREAD_SHARE * edge_loss[axis];
+        longer[axis] > 1.0 || longer[axis] < -1.0 && (is_axis_less || is_whole_less)
     })
 }
 

@@ -1,5 +1,7 @@
 //! The judge of toolpaths on G-code written from known boxes, right and with one fault at a time.
 
+mod hostile;
+
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
@@ -11,7 +13,7 @@ use crate::geom::Point;
 use crate::mesh::TriMesh;
 use crate::verify::judge_tests::sound_kit;
 use crate::verify::test_meshes::block;
-use crate::verify::{Body, Evidence, PlateSpot, Pose, PromisedPlate};
+use crate::verify::{Body, Evidence, Hardware, HardwareKind, PlateSpot, Pose, PromisedPlate};
 
 /// Width of a line, mm.
 const LINE_MM: f64 = 0.5;
@@ -348,6 +350,53 @@ fn a_scaled_plate_is_named() {
         "{}",
         cause.finding
     );
+}
+
+#[test]
+fn a_thin_tip_that_is_left_out_is_no_scale() {
+    // A fin of the width of a line reaches 1.5 mm beyond the wall; slicers leave it out.
+    let fin = block(Point::new(60.0, 19.75, 0.0), [1.5, 0.5, 6.0]);
+    let mut evidence = kit();
+    evidence.parts[0].mesh = evidence.parts[0].mesh.clone().joined(&fin);
+    evidence.promise.plates[0].holds[0].size_mm[0] += 1.5;
+    let found = judged(&evidence, RIGHT.trays(LABELS));
+    assert!((found.parts[0].size_ratio[0] - 60.0 / 61.5).abs() < 1e-3);
+    assert_eq!(kinds(&found), [], "{:?}", found.causes);
+    // A plate of 99 % is shorter too, and its material is as well.
+    let small = Print {
+        scale_ratio: 0.99,
+        ..RIGHT
+    };
+    assert_eq!(only_cause(small).kind, CauseKind::Scale);
+}
+
+#[test]
+fn glue_hardware_and_ballast_are_those_of_the_promise() {
+    let mut evidence = kit();
+    let plain_g = judged(&evidence, RIGHT.trays(LABELS)).written.mass_g;
+    evidence.promise.hardware.push(Hardware {
+        id: "H1".into(),
+        kind: HardwareKind::Tip,
+        from_mm: [0.0, 0.0, 8.0],
+        to_mm: [0.0, 0.0, 4.0],
+        diameter_mm: 4.0,
+        hole_mm: 0.0,
+        round_end: false,
+        density_g_cm3: 7.8,
+        mass_g: 0.4,
+        depth_mm: 2.0,
+        socket_mm: 0.0,
+    });
+    let found = judged(&evidence, RIGHT.trays(LABELS));
+    let toolpaths = found.toolpaths.unwrap();
+    assert!(found.written.mass_g > plain_g + 0.3);
+    assert!((toolpaths.mass_g - found.written.mass_g).abs() < 1e-9);
+    for axis in 0..3 {
+        let apart_mm = toolpaths.center_mm[axis] - found.written.center_mm[axis];
+        assert!(apart_mm.abs() < 1e-9, "{apart_mm}");
+    }
+    let printed_g: f64 = found.parts.iter().map(|part| part.mass_g).sum();
+    assert!((printed_g - plain_g).abs() < 1e-9);
 }
 
 #[test]
