@@ -197,6 +197,15 @@ fn right_toolpaths_balance_as_promised_wherever_the_plate_lies() {
     }
     let whole = |of: &str| number(&found, &format!("/{of}/topples_deg"));
     assert!((whole("toolpaths") - whole("written")).abs() < 0.5);
+    let output = equipoise(&["verify", path(&bench.at("kit")), "--gcode", path(gcode)]);
+    common::assert_exit(&output, 0);
+    for words in [
+        "toppling angle",
+        "by the toolpaths",
+        "heed support in voids",
+    ] {
+        assert!(printed(&output).contains(words), "{}", printed(&output));
+    }
     // The slicer may arrange the plate anew.
     let found = bench.assert_right(&[&bench.slice("moved", &bench.plate(), "--center 100,90")]);
     let parts = list(&found, "parts");
@@ -237,6 +246,17 @@ fn plates_are_put_together_and_one_missing_is_named() {
     let [finding, remedy] = bench.assert_named(&first, "missing");
     assert!(finding.contains("P02 is in no file"), "{finding}");
     assert!(remedy.contains("plate.3mf"), "{remedy}");
+    let kit = bench.at("kit");
+    let output = equipoise(&["verify", path(&kit), "--gcode", path(&first)]);
+    common::assert_exit(&output, 1);
+    for words in [
+        "The whole cannot be weighed before every part is there",
+        "FAIL missing parts: P02 is in no file",
+        "remedy: put all parts on their plates",
+        "1 BROKEN",
+    ] {
+        assert!(printed(&output).contains(words), "{}", printed(&output));
+    }
     let output = bench.run(&[&first, &second, &first]);
     common::assert_exit(&output, 2);
     assert!(printed(&output).contains("P01 is printed in"));

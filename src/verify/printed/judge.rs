@@ -10,6 +10,7 @@ use super::error::PrintedError;
 use super::judgement::{PrintedFile, PrintedJudgement};
 use super::limits::PRINTED_MASS_LIMIT_RATIO;
 use super::matching::{Catalogue, Match, Matches};
+use super::names::name_some;
 use super::part::PrintedPart;
 use super::shape::Thing;
 use super::source::{Source, read_sources};
@@ -236,11 +237,15 @@ fn write_notes(
             "turned on the plate since the kit was made, and placed by its box: {turned}"
         ));
     }
-    for stranger in &matches.strangers {
-        notes.push(format!("not of this kit, and left out: {stranger}"));
+    if !matches.strangers.is_empty() {
+        let strangers = name_some(&matches.strangers);
+        notes.push(format!("not of this kit, and left out: {strangers}"));
     }
-    for copy in &matches.copies {
-        notes.push(format!("printed more than once, and weighed once: {copy}"));
+    if !matches.copies.is_empty() {
+        let copies = name_some(&matches.copies);
+        notes.push(format!(
+            "printed more than once, and weighed once: {copies}"
+        ));
     }
     notes.extend(
         sources

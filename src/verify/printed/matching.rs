@@ -1,7 +1,7 @@
 //! Finds the part that each piece of printed material is: by its label, its shape, or its place.
 
 use super::error::PrintedError;
-use super::names::named_ids;
+use super::names::{name_some, named_ids};
 use super::shape::{Fit, Shape, Thing, middle};
 use super::source::{Piece, Source};
 use crate::base::watch::Watch;
@@ -133,7 +133,7 @@ impl Catalogue<'_> {
                 .iter()
                 .map(|piece| self.describe(source, piece))
                 .collect();
-            return Err(self.foreign(source, format!("it prints {}", labels.join(", "))));
+            return Err(self.foreign(source, format!("it prints {}", name_some(&labels))));
         }
         let named = strange.iter();
         strangers.extend(named.map(|piece| format!("{} in {}", piece.label, source.name)));

@@ -1,4 +1,9 @@
-//! The names of a kit's parts in the labels of slicers.
+//! The names of a kit's parts in the labels of slicers, and labels in the words of the judge.
+
+/// Most names in one sentence.
+const MOST_NAMED: usize = 5;
+/// Most characters of a label that are shown.
+const MOST_SHOWN: usize = 80;
 
 /// Returns the indices of the ids that a label names as whole words.
 ///
@@ -20,6 +25,24 @@ pub(super) fn named_ids<'a>(label: &str, ids: impl Iterator<Item = &'a str>) -> 
         .filter(|(_, id)| is_named(id))
         .map(|(index, _)| index)
         .collect()
+}
+
+/// Returns a label as it may be shown: without control characters, and not too long.
+pub(super) fn showable(label: &str) -> String {
+    let shown = label.chars().take(MOST_SHOWN);
+    shown
+        .map(|c| if c.is_control() { '\u{fffd}' } else { c })
+        .collect()
+}
+
+/// Returns the first names with commas, and the count of the others; `nothing` without any.
+pub(super) fn name_some(names: &[String]) -> String {
+    let named = names[..names.len().min(MOST_NAMED)].join(", ");
+    match names.len() {
+        0 => "nothing".to_owned(),
+        count if count > MOST_NAMED => format!("{named} and {} more", count - MOST_NAMED),
+        _ => named,
+    }
 }
 
 /// Returns the name in small letters, with `_` for all but letters and digits.
@@ -64,5 +87,19 @@ mod tests {
         for label in ["P011", "XP01", "cube", "", "P1"] {
             assert!(found(label).is_empty(), "{label}");
         }
+    }
+
+    #[test]
+    fn labels_are_shown_without_orders_to_the_terminal() {
+        assert_eq!(showable("a\u{1b}[31mb"), "a\u{fffd}[31mb");
+        assert_eq!(showable(&"x".repeat(1000)).len(), MOST_SHOWN);
+    }
+
+    #[test]
+    fn only_a_few_names_are_listed() {
+        let names: Vec<String> = (1..=7).map(|name| name.to_string()).collect();
+        assert_eq!(name_some(&names), "1, 2, 3, 4, 5 and 2 more");
+        assert_eq!(name_some(&names[..2]), "1, 2");
+        assert_eq!(name_some(&[]), "nothing");
     }
 }

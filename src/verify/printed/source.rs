@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use super::error::PrintedError;
+use super::names::showable;
 use super::shape::Shape;
 use crate::base::watch::Watch;
 use crate::geom::{Aabb, Vector};
@@ -186,8 +187,8 @@ pub(super) fn lines_of(deposits: &Deposits, promise: &Promise) -> Option<Lines> 
 /// Returns a label's name, or its number if it has no name.
 fn words(label: &Label) -> String {
     if label.name.is_empty() {
-        label.to_string()
+        showable(&label.to_string())
     } else {
-        label.name.clone()
+        showable(&label.name)
     }
 }

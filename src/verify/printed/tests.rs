@@ -354,13 +354,20 @@ fn a_scaled_plate_is_named() {
 
 #[test]
 fn a_thin_tip_that_is_left_out_is_no_scale() {
-    // A fin of the width of a line reaches 1.5 mm beyond the wall; slicers leave it out.
-    let fin = block(Point::new(60.0, 19.75, 0.0), [1.5, 0.5, 6.0]);
+    // Fins of the width of a line reach 1 mm beyond two walls; slicers leave them out.
+    let fins = [
+        block(Point::new(60.0, 19.75, 0.0), [1.0, 0.5, 6.0]),
+        block(Point::new(29.75, 40.0, 0.0), [0.5, 1.0, 6.0]),
+    ];
     let mut evidence = kit();
-    evidence.parts[0].mesh = evidence.parts[0].mesh.clone().joined(&fin);
-    evidence.promise.plates[0].holds[0].size_mm[0] += 1.5;
+    let tray = evidence.parts[0].mesh.clone();
+    evidence.parts[0].mesh = fins.iter().fold(tray, |mesh, fin| mesh.joined(fin));
+    let spot = &mut evidence.promise.plates[0].holds[0];
+    spot.size_mm = spot.size_mm.map(|mm| mm + 1.0);
     let found = judged(&evidence, RIGHT.trays(LABELS));
-    assert!((found.parts[0].size_ratio[0] - 60.0 / 61.5).abs() < 1e-3);
+    for (ratio, mm) in found.parts[0].size_ratio.iter().zip([60.0, 40.0]) {
+        assert!((ratio - mm / (mm + 1.0)).abs() < 1e-3, "{ratio}");
+    }
     assert_eq!(kinds(&found), [], "{:?}", found.causes);
     // A plate of 99 % is shorter too, and its material is as well.
     let small = Print {
