@@ -291,6 +291,15 @@ fn another_filament_is_named() {
 }
 
 #[test]
+fn a_low_flow_is_named_and_not_taken_for_sparse_infill() {
+    let Some(bench) = bench() else { return };
+    let options = "--dont-arrange --extrusion-multiplier 0.9";
+    let gcode = bench.slice("thin", &bench.plate(), options);
+    let [_, remedy] = bench.assert_named(&gcode, "flow");
+    assert!(remedy.contains("check extrusion_multiplier"), "{remedy}");
+}
+
+#[test]
 fn thick_layers_are_named() {
     let Some(bench) = bench() else { return };
     let thick = |xml: String| {
