@@ -26,6 +26,7 @@ pub mod skeleton;
 mod skeleton_picture;
 mod summary;
 pub mod telescope;
+mod toolpaths;
 mod values;
 pub mod verify;
 pub mod voice;

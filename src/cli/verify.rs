@@ -8,13 +8,14 @@ use super::exit::Exit;
 use super::replay::replay;
 use super::show::{GREEN, RED, paint, say};
 use super::summary::{checks_table, summary};
+use super::toolpaths::toolpaths_text;
 use super::voice::{Manner, Voice};
 use crate::base::watch::Watch;
 use crate::error::Error;
 use crate::press;
 use crate::verify::{
-    Check, CheckKind, FileChange, TelescopeVerifyError, VerifyError, files_check, is_telescope,
-    verify_telescope,
+    Check, CheckKind, FileChange, PrintedError, TelescopeVerifyError, VerifyError, files_check,
+    is_telescope, verify_printed, verify_telescope,
 };
 
 /// Greatest number of files that are not on the list and are named.
@@ -33,6 +34,14 @@ pub enum VerifyCommandError {
     /// A telescope is made of no model.
     #[error("this kit is a telescope's, which is made of no model; remedy: verify it without one")]
     NoModel,
+    /// The toolpaths cannot be judged.
+    #[error(transparent)]
+    Printed(#[from] PrintedError),
+    /// The toolpaths of a telescope are not judged.
+    #[error(
+        "this kit is a telescope's, whose toolpaths are not judged; remedy: verify it without them"
+    )]
+    NoToolpaths,
     /// A telescope is not made again.
     #[error("a telescope's kit is not made again; remedy: verify it without that order")]
     NoReplay,
@@ -58,6 +67,9 @@ pub fn verify(
     if args.replay && is_telescope {
         return Err(VerifyCommandError::NoReplay);
     }
+    if !args.gcode.is_empty() {
+        return verify_toolpaths(args, voice, out);
+    }
     let Judged {
         mut checks,
         changes,
@@ -81,6 +93,30 @@ pub fn verify(
         say(text(&checks, &changes, voice.manner).trim_end());
     }
     Ok(if is_kept { Exit::Kept } else { Exit::NotKept })
+}
+
+/// Judges the toolpaths of a kit; prints the findings to `out`.
+fn verify_toolpaths(
+    args: &VerifyArgs,
+    voice: Voice,
+    out: &mut dyn Write,
+) -> Result<Exit, VerifyCommandError> {
+    if is_telescope(&args.kit) {
+        return Err(VerifyCommandError::NoToolpaths);
+    }
+    let found = verify_printed(&args.kit, &args.gcode, &Watch::silent())?;
+    if voice.json {
+        writeln!(out, "{}", serde_json::to_string_pretty(&found)?)?;
+    } else if !voice.manner.quiet {
+        write!(out, "{}", toolpaths_text(&found, voice.manner))?;
+    } else if !found.passes() {
+        say(toolpaths_text(&found, voice.manner).trim_end());
+    }
+    Ok(if found.passes() {
+        Exit::Kept
+    } else {
+        Exit::NotKept
+    })
 }
 
 /// What was found in a kit.

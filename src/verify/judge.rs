@@ -2,14 +2,15 @@
 
 use rayon::prelude::*;
 
-use super::ballast::{ballast_moments, fill_moments, least_room_mm};
+use super::ballast::least_room_mm;
 use super::body::Body;
 use super::checks::checks;
 use super::cleaning::inspect_voids;
 use super::cups::measure_cups;
-use super::hardware::{mass_moments, measure_fit};
+use super::hardware::measure_fit;
 use super::jigs::measure_jigs;
-use super::joints::{count_lost_strokes, film_error, film_moments};
+use super::joints::{count_lost_strokes, film_error};
+use super::loads::Loads;
 use super::part_probe::PartProbe;
 use super::pegs::{count_overlaps, measure_pegs};
 use super::play::measure_joints;
@@ -123,15 +124,7 @@ impl AllFigures {
         let promise = &evidence.promise;
         let outer = &body.outer;
         let setting = Setting::new(promise, outer);
-        let density_g_mm3 = setting.density_g_mm3();
-        let load = ballast_moments(&promise.ballast, density_g_mm3)
-            + fill_moments(
-                promise.fill,
-                &body.shells.inner_mesh(),
-                setting.density_g_cm3,
-            );
-        let joined =
-            (film_moments(promise) + mass_moments(&promise.dowels)) * density_g_mm3.recip();
+        let Loads { inside, joined } = Loads::of(promise, body, &setting);
         let assembled = assembly_moments(&evidence.parts);
         let figures = |printed: &Moments, load: &Moments| {
             watch.check()?;
@@ -139,8 +132,8 @@ impl AllFigures {
         };
         Ok(Self {
             solid: Figures::new(&moments_of_mesh(outer), &setting),
-            hollowed: figures(&moments_of_mesh(&body.welded), &load)?,
-            assembly: figures(&assembled, &(load + joined))?,
+            hollowed: figures(&moments_of_mesh(&body.welded), &inside)?,
+            assembly: figures(&assembled, &(inside + joined))?,
             fit: measure_fit(
                 &promise.hardware,
                 &promise.goal.frame(),

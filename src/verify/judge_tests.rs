@@ -62,6 +62,8 @@ fn promise(poses: &[Pose]) -> Promise {
             minimum_opening_mm: None,
             cleaning: None,
             seam_step_mm: Some(0.3),
+            layer_mm: Some(0.016),
+            pixel_mm: Some([0.0423; 2]),
         },
         material: Density { density_g_cm3: 1.2 },
         goal: Aim::new(GoalKind::Top, [0.0; 3], [0.0, 0.0, 1.0]),

@@ -121,6 +121,16 @@ pub enum CheckKind {
     Replay,
     /// Agreement of the outside with the model.
     Model,
+    /// Parts whose toolpaths are missing.
+    PrintedParts,
+    /// Parts that are printed in another size, or mirrored.
+    PrintedShapes,
+    /// Settings of the slicer that are not those of the kit.
+    PrintedSettings,
+    /// Mass of the toolpaths of all parts.
+    PrintedMass,
+    /// Centre of mass of the toolpaths of all parts.
+    PrintedCenters,
     /// Tubes of a telescope, round about their helices.
     ShellBodies,
     /// Clearance of sliding shells.
@@ -156,9 +166,14 @@ impl CheckKind {
         }
     }
 
-    /// Returns the English name of a check that only telescopes have.
-    fn name_in_telescope(&self) -> &'static str {
+    /// Returns the English name of a check that only toolpaths and telescopes have.
+    fn name_elsewhere(&self) -> &'static str {
         match self {
+            Self::PrintedParts => "printed parts",
+            Self::PrintedShapes => "printed shapes",
+            Self::PrintedSettings => "slicer settings",
+            Self::PrintedMass => "printed mass",
+            Self::PrintedCenters => "printed centres",
             Self::ShellBodies => "shell bodies",
             Self::Sliding => "sliding",
             Self::Stops => "stops",
@@ -227,7 +242,7 @@ impl fmt::Display for CheckKind {
             Self::Papers => "papers",
             Self::Replay => "replay",
             Self::Model => "model",
-            _ => self.name_in_telescope(),
+            _ => self.name_elsewhere(),
         })
     }
 }
@@ -238,7 +253,7 @@ mod tests {
     use serde_json::json;
 
     /// The keys and names of all kinds without data.
-    const KEYS: [(CheckKind, &str, &str); 57] = [
+    const KEYS: [(CheckKind, &str, &str); 62] = [
         (CheckKind::Papers, "papers", "papers"),
         (CheckKind::Replay, "replay", "replay"),
         (CheckKind::AxisOffset, "axis-offset", "axis offset"),
@@ -304,6 +319,19 @@ mod tests {
         (CheckKind::ChangedFiles, "changed-files", "changed files"),
         (CheckKind::Packages, "packages", "3MF files"),
         (CheckKind::Model, "model", "model"),
+        (CheckKind::PrintedParts, "printed-parts", "printed parts"),
+        (CheckKind::PrintedShapes, "printed-shapes", "printed shapes"),
+        (
+            CheckKind::PrintedSettings,
+            "printed-settings",
+            "slicer settings",
+        ),
+        (CheckKind::PrintedMass, "printed-mass", "printed mass"),
+        (
+            CheckKind::PrintedCenters,
+            "printed-centers",
+            "printed centres",
+        ),
         (CheckKind::ShellBodies, "shell-bodies", "shell bodies"),
         (CheckKind::Sliding, "sliding", "sliding"),
         (CheckKind::Stops, "stops", "stops"),

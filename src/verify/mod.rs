@@ -8,6 +8,7 @@
 // The promises: the judge's view of `checklist.json`.
 mod fingerprint;
 mod pose;
+mod process;
 mod promise;
 // The evidence: reading a kit.
 mod error;
@@ -19,6 +20,7 @@ mod ballast;
 mod body;
 mod figures;
 mod hardware;
+mod loads;
 mod rotor;
 mod spin;
 mod support;
@@ -64,6 +66,8 @@ mod rows;
 mod seal;
 mod sheet;
 mod strangers;
+// The toolpaths of a kit.
+mod printed;
 // Telescopes.
 mod telescope;
 
@@ -95,9 +99,10 @@ pub use fingerprint::{Fingerprint, Likeness};
 pub use hardware::{Hardware, HardwareKind};
 pub use plates::{PlateSpot, PromisedPlate};
 pub use pose::Pose;
+pub use process::{Density, PrinterLimits};
 pub use promise::{
-    Aim, Density, FigureName, GlueFilm, HeldBy, Mark, Peg, PrinterLimits, Promise, PromisedCut,
-    PromisedFigure, PromisedJig, PromisedJoint, PromisedPart, PromisedVoid, SCHEMA, WallOrder,
+    Aim, FigureName, GlueFilm, HeldBy, Mark, Peg, Promise, PromisedCut, PromisedFigure,
+    PromisedJig, PromisedJoint, PromisedPart, PromisedVoid, SCHEMA, WallOrder,
 };
 pub use rotor::RotorOrder;
 pub use water::WaterOrder;
@@ -140,8 +145,14 @@ pub use files::{
     SUMS_FILE,
 };
 pub use seal::sums;
-// Telescopes.
 pub use sheet::find_misstatements;
+// The toolpaths of a kit.
+pub use printed::{
+    Cause, CauseKind, MatchedBy, PRINTED_CENTER_LIMIT_MM, PRINTED_MASS_LIMIT_RATIO,
+    PRINTED_SKIN_MM, PRINTED_TILT_LIMIT_DEG, PrintedError, PrintedFile, PrintedJudgement,
+    PrintedPart, verify_printed,
+};
+// Telescopes.
 pub use telescope::{
     BalancePromise, DeviationPromise, JointMotion, JointPromise, MotionKey, ShellMotion,
     TelescopeEvidence, TelescopeFacts, TelescopeJudgement, TelescopeMotion, TelescopePartPromise,

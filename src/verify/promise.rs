@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use super::{
-    BallastOrder, Cleaning, FillOrder, Fingerprint, Hardware, Pose, PromisedPlate, RotorOrder,
-    WaterOrder,
+    BallastOrder, Density, FillOrder, Fingerprint, Hardware, Pose, PrinterLimits, PromisedPlate,
+    RotorOrder, WaterOrder,
 };
 use crate::geom::{Frame, Point, Vector};
 use crate::goal::GoalKind;
@@ -68,38 +68,6 @@ pub struct Promise {
     /// The SHA-256 of every other file of the kit, by path relative to its folder.
     #[serde(default)]
     pub files: BTreeMap<String, String>,
-}
-
-/// The limits of a printer and its process.
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-pub struct PrinterLimits {
-    /// The word of its process, such as `sla`; `None` if it is not known.
-    #[serde(default)]
-    pub process: Option<String>,
-    /// The edges of the build volume along x, y and z, mm; unknown for some machines.
-    pub build_volume_mm: Option<[f64; 3]>,
-    /// The scale of the part files along x, y and z, which compensates shrinkage; `None` if they
-    /// have nominal size.
-    #[serde(default)]
-    pub print_scale_ratio: Option<[f64; 3]>,
-    /// The least wall the process prints, mm. As much must stay around sockets.
-    pub minimum_wall_mm: f64,
-    /// The least opening through which a void can be cleaned, mm.
-    #[serde(default)]
-    pub minimum_opening_mm: Option<f64>,
-    /// The rule by which a void counts as clean; `None` if that is not judged.
-    #[serde(default)]
-    pub cleaning: Option<Cleaning>,
-    /// The largest step at the rim of a seam, mm; `None` if that is not judged.
-    #[serde(default)]
-    pub seam_step_mm: Option<f64>,
-}
-
-/// The density the masses rest on.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Density {
-    /// g/cm³.
-    pub density_g_cm3: f64,
 }
 
 /// The goal, as placed on the model.

@@ -170,6 +170,14 @@ pub struct VerifyArgs {
     /// Also make the kit again from its job.toml, and compare every file; takes as long as prepare
     #[arg(long)]
     pub replay: bool,
+    /// Tell how these toolpaths will balance, of every plate: .gcode, .bgcode or .gcode.3mf
+    #[arg(
+        long,
+        value_name = "FILE",
+        num_args = 1..,
+        conflicts_with_all = ["model", "replay"]
+    )]
+    pub gcode: Vec<PathBuf>,
 }
 
 /// The arguments of `completions`.

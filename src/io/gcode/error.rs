@@ -18,6 +18,8 @@ pub enum Limit {
     Unpacked,
     /// Plates in a package.
     Plates,
+    /// Cubes that hold support.
+    Cells,
 }
 
 impl Limit {
@@ -33,6 +35,7 @@ impl Limit {
             Self::Tallies => 100_000,
             Self::Unpacked => 200,
             Self::Plates => 1000,
+            Self::Cells => 2_000_000,
         }
     }
 
@@ -43,6 +46,7 @@ impl Limit {
             Self::Tallies => "it mixes too many objects, features and tools",
             Self::Unpacked => "it unpacks to more than 200 times its size",
             Self::Plates => "it holds more than 1000 plates",
+            Self::Cells => "its support fills more than 2000000 places",
         }
     }
 }

@@ -23,6 +23,7 @@ mod open;
 mod parse;
 mod plates;
 mod sums;
+mod supports;
 #[cfg(test)]
 mod tests;
 mod toolpath;
@@ -36,4 +37,5 @@ pub use label::Label;
 pub use open::{read_gcode, read_plates};
 pub use parse::{Options, read_text};
 pub use sums::Place;
+pub use supports::SupportCell;
 pub use toolpath::{Deposits, DiameterSource, Feed, Plate, PrintedObject, Tally, Toolpath};

@@ -26,6 +26,8 @@ pub struct Options {
     /// Rectangles of the plate that are to be counted apart. A bead belongs to the first that
     /// holds its middle.
     pub places: Vec<Place>,
+    /// Edge of the cubes by which support is counted, mm; `None` if its places are not needed.
+    pub support_cell_mm: Option<f64>,
 }
 
 /// Reads G-code as text, in memory that does not grow with the file.
@@ -70,7 +72,7 @@ impl Reader {
             heights: Heights::default(),
             labels: Labels::default(),
             notes: Notes::default(),
-            sums: Sums::new(&options.places),
+            sums: Sums::new(&options.places, options.support_cell_mm),
             feature: Feature::Unnamed,
             has_features: false,
         }
@@ -183,6 +185,7 @@ impl Reader {
             facts,
             objects: totals.objects,
             places: totals.places,
+            supports: totals.supports,
             feed: self.sums.feed,
             diameters_mm: gauge.diameters_mm,
             diameter_source: gauge.source,

@@ -5,6 +5,7 @@ use std::collections::HashMap;
 use super::error::Limit;
 use super::feature::Feature;
 use super::machine::{Machine, Stroke};
+use super::supports::Supports;
 use super::toolpath::Feed;
 use crate::geom::Aabb;
 use crate::mass::{Bead, BeadMoments};
@@ -43,6 +44,8 @@ pub struct Sum {
     pub flowed: f64,
     /// Length, mm.
     pub length_mm: f64,
+    /// Height times length, mm².
+    pub side_mm2: f64,
     /// Number of beads.
     pub count: u64,
     /// The box around them, mm.
@@ -93,16 +96,19 @@ pub struct Sums {
     pub owners: HashMap<Owner, Counts>,
     /// The tallies of the bead before: of its object, and of its place.
     latest: [Option<(Key, usize)>; 2],
+    /// Support by cubes of this edge; empty without one.
+    pub supports: Supports,
     /// Where the filament went.
     pub feed: Feed,
     is_retracted: bool,
 }
 
 impl Sums {
-    /// Starts with nothing, for these places.
-    pub fn new(places: &[Place]) -> Self {
+    /// Starts with nothing, for these places and cubes of support.
+    pub fn new(places: &[Place], support_cell_mm: Option<f64>) -> Self {
         Self {
             places: places.to_vec(),
+            supports: Supports::new(support_cell_mm),
             index: HashMap::new(),
             sums: Vec::new(),
             owners: HashMap::new(),
@@ -157,6 +163,7 @@ impl Sums {
             beads: moments,
             flowed: stroke.feed * machine.flow_ratio,
             length_mm: bead.length_mm(),
+            side_mm2: bead.length_mm() * height_mm,
             count: 1,
             bounds: bead.bounds(),
         };
@@ -167,6 +174,8 @@ impl Sums {
             is_within(0) && is_within(1)
         });
         let owners = [Some(Owner::Object(context.object)), place.map(Owner::Place)];
+        self.supports
+            .add(stroke, context.feature, machine.is_volumetric)?;
         for (slot, owner) in owners.into_iter().enumerate() {
             if let Some(owner) = owner {
                 let key = Key {
@@ -230,6 +239,7 @@ impl Sum {
         },
         flowed: 0.0,
         length_mm: 0.0,
+        side_mm2: 0.0,
         count: 0,
         bounds: Aabb::EMPTY,
     };
@@ -238,6 +248,7 @@ impl Sum {
         self.beads += other.beads;
         self.flowed += other.flowed;
         self.length_mm += other.length_mm;
+        self.side_mm2 += other.side_mm2;
         self.count += other.count;
         self.bounds = self.bounds.union(&other.bounds);
     }

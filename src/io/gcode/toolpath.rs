@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use super::facts::Facts;
 use super::feature::Feature;
 use super::label::Label;
+use super::supports::SupportCell;
 use crate::geom::Aabb;
 use crate::mass::Moments;
 
@@ -21,6 +22,8 @@ pub struct Toolpath {
     pub objects: Vec<PrintedObject>,
     /// The material within each place that was asked for, in that order.
     pub places: Vec<Deposits>,
+    /// The support by cubes of the edge that was asked for; empty if none was.
+    pub supports: Vec<SupportCell>,
     /// Where every mm of filament went.
     pub feed: Feed,
     /// Diameter of the filament used for volumes, mm, for each tool from 0.
@@ -95,6 +98,8 @@ pub struct Tally {
     pub flowed_mm3: f64,
     /// Length of the beads seen from above, mm.
     pub length_mm: f64,
+    /// Height times length of the beads, mm².
+    pub side_mm2: f64,
     /// Number of beads.
     pub beads: u64,
 }
@@ -151,6 +156,18 @@ impl Toolpath {
         } else {
             1.0
         }
+    }
+}
+
+impl Tally {
+    /// Returns the mean height of the beads, mm; not finite if there is none.
+    pub fn height_mm(&self) -> f64 {
+        self.side_mm2 / self.length_mm
+    }
+
+    /// Returns the mean section of the beads, mm²; not finite if there is none.
+    pub fn section_mm2(&self) -> f64 {
+        self.moments.volume() / self.length_mm
     }
 }
 

@@ -6,6 +6,7 @@ use std::f64::consts::PI;
 use super::facts::Facts;
 use super::label::Label;
 use super::sums::{Counts, Key, Owner, Sum, Sums};
+use super::supports::SupportCell;
 use super::toolpath::{Deposits, DiameterSource, PrintedObject, Tally};
 
 /// Diameter of filament if nothing tells it, mm.
@@ -49,10 +50,15 @@ impl Gauge {
 
     /// Returns the volume of a unit of E, mm³.
     fn factor(&self, key: &Key) -> f64 {
-        if self.are_volumes || key.is_volumetric {
+        self.volume_mm3(key.tool, key.is_volumetric)
+    }
+
+    /// Returns the volume of a unit of E from a tool, mm³.
+    fn volume_mm3(&self, tool: u16, is_volumetric: bool) -> f64 {
+        if self.are_volumes || is_volumetric {
             1.0
         } else {
-            0.25 * PI * self.diameters_mm[usize::from(key.tool)].powi(2)
+            0.25 * PI * self.diameters_mm[usize::from(tool)].powi(2)
         }
     }
 }
@@ -63,6 +69,8 @@ pub struct Totals {
     pub objects: Vec<PrintedObject>,
     /// The places, in the order in which they were asked for.
     pub places: Vec<Deposits>,
+    /// The support by cubes.
+    pub supports: Vec<SupportCell>,
 }
 
 impl Totals {
@@ -93,7 +101,14 @@ impl Totals {
                 }),
             }
         }
-        Self { objects, places }
+        let supports = sums
+            .supports
+            .cells(|is_volumetric| gauge.volume_mm3(0, is_volumetric));
+        Self {
+            objects,
+            places,
+            supports,
+        }
     }
 }
 
@@ -107,6 +122,7 @@ impl Deposits {
             tally.moments += moments;
             tally.flowed_mm3 += sum.flowed * factor;
             tally.length_mm += sum.length_mm;
+            tally.side_mm2 += sum.side_mm2;
             tally.beads += sum.count;
             tally.bounds = tally.bounds.union(&sum.bounds);
             return;
@@ -118,6 +134,7 @@ impl Deposits {
             bounds: sum.bounds,
             flowed_mm3: sum.flowed * factor,
             length_mm: sum.length_mm,
+            side_mm2: sum.side_mm2,
             beads: sum.count,
         });
     }

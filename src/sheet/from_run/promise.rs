@@ -28,6 +28,8 @@ pub fn promise(placed: &Placed, made: &Made) -> Promise {
             minimum_opening_mm: Some(printer.min_opening_mm.value),
             cleaning: Some(printer.cleaning_rule()),
             seam_step_mm: placed.seam_step_mm(),
+            layer_mm: Some(printer.layer_mm.value),
+            pixel_mm: Some([printer.pixel_x_mm.value, printer.pixel_y_mm.value]),
         },
         material: Density {
             density_g_cm3: placed.density_g_cm3(),

@@ -1,0 +1,30 @@
+//! The weights besides the printed material: ballast, fillings, glue and dowels.
+
+use super::ballast::{ballast_moments, fill_moments};
+use super::hardware::mass_moments;
+use super::joints::film_moments;
+use super::{Body, Promise, Setting};
+use crate::mass::Moments;
+
+/// Moments of what a kit promises besides its printed parts, as moments of the print's density in
+/// the model frame. Hardware is not among them: [`Setting`] has it.
+pub(super) struct Loads {
+    /// Ballast and fillings in the voids.
+    pub(super) inside: Moments,
+    /// Glue and dowels in the joints.
+    pub(super) joined: Moments,
+}
+
+impl Loads {
+    /// Returns the weights that a promise orders for this body.
+    pub(super) fn of(promise: &Promise, body: &Body, setting: &Setting) -> Self {
+        let density_g_mm3 = setting.density_g_mm3();
+        let voids = body.shells.inner_mesh();
+        let joined_g = film_moments(promise) + mass_moments(&promise.dowels);
+        Self {
+            inside: ballast_moments(&promise.ballast, density_g_mm3)
+                + fill_moments(promise.fill, &voids, setting.density_g_cm3),
+            joined: joined_g * density_g_mm3.recip(),
+        }
+    }
+}

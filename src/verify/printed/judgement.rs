@@ -1,0 +1,57 @@
+//! The judgement of toolpaths.
+
+use serde::Serialize;
+
+use super::cause::Cause;
+use super::part::PrintedPart;
+use crate::verify::{Check, Figures, PromisedFigure};
+
+/// The judgement of a kit's toolpaths: how they will balance, beside the promise.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct PrintedJudgement {
+    /// The files, one for each plate.
+    pub files: Vec<PrintedFile>,
+    /// The parts that are printed, in the order of the checklist.
+    pub parts: Vec<PrintedPart>,
+    /// The parts that are in no file.
+    pub missing: Vec<String>,
+    /// The figure promised to the buyer, if the goal has one.
+    pub promise: Option<PromisedFigure>,
+    /// The figures of the model: the uncut result with its ballast.
+    pub model: Figures,
+    /// The figures of the parts as written, put together.
+    pub written: Figures,
+    /// The figures of the toolpaths put together, with all that the kit adds to the parts; `None`
+    /// if parts are missing.
+    pub toolpaths: Option<Figures>,
+    /// The causes of a wrong print.
+    pub causes: Vec<Cause>,
+    /// Assumptions, and what was left out.
+    pub notes: Vec<String>,
+    /// Every promise with its verdict.
+    pub checks: Vec<Check>,
+}
+
+/// A plate of toolpaths as its slicer describes it.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct PrintedFile {
+    /// The file, with the number of its plate if it has several.
+    pub name: String,
+    /// The slicer with its version; `None` if it is not named.
+    pub slicer: Option<String>,
+    /// The parts and jigs in it.
+    pub holds: Vec<String>,
+    /// The densities with which its tools are weighed, g/cm³, and whether the file states them.
+    pub density_g_cm3: Vec<f64>,
+    /// Whether the file states these densities. Otherwise the kit's is taken.
+    pub is_density_stated: bool,
+    /// The estimated time of the print, s.
+    pub print_time_s: Option<f64>,
+}
+
+impl PrintedJudgement {
+    /// Returns true if every promise is kept.
+    pub fn passes(&self) -> bool {
+        self.checks.iter().all(|check| check.pass)
+    }
+}
