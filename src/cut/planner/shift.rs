@@ -85,7 +85,7 @@ mod tests {
     /// Returns two balls of radius 10 mm, one over the other, with a hollow through both.
     fn snowman() -> Hollowed {
         let solid = |body: TriMesh| Csg::of_mesh(&body).unwrap();
-        let at = |z: f64| solid(ball(&Point::new(0.0, 0.0, z), 10.0, 8));
+        let at = |z: f64| solid(ball(&Point::new(0.0, 0.0, z), 10.0, 5));
         let outer = at(0.0).union(&at(16.0)).unwrap().to_solid().unwrap();
         Hollowed::new(outer, vec![cuboid([-3.0, -3.0, -5.0], [3.0, 3.0, 21.0])])
     }

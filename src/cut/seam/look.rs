@@ -255,8 +255,8 @@ mod tests {
 
     #[test]
     fn a_groove_is_hollow_and_a_flank_is_not() {
-        let low = ball(&Point::origin(), 10.0, 8);
-        let high = ball(&Point::new(0.0, 0.0, 17.0), 10.0, 8);
+        let low = ball(&Point::origin(), 10.0, 5);
+        let high = ball(&Point::new(0.0, 0.0, 17.0), 10.0, 5);
         let bodies = [&low, &high].map(|body| crate::mesh::Csg::of_mesh(body).unwrap());
         let [low, high] = bodies;
         let outer = low.union(&high).unwrap().to_mesh().unwrap();

@@ -299,7 +299,7 @@ mod tests {
     /// Returns two balls of radius 10 mm, one 21 mm over the other, with a neck between them.
     fn snowman() -> TriMesh {
         let balls = [0.0, 21.0].map(|z| {
-            let body = ball(&Point::new(0.0, 0.0, z), 10.0, 8);
+            let body = ball(&Point::new(0.0, 0.0, z), 10.0, 5);
             Csg::of_mesh(&body).unwrap()
         });
         let [low, high] = balls;
@@ -310,7 +310,7 @@ mod tests {
 
     #[test]
     fn a_slice_estimates_the_length_of_a_seam() {
-        let skin = skin(&ball(&Point::origin(), 10.0, 8));
+        let skin = skin(&ball(&Point::origin(), 10.0, 5));
         let length = |z: f64| skin.sum_over_slice(&plane([0.0, 0.0, 1.0], [0.0, 0.0, z]), |_| 1.0);
         for z in [-6.0_f64, 0.0, 4.0] {
             let circle = std::f64::consts::TAU * (100.0 - z * z).sqrt() / skin.circle_mm();
@@ -324,7 +324,7 @@ mod tests {
 
     #[test]
     fn a_measured_price_is_near_its_estimate() {
-        let outer = ball(&Point::origin(), 10.0, 8);
+        let outer = ball(&Point::origin(), 10.0, 5);
         let skin = skin(&outer);
         let level = plane([0.0, 0.0, 1.0], [0.0, 0.0, 3.0]);
         let radius = 91.0_f64.sqrt();
