@@ -156,6 +156,8 @@ pub mod shell;
 #[doc(hidden)]
 pub mod skeleton;
 #[doc(hidden)]
+pub mod slice;
+#[doc(hidden)]
 pub mod slicer;
 #[doc(hidden)]
 pub mod telescope;

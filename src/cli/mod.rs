@@ -24,6 +24,7 @@ pub mod show;
 pub mod signals;
 pub mod skeleton;
 mod skeleton_picture;
+pub mod slice;
 mod summary;
 pub mod telescope;
 mod toolpaths;
@@ -88,6 +89,7 @@ fn dispatch(cli: Cli, manner: Manner) -> Result<Exit, Box<dyn Error + Send + Syn
             end_process_on_signal();
             Ok(skeleton::skeleton(&args, voice, out)?)
         }
+        Command::Slice(args) => Ok(slice::slice(&args, voice, &Stop::on_signals(), out)?),
         Command::Verify(args) => {
             end_process_on_signal();
             Ok(verify::verify(&args, voice, out)?)

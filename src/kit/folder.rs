@@ -93,8 +93,11 @@ pub const COUPON_FILE: &str = "coupon.json";
 /// The page that marks a folder as plans side by side.
 pub const PLANS_FILE: &str = "plans.html";
 
+/// The list that marks a folder as the toolpaths of a kit.
+pub const SLICES_FILE: &str = "slices.json";
+
 /// The files that mark a folder as one of ours.
-const SIGNS: [&str; 3] = ["checklist.json", COUPON_FILE, PLANS_FILE];
+const SIGNS: [&str; 4] = ["checklist.json", COUPON_FILE, PLANS_FILE, SLICES_FILE];
 
 /// Returns an error if the target may not be written.
 fn check_target(target: &Path, existing: Existing) -> Result<(), KitError> {

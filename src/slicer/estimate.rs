@@ -1,13 +1,13 @@
 //! The time and the filament of a plate, as a slicer states them.
 
-use std::io::BufReader;
+use std::io::{BufReader, Read};
 
 use super::error::SlicerError;
 use super::program::Slicer;
 use super::run::PlateFile;
 use super::settings::SliceSettings;
 use crate::base::watch::Watch;
-use crate::io::gcode::{Options, read_text};
+use crate::io::gcode::{Options, Toolpath, read_text};
 
 /// What a slicer says that a plate takes.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -18,7 +18,42 @@ pub struct Estimate {
     pub filament_g: Option<f64>,
 }
 
+/// A sliced plate.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SlicedPlate {
+    /// Its toolpaths, as the slicer wrote them.
+    pub bytes: Vec<u8>,
+    /// What they lay down.
+    pub read: Toolpath,
+    /// What the slicer says that they take.
+    pub estimate: Estimate,
+}
+
 impl Slicer {
+    /// Slices a plate, and returns its toolpaths with what they take.
+    ///
+    /// # Errors
+    /// As for [`Slicer::estimate`].
+    pub fn toolpaths(
+        &self,
+        plate: &PlateFile,
+        settings: &SliceSettings,
+        watch: &Watch,
+    ) -> Result<SlicedPlate, SlicerError> {
+        let mut written = self.slice(plate, settings, watch)?;
+        let mut bytes = Vec::new();
+        written
+            .read_to_end(&mut bytes)
+            .map_err(SlicerError::Folder)?;
+        let read = read_plate(plate, bytes.as_slice(), watch)?;
+        let estimate = self.estimate_of(plate, &read)?;
+        Ok(SlicedPlate {
+            bytes,
+            read,
+            estimate,
+        })
+    }
+
     /// Slices a plate, and returns what it takes.
     ///
     /// # Errors
@@ -31,12 +66,11 @@ impl Slicer {
         watch: &Watch,
     ) -> Result<Estimate, SlicerError> {
         let written = self.slice(plate, settings, watch)?;
-        let read = read_text(BufReader::new(written), &Options::default(), watch);
-        let toolpath = read.map_err(|source| SlicerError::Toolpaths {
-            plate: plate.name.to_owned(),
-            source,
-        })?;
-        let facts = &toolpath.facts;
+        self.estimate_of(plate, &read_plate(plate, written, watch)?)
+    }
+
+    fn estimate_of(&self, plate: &PlateFile, read: &Toolpath) -> Result<Estimate, SlicerError> {
+        let facts = &read.facts;
         let seconds = facts.print_time_s.ok_or_else(|| SlicerError::NoTime {
             version: self.version().to_owned(),
             plate: plate.name.to_owned(),
@@ -47,4 +81,17 @@ impl Slicer {
             filament_g: (filament_g > 0.0).then_some(filament_g),
         })
     }
+}
+
+/// Reads the toolpaths of a plate.
+fn read_plate(
+    plate: &PlateFile,
+    written: impl Read,
+    watch: &Watch,
+) -> Result<Toolpath, SlicerError> {
+    let read = read_text(BufReader::new(written), &Options::default(), watch);
+    read.map_err(|source| SlicerError::Toolpaths {
+        plate: plate.name.to_owned(),
+        source,
+    })
 }

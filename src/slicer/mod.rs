@@ -12,7 +12,7 @@ mod run;
 mod settings;
 
 pub use error::SlicerError;
-pub use estimate::Estimate;
+pub use estimate::{Estimate, SlicedPlate};
 pub use program::Slicer;
 pub use run::PlateFile;
 pub use settings::SliceSettings;

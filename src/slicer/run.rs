@@ -42,17 +42,22 @@ impl Slicer {
                 .map(|file| folder.0.join(file));
         fs::write(&package, plate.bytes).map_err(SlicerError::Folder)?;
         fs::write(&ini, settings.to_ini()).map_err(SlicerError::Folder)?;
+        let base = folder.0.join("base.ini");
+        if let Some(profile) = settings.profile() {
+            fs::write(&base, profile).map_err(SlicerError::Folder)?;
+        }
+        // Of two values of a key, the later one holds.
+        let over: &[&Path] = match settings.profile() {
+            Some(_) => &[Path::new("--load"), &base],
+            None => &[],
+        };
         let said = File::create(&log).map_err(SlicerError::Folder)?;
         let also = said.try_clone().map_err(SlicerError::Folder)?;
         let started = quiet(self.command().as_ref())
-            .args([
-                "--export-gcode",
-                "--dont-arrange",
-                "--loglevel",
-                "1",
-                "--load",
-            ])
-            .args([&ini, Path::new("-o"), &toolpaths, &package])
+            .args(["--export-gcode", "--dont-arrange", "--loglevel", "1"])
+            .args(over)
+            .args([Path::new("--load"), ini.as_path()])
+            .args([Path::new("-o"), &toolpaths, &package])
             .env("HOME", &folder.0)
             .current_dir(&folder.0)
             .stdout(Stdio::from(said))

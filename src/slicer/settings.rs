@@ -24,6 +24,8 @@ pub struct SliceSettings {
     line_mm: f64,
     /// Density of the filament, g/cm³.
     density_g_cm3: f64,
+    /// A profile of the slicer, whose settings hold where these say nothing; `None` for its own.
+    profile: Option<String>,
 }
 
 impl SliceSettings {
@@ -36,7 +38,24 @@ impl SliceSettings {
             layer_mm: printer.layer_mm.value,
             line_mm: printer.pixel_x_mm.value,
             density_g_cm3: material.density_g_cm3.value,
+            profile: None,
         })
+    }
+
+    /// Returns the same settings over a profile of the slicer: lines of `key = value`.
+    #[must_use]
+    pub fn over(self, profile: Option<String>) -> Self {
+        Self { profile, ..self }
+    }
+
+    /// Returns the density of the filament, g/cm³.
+    pub fn density_g_cm3(&self) -> f64 {
+        self.density_g_cm3
+    }
+
+    /// Returns the profile of the slicer over which they hold.
+    pub(super) fn profile(&self) -> Option<&str> {
+        self.profile.as_deref()
     }
 
     /// Returns the settings as PrusaSlicer and SuperSlicer read them.
@@ -56,6 +75,7 @@ impl SliceSettings {
             ("layer_height", self.layer_mm.to_string()),
             ("first_layer_height", self.layer_mm.to_string()),
             ("gcode_flavor", "marlin2".to_owned()),
+            ("gcode_label_objects", "1".to_owned()),
         ];
         pairs.iter().fold(String::new(), |mut ini, (key, value)| {
             // Writing into a string cannot fail.

@@ -119,6 +119,11 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("kit", &["base"]),
     // A slicer is another program: it gets a plate and a profile, and gives toolpaths.
     ("slicer", &["base", "io", "printer"]),
+    // Slicing a kit reads its job and its plates; the judge looks at the toolpaths afterwards.
+    (
+        "slice",
+        &["base", "io", "job", "kit", "printer", "slicer", "verify"],
+    ),
     (
         "coupon",
         &["geom", "io", "kit", "mesh", "page", "printer", "base"],
@@ -188,6 +193,7 @@ const ARROWS: &[(&str, &[&str])] = &[
             "run",
             "sheet",
             "skeleton",
+            "slice",
             "telescope",
             "verify",
         ],
@@ -223,6 +229,7 @@ const ARROWS: &[(&str, &[&str])] = &[
             "sheet",
             "shell",
             "skeleton",
+            "slice",
             "slicer",
             "telescope",
             "voids",

@@ -13,6 +13,7 @@ mod quote;
 mod read;
 mod scaling;
 mod skeleton;
+mod slice;
 mod telescope;
 #[cfg(test)]
 mod tests;
@@ -34,6 +35,7 @@ pub use quote::quoted;
 pub use read::ReadError;
 pub use scaling::ScalingArgs;
 pub use skeleton::{Root, RootError, SkeletonArgs};
+pub use slice::SliceArgs;
 pub use telescope::{TelescopeArgs, TelescopeRequest};
 pub use typed::SplitUnit;
 pub use values::NumberError;
@@ -116,6 +118,8 @@ pub enum Command {
     Cutters(CuttersArgs),
     /// Make coupons to weigh and try, to fit a profile to the machine
     Coupon(CouponArgs),
+    /// Slice a kit's plates, and tell how the toolpaths will balance
+    Slice(SliceArgs),
     /// Check a kit's files, and name those that changed
     Verify(VerifyArgs),
     /// Print the completion script of a shell

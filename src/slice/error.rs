@@ -1,0 +1,73 @@
+//! The reasons why a kit is not sliced.
+
+use std::path::PathBuf;
+
+use crate::base::watch::Cancelled;
+use crate::job::JobError;
+use crate::printer::{MaterialError, ProfileError};
+use crate::slicer::SlicerError;
+
+/// A reason why a kit is not sliced.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum SliceError {
+    /// The folder holds no job.
+    #[error("{} is no kit: it has no job.toml; remedy: name the folder of a kit", path.display())]
+    NoKit {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// The job of the kit cannot be read.
+    #[error(transparent)]
+    Job(#[from] JobError),
+    /// The printer's profile cannot be used.
+    #[error(transparent)]
+    Profile(#[from] ProfileError),
+    /// The printer has no such material.
+    #[error(transparent)]
+    Material(#[from] MaterialError),
+    /// The printer prints no filament.
+    #[error(
+        "{printer} prints no filament on a plate of known size; remedy: prepare the kit for a filament printer"
+    )]
+    NoFilament {
+        /// The name of the printer.
+        printer: String,
+    },
+    /// The kit has no plates.
+    #[error(
+        "{} has no plates to slice; remedy: prepare it with parts as 3MF", path.display()
+    )]
+    NoPlates {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// A file cannot be read.
+    #[error("cannot read {}", path.display())]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// The error of the operating system.
+        source: std::io::Error,
+    },
+    /// A profile of the slicer is no text of settings.
+    #[error(
+        "{} is no profile of a slicer: {reason}; remedy: export the configuration as .ini there",
+        path.display()
+    )]
+    NoProfile {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        reason: String,
+    },
+    /// The slicer fails.
+    #[error(transparent)]
+    Slicer(#[from] SlicerError),
+    /// The list of the slices cannot be written as JSON.
+    #[error("the list of the slices cannot be written as JSON")]
+    Json(#[from] serde_json::Error),
+    /// The run was stopped.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+}
