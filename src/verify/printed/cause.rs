@@ -75,11 +75,7 @@ impl CauseKind {
                 "the density of the material",
             ],
             Self::Flow => ["extrusion_multiplier", "filament_flow_ratio", "Flow"],
-            Self::SupportInVoid => [
-                "support_material_buildplate_only",
-                "support_on_build_plate_only",
-                "Support Placement",
-            ],
+            Self::SupportInVoid => ["the support in voids"; 3],
             Self::Scale => ["the scale of the object"; 3],
             Self::Mirror => ["the mirror image of the object"; 3],
             Self::Missing => ["the objects on the plate"; 3],

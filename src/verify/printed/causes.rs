@@ -3,8 +3,9 @@
 use super::cause::{Cause, CauseKind};
 use super::density::Densities;
 use super::limits::{
-    DENSITY_RATIO, EDGE_MM, EDGE_RATIO, EXTRA_SKIN_MM, LACKING_SKIN_MM, LAYER_RATIO, LINE_RATIO,
-    PRINTED_MASS_LIMIT_RATIO, SPREAD_SHARE, SUPPORT_RATIO, WHOLE_SPREAD_SHARE,
+    DENSITY_RATIO, EDGE_MM, EDGE_RATIO, EXTRA_SKIN_MM, FLOW_LIMIT_RATIO, LACKING_SKIN_MM,
+    LAYER_RATIO, LINE_RATIO, PRINTED_MASS_LIMIT_RATIO, SPREAD_SHARE, SUPPORT_RATIO,
+    WHOLE_SPREAD_SHARE, WRONG_LAYER_RATIO,
 };
 use super::part::PrintedPart;
 use super::source::Source;
@@ -14,6 +15,8 @@ use crate::verify::Promise;
 const FILAMENT: &str = "fdm";
 /// Share of sparse infill in a part from which its infill counts as sparse.
 const SPARSE_RATIO: f64 = 0.01;
+/// The density of a part's infill is that which the file states within this.
+const STATED_INFILL_RATIO: f64 = 0.1;
 /// Density below which infill counts as sparse though no file states it. Slicers label solid infill
 /// as infill too, which looks like 64 % and more at a flow of 90 %.
 const DENSE_RATIO: f64 = 0.6;
@@ -63,6 +66,7 @@ impl Printed<'_> {
             self.line_width(),
             self.density(),
             self.flow(),
+            self.set_flow(),
             self.support(),
         ];
         causes.into_iter().flatten().collect()
@@ -113,8 +117,14 @@ impl Printed<'_> {
     fn infill(&self) -> Option<Cause> {
         let stated = self.source.toolpath.facts.infill_ratio;
         let says_sparse = stated.is_some_and(|ratio| ratio < 1.0);
+        let is_as_stated = |part: &PrintedPart| {
+            let laid = infill_density_ratio(part, self.promise);
+            let both = stated.filter(|_| says_sparse).zip(laid);
+            both.is_some_and(|(stated, laid)| (stated - laid).abs() < STATED_INFILL_RATIO)
+        };
         let parts = self.those(|part| {
-            wrong_ratio(part, self.promise) < 0.0 && (says_sparse || is_sparse(part, self.promise))
+            wrong_ratio(part, self.promise) < 0.0
+                && (is_as_stated(part) || is_sparse(part, self.promise))
         });
         let says = match stated {
             Some(ratio) if says_sparse => format!(", and the file states {:.0} %", ratio * 100.0),
@@ -148,7 +158,11 @@ impl Printed<'_> {
         );
         let setting = CauseKind::LayerHeight.setting(self.source.slicer());
         let remedy = format!("set {setting} to {wanted_mm} mm");
-        self.cause(CauseKind::LayerHeight, &parts, finding, remedy)
+        let cause = self.cause(CauseKind::LayerHeight, &parts, finding, remedy)?;
+        Some(Cause {
+            is_wrong: (found_mm / wanted_mm - 1.0).abs() > WRONG_LAYER_RATIO,
+            ..cause
+        })
     }
 
     fn line_width(&self) -> Option<Cause> {
@@ -173,8 +187,12 @@ impl Printed<'_> {
     fn density(&self) -> Option<Cause> {
         let wanted = self.promise.material.density_g_cm3;
         let densities = Densities::of(self.source, self.promise);
-        let is_other = |density: &&f64| (**density / wanted - 1.0).abs() > DENSITY_RATIO;
-        let found = densities.stated_g_cm3.iter().find(is_other)?;
+        let is_other = |density: &f64| (density / wanted - 1.0).abs() > DENSITY_RATIO;
+        let objects = self.source.toolpath.objects.iter();
+        let laid = objects.flat_map(|object| object.deposits.part());
+        let laid = laid.filter(|tally| tally.moments.volume() > 0.0);
+        let mut stated = laid.filter_map(|tally| densities.stated_of(tally.tool));
+        let found = stated.find(is_other)?;
         let finding = format!(
             "the file states a filament of {found} g/cm³, where the kit asks for {wanted} g/cm³"
         );
@@ -184,6 +202,15 @@ impl Printed<'_> {
              prepare the kit again with this filament's density"
         );
         self.cause(CauseKind::Density, &self.parts, finding, remedy)
+    }
+
+    /// Returns the cause that the file sets a flow that calibrates no machine.
+    fn set_flow(&self) -> Option<Cause> {
+        let ratio = self.source.toolpath.flow_ratio();
+        let parts = self.those(|_| (ratio - 1.0).abs() > FLOW_LIMIT_RATIO);
+        let finding = format!("the file sets a flow of {:.0} % (M221)", ratio * 100.0);
+        let remedy = "set the flow to 100 % on the machine and in the slicer";
+        self.cause(CauseKind::Flow, &parts, finding, remedy.to_owned())
     }
 
     fn flow(&self) -> Option<Cause> {
@@ -215,10 +242,8 @@ impl Printed<'_> {
         });
         let listed: Vec<String> = listed.collect();
         let finding = format!("support inside voids, {}", listed.join(", "));
-        let setting = CauseKind::SupportInVoid.setting(self.source.slicer());
-        let remedy =
-            format!("take it out before the parts are glued; or block it there, or set {setting}");
-        self.cause(CauseKind::SupportInVoid, &parts, finding, remedy)
+        let remedy = "take it out before the parts are glued";
+        self.cause(CauseKind::SupportInVoid, &parts, finding, remedy.to_owned())
     }
 
     fn is_filament(&self) -> bool {
@@ -251,11 +276,15 @@ fn is_scaled(part: &PrintedPart, promise: &Promise) -> bool {
 
 /// Returns true if what a part lacks is missing in its infill, rather than in all of its lines.
 fn is_sparse(part: &PrintedPart, promise: &Promise) -> bool {
+    infill_density_ratio(part, promise).is_some_and(|ratio| ratio < DENSE_RATIO)
+}
+
+/// Returns the density of a part's infill if all that is missing were missing there; `None` if it
+/// has no infill.
+fn infill_density_ratio(part: &PrintedPart, promise: &Promise) -> Option<f64> {
     let filled = filled_ratio(part, promise);
     let laid = filled * part.sparse_ratio;
-    // The density of the infill if all that is missing were missing there.
-    let density_ratio = laid / (laid + 1.0 - filled);
-    part.sparse_ratio > SPARSE_RATIO && density_ratio < DENSE_RATIO
+    (part.sparse_ratio > SPARSE_RATIO).then(|| laid / (laid + 1.0 - filled))
 }
 
 /// Returns the volume of a part's lines over that of its solid at the size in which it is printed.

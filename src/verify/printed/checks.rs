@@ -74,6 +74,9 @@ fn weight_checks(found: &PrintedJudgement) -> Vec<Check> {
     let parts = &found.parts;
     let written_g: f64 = parts.iter().map(|part| part.written_mass_g).sum();
     let printed_g: f64 = parts.iter().map(|part| part.mass_g).sum();
+    // A density has a cause of its own.
+    let laid = |part: &PrintedPart| part.volume_ratio * part.written_mass_g;
+    let laid_g: f64 = parts.iter().map(laid).sum();
     let written = |part: &PrintedPart| Vector::from(part.written_center_mm) * part.written_mass_g;
     let printed = |part: &PrintedPart| Vector::from(part.center_mm) * part.mass_g;
     let written = parts.iter().map(written).sum::<Vector>() / written_g;
@@ -83,8 +86,8 @@ fn weight_checks(found: &PrintedJudgement) -> Vec<Check> {
     let most_ratio = PRINTED_MASS_LIMIT_RATIO.max(PRINTED_SKIN_MM * surface_per_mm);
     let mass = Check::new(
         CheckKind::PrintedMass,
-        "the toolpaths weigh what the parts do, within",
-        Some((printed_g / written_g - 1.0).abs() * 100.0),
+        "the toolpaths lay as much as the parts have, within",
+        Some((laid_g / written_g - 1.0).abs() * 100.0),
         Limit::at_most(most_ratio * 100.0, "%"),
     );
     let center = found.missing.is_empty().then(|| {

@@ -98,6 +98,10 @@ pub(super) fn judge_toolpaths(
     };
     let heavier = weighing.weigh(&(weighing.written * (1.0 + PRINTED_MASS_LIMIT_RATIO)));
     judgement.checks = printed_checks(&promise.goal, &judgement, &heavier);
+    let is_explained = judgement.causes.iter().any(|cause| cause.is_wrong);
+    if !(judgement.passes() || is_explained) {
+        judgement.notes.push(UNEXPLAINED.to_owned());
+    }
     Ok(judgement)
 }
 
@@ -131,6 +135,10 @@ impl Weighing {
         Figures::with_load(&solid, &self.loads.inside, &self.setting)
     }
 }
+
+/// What is said if a check fails and no setting is wrong.
+const UNEXPLAINED: &str = "no wrong setting was found: lines of whole width fill thin walls \
+    unevenly, and the print will balance as shown";
 
 /// Returns the parts of the kit, then its jigs, with their places on plates.
 fn catalogue(evidence: &Evidence) -> Catalogue<'_> {
@@ -205,7 +213,7 @@ fn describe_files(
                 .map(|this| catalogue.things[this.thing].id.to_owned())
                 .collect(),
             density_g_cm3: tools.map(|tool| densities.of_tool(tool as u16)).collect(),
-            is_density_stated: !densities.stated_g_cm3.is_empty(),
+            is_density_stated: densities.are_stated(),
             print_time_s: facts.print_time_s,
         }
     };
@@ -259,7 +267,7 @@ fn write_notes(
 fn source_notes(source: &Source, promise: &Promise) -> Vec<String> {
     let (toolpath, name) = (&source.toolpath, &source.name);
     let mut notes = Vec::new();
-    if Densities::of(source, promise).stated_g_cm3.is_empty() {
+    if !Densities::of(source, promise).are_stated() {
         notes.push(format!(
             "{name} does not state the density of its filament; the kit's {} g/cm³ is taken",
             promise.material.density_g_cm3

@@ -19,6 +19,9 @@ pub(super) const INERTIA_RATIO: f64 = 0.01;
 /// The mean height of beads may differ from that of a layer by this share: the first layer is often
 /// higher. The next usual height differs by a quarter and more.
 pub(super) const LAYER_RATIO: f64 = 0.1;
+/// Other layers than these are told, but wrong only if their height differs by more than this
+/// share: what the printer can lay as well balances as well.
+pub(super) const WRONG_LAYER_RATIO: f64 = 0.3;
 /// The width of lines may differ by this share. Outer lines of 0.42 mm where 0.45 mm are usual, and
 /// a flow of 0.95, are both within it.
 pub(super) const LINE_RATIO: f64 = 0.15;
@@ -32,7 +35,9 @@ pub(super) const EDGE_MM: f64 = 0.15;
 /// An edge may differ by this share besides.
 pub(super) const EDGE_RATIO: f64 = 0.002;
 /// Less support in the voids of a part than this share of its volume is not told.
-pub(super) const SUPPORT_RATIO: f64 = 1e-3;
+pub(super) const SUPPORT_RATIO: f64 = 3e-3;
+/// A flow that the file sets (`M221`) may differ by this share: more calibrates no machine.
+pub(super) const FLOW_LIMIT_RATIO: f64 = 0.1;
 /// A part with a shorter edge is scaled only if the spread of its material along that edge is less
 /// by this share of it. A part with a thin tip has 0.4.
 pub(super) const SPREAD_SHARE: f64 = 0.8;

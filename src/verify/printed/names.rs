@@ -21,10 +21,24 @@ pub(super) fn named_ids<'a>(label: &str, ids: impl Iterator<Item = &'a str>) -> 
                 .clone()
                 .any(|rest| !rest.starts_with(|c: char| c.is_ascii_digit()))
     };
-    ids.enumerate()
-        .filter(|(_, id)| is_named(id))
-        .map(|(index, _)| index)
-        .collect()
+    // `P02_P01of02` is the kit's own name for P01 of a model called P02.
+    let is_numbered = |id: &str| {
+        let mark = format!("_{}of", plain(id));
+        let mut ends = label
+            .match_indices(&mark)
+            .map(|(at, _)| &label[at + mark.len()..]);
+        !id.is_empty() && ends.any(|rest| rest.starts_with(|c: char| c.is_ascii_digit()))
+    };
+    let ids: Vec<&str> = ids.collect();
+    let those = |is_it: &dyn Fn(&str) -> bool| -> Vec<usize> {
+        (0..ids.len()).filter(|&index| is_it(ids[index])).collect()
+    };
+    let numbered = those(&is_numbered);
+    if numbered.len() == 1 {
+        numbered
+    } else {
+        those(&is_named)
+    }
 }
 
 /// Returns a label as it may be shown: without control characters, and not too long.
@@ -79,6 +93,9 @@ mod tests {
         assert_eq!(found("jig_J1_id_2_copy_0"), [3]);
         assert_eq!(found("jig-J10.3mf"), [4]);
         assert_eq!(found("P01 and P02"), [0, 1]);
+        // A model that is called as a part is.
+        assert_eq!(found("P02_P01of02.stl"), [0]);
+        assert_eq!(found("P02_P02of02.stl"), [1]);
     }
 
     #[test]

@@ -129,10 +129,22 @@ impl Source {
         let paths = piece.deposits.part_bounds();
         let line_mm = self.line_mm(piece, promise);
         let margin = Vector::new(0.5 * line_mm, 0.5 * line_mm, 0.0);
+        let mut min = paths.min - margin;
+        // Lines in the air are round and thicker than a layer: they seem to reach below the plate.
+        let laid = piece
+            .deposits
+            .part()
+            .filter(|tally| !is_in_air(tally.feature));
+        let foot_mm = laid
+            .map(|tally| tally.bounds.min.z)
+            .fold(f64::INFINITY, f64::min);
+        if foot_mm.is_finite() {
+            min.z = foot_mm;
+        }
         Shape {
             moments: piece.deposits.part_moments(),
             aabb: Aabb {
-                min: paths.min - margin,
+                min,
                 max: paths.max + margin,
             },
         }
@@ -182,6 +194,14 @@ pub(super) fn lines_of(deposits: &Deposits, promise: &Promise) -> Option<Lines> 
         height_mm,
         width_mm,
     })
+}
+
+/// Returns true for lines without a layer below them.
+fn is_in_air(feature: Feature) -> bool {
+    matches!(
+        feature,
+        Feature::Bridge | Feature::InternalBridge | Feature::OverhangPerimeter
+    )
 }
 
 /// Returns a label's name, or its number if it has no name.
