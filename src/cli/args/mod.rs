@@ -115,6 +115,7 @@ pub enum Command {
     /// List the known printers, show one, or check a profile of your own
     Printers(PrintersArgs),
     /// List laser cutters, sheets and fasteners, or check a profile
+    #[command(hide = true)]
     Cutters(CuttersArgs),
     /// Make coupons to weigh and try, to fit a profile to the machine
     Coupon(CouponArgs),
