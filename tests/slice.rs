@@ -57,6 +57,14 @@ impl Bench {
     }
 }
 
+impl Bench {
+    /// Slices the kit as it is, once.
+    fn right(&self) -> &'static (Output, PathBuf) {
+        static RIGHT: OnceLock<(Output, PathBuf)> = OnceLock::new();
+        RIGHT.get_or_init(|| self.slice("right", &[]))
+    }
+}
+
 /// Returns true if there is a slicer; says so if there is none.
 fn has_slicer() -> bool {
     let is_there = Command::new("prusa-slicer").arg("--help").output().is_ok();
@@ -74,9 +82,9 @@ fn the_plates_of_a_kit_become_toolpaths_that_keep_its_promise() {
     }
     let bench = bench();
     let before = files(&bench.kit());
-    let (output, folder) = bench.slice("right", &[]);
-    assert_exit(&output, 0);
-    let found = common::json(&output);
+    let (output, folder) = bench.right();
+    assert_exit(output, 0);
+    let found = common::json(output);
     let causes = list(&found["judgement"], "causes");
     assert!(
         causes.iter().all(|cause| cause["is_wrong"] == false),
@@ -119,10 +127,10 @@ fn a_profile_of_the_slicer_changes_no_size_line_or_layer_of_the_kit() {
     let text = "# a shop's own\nlayer_height = 0.3\nfill_density = 15%\nfilament_density = 1.04\n\
         perimeter_speed = 20\ninfill_speed = 20\nsolid_infill_speed = 20\n";
     fs::write(&profile, text).unwrap();
-    let (usual, _) = bench.slice("usual", &[]);
+    let (usual, _) = bench.right();
     let (slow, _) = bench.slice("shop", &["--profile", path(&profile)]);
     assert_exit(&slow, 0);
-    let [usual, slow] = [&usual, &slow].map(common::json);
+    let [usual, slow] = [usual, &slow].map(common::json);
     let of = |found: &Value, pointer: &str| number(found, &format!("/slices/plates/0{pointer}"));
     assert_eq!(of(&usual, "/layers"), of(&slow, "/layers"));
     assert!((of(&usual, "/parts_g") / of(&slow, "/parts_g") - 1.0).abs() < 0.005);

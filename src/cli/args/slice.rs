@@ -12,8 +12,9 @@ pub struct SliceArgs {
     /// The command of the slicer, PrusaSlicer or SuperSlicer [default: prusa-slicer]
     #[arg(long, value_name = "CMD")]
     pub slicer: Option<String>,
-    /// A configuration exported by the slicer (.ini): its speeds, temperatures and G-code for the
-    /// start hold; sizes, lines, layers and density stay those of the kit's printer
+    /// A configuration exported by the slicer (.ini), for speeds, temperatures and the start
+    ///
+    /// Sizes, lines, layers and density stay those of the kit's printer.
     #[arg(long, value_name = "FILE")]
     pub profile: Option<PathBuf>,
     /// The folder to write [default: the kit's name and -gcode]

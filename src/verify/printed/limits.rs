@@ -19,8 +19,8 @@ pub(super) const INERTIA_RATIO: f64 = 0.01;
 /// The mean height of beads may differ from that of a layer by this share: the first layer is often
 /// higher. The next usual height differs by a quarter and more.
 pub(super) const LAYER_RATIO: f64 = 0.1;
-/// Other layers than these are told, but wrong only if their height differs by more than this
-/// share: what the printer can lay as well balances as well.
+/// Other layers are told. They are wrong only if their height differs by more than this share: what
+/// the printer can lay as well balances as well.
 pub(super) const WRONG_LAYER_RATIO: f64 = 0.3;
 /// The width of lines may differ by this share. Outer lines of 0.42 mm where 0.45 mm are usual, and
 /// a flow of 0.95, are both within it.
