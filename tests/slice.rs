@@ -164,6 +164,15 @@ fn what_cannot_be_sliced_is_told_with_a_remedy_and_writes_nothing() {
     let output = equipoise(&["slice", path(&empty)]);
     assert_exit(&output, 2);
     assert!(printed(&output).contains(remedy), "{}", printed(&output));
+    fs::write(empty.join("job.toml"), "schema = 1\n").unwrap();
+    fs::write(empty.join("checklist.json"), r#"{"kind":"telescope"}"#).unwrap();
+    let output = equipoise(&["slice", path(&empty)]);
+    assert_exit(&output, 2);
+    assert!(
+        printed(&output).contains("a telescope's"),
+        "{}",
+        printed(&output)
+    );
     // A folder of something else is not replaced.
     let other = bench.folder.join("other");
     fs::create_dir_all(&other).unwrap();

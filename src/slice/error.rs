@@ -17,6 +17,11 @@ pub enum SliceError {
         /// The folder.
         path: PathBuf,
     },
+    /// The kit is a telescope's.
+    #[error(
+        "this kit is a telescope's, which is not sliced from here yet; remedy: load its plates into the slicer"
+    )]
+    Telescope,
     /// The job of the kit cannot be read.
     #[error(transparent)]
     Job(#[from] JobError),

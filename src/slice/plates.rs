@@ -13,7 +13,7 @@ use crate::job::Job;
 use crate::kit::{Kit, SLICES_FILE};
 use crate::printer::{Plate, Printer};
 use crate::slicer::{PlateFile, SliceSettings, Slicer};
-use crate::verify::JOB_FILE;
+use crate::verify::{JOB_FILE, is_telescope};
 
 /// Largest profile of a slicer, bytes: real ones have some 20 000.
 const MOST_PROFILE: u64 = 1_000_000;
@@ -98,6 +98,9 @@ fn read_job(folder: &Path) -> Result<Job, SliceError> {
     if !path.is_file() {
         let path = folder.to_owned();
         return Err(SliceError::NoKit { path });
+    }
+    if is_telescope(folder) {
+        return Err(SliceError::Telescope);
     }
     Ok(Job::read(&path)?)
 }
