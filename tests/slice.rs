@@ -125,7 +125,8 @@ fn a_profile_of_the_slicer_changes_no_size_line_or_layer_of_the_kit() {
     let bench = bench();
     let profile = bench.folder.join("shop.ini");
     let text = "# a shop's own\nlayer_height = 0.3\nfill_density = 15%\nfilament_density = 1.04\n\
-        perimeter_speed = 20\ninfill_speed = 20\nsolid_infill_speed = 20\n";
+        perimeter_extrusion_width = 0.7\nexternal_perimeter_extrusion_width = 0.7\n\
+        xy_size_compensation = -0.2\nspiral_vase = 0\nperimeter_speed = 20\ninfill_speed = 20\nsolid_infill_speed = 20\n";
     fs::write(&profile, text).unwrap();
     let (usual, _) = bench.right();
     let (slow, _) = bench.slice("shop", &["--profile", path(&profile)]);

@@ -236,6 +236,17 @@ fn format_decimals(value: f64, places: usize) -> String {
     }
 }
 
+/// Minutes in an hour.
+const MIN_PER_H: u32 = 60;
+
+/// Words a time: `59 min`, or `3 h 5 min`.
+pub fn show_minutes(minutes: u32) -> String {
+    match (minutes / MIN_PER_H, minutes % MIN_PER_H) {
+        (0, rest) => format!("{rest}\u{a0}min"),
+        (hours, rest) => format!("{hours}\u{a0}h {rest}\u{a0}min"),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -243,6 +254,12 @@ mod tests {
 
     fn mm(text: &str) -> f64 {
         text.parse::<Length>().unwrap().mm()
+    }
+
+    #[test]
+    fn times_are_worded_in_hours_and_minutes() {
+        assert_eq!(show_minutes(59), "59\u{a0}min");
+        assert_eq!(show_minutes(185), "3\u{a0}h 5\u{a0}min");
     }
 
     #[test]

@@ -38,7 +38,7 @@ pub enum SliceCommandError {
     Output(#[from] std::io::Error),
 }
 
-/// What is printed as JSON.
+/// The findings as they are printed as JSON.
 #[derive(Serialize)]
 struct Found<'a> {
     folder: &'a Path,

@@ -89,7 +89,7 @@ pub struct Cutter {
 pub struct KerfAt {
     /// The width of the cut, mm.
     pub kerf_mm: f64,
-    /// Where it is from, in words.
+    /// Its source, in words.
     pub provenance: String,
     /// The certainty; that of the less certain of two entries.
     pub sure: Sure,

@@ -5,7 +5,7 @@ use super::ground::Ground;
 use super::polyhedron::Polyhedron;
 use crate::geom::Plane;
 
-/// What is on one side of a split.
+/// One side of a split.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Child {
     /// Another split, as an index.
@@ -19,9 +19,9 @@ pub enum Child {
 pub struct Split {
     /// The plane, in the middle of the gap.
     pub plane: Plane,
-    /// What lies below it.
+    /// The side below it.
     pub below: Child,
-    /// What lies above it.
+    /// The side above it.
     pub above: Child,
 }
 

@@ -10,7 +10,7 @@ const PLACES: usize = 16;
 /// Faces whose planes are farther from the splitting plane than this do not bear on it, mm.
 const BEARING_MM: f64 = 1e-6;
 
-/// How two polyhedra are held together.
+/// The way in which two polyhedra are held together.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Joint {
     /// Two panels bear on each other and are bolted through.
@@ -61,7 +61,7 @@ impl Connection {
     }
 }
 
-/// What a connection asks for.
+/// The sizes that a connection needs.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ConnectorRequest {
     /// The least radius of the disc about the axis, mm.

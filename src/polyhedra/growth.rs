@@ -24,7 +24,7 @@ const PER_BREACH: f64 = 0.25;
 /// The terms on which a step is better than none.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Terms<'a> {
-    /// What the polyhedron keeps away from.
+    /// The obstacles that the polyhedron keeps away from.
     pub obstacles: &'a Obstacles,
     /// By how much, mm.
     pub distance_mm: f64,

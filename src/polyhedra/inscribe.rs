@@ -26,7 +26,7 @@ const PIECES_FOR_ALL_STARTS: usize = 40_000;
 /// Added to the factor that gives a thin model room, so that there is some.
 const ROOM_RATIO: f64 = 0.01;
 
-/// What a polyhedron is asked to be.
+/// The order for a polyhedron.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Request {
     /// The distance from the surface, mm: the wall, a gap and what the fasteners need.

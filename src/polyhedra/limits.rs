@@ -58,9 +58,9 @@ pub struct Breach {
     pub kind: LimitKind,
     /// The indices of the planes of the faces; the same twice if one face breaks it.
     pub planes: [usize; 2],
-    /// What there is: an angle in radians or a length in mm.
+    /// The value found: an angle in radians or a length in mm.
     pub found: f64,
-    /// What the limit asks for, in the same unit.
+    /// The value that the limit asks for, in the same unit.
     pub asked: f64,
 }
 

@@ -31,7 +31,7 @@ pub enum Count {
     Exactly(usize),
 }
 
-/// What is asked of several polyhedra.
+/// The order for several polyhedra.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Several {
     /// Their number.

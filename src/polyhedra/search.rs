@@ -38,7 +38,7 @@ const PRICES: [f64; 4] = [0.02, 0.06, 0.2, 0.6];
 /// Rounds of random moves at every price.
 const SETTLING: usize = 60;
 
-/// What a search is asked for.
+/// The order of a search.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Wish<'a> {
     pub terms: Terms<'a>,

@@ -203,7 +203,7 @@ impl Policy {
         lack_weight: 4.0,
         lack_growth: 2.0,
         hidden_rounds: 5,
-        clear_rounds: 2,
+        clear_rounds: 1,
         loss_price: 0.5,
         seam_loss_ratio: 0.1,
         part_loss_ratio: 0.02,

@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::base::units::show_minutes;
+
 /// What a slicer says that the plates take, with its default speeds.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct PrintTimeRow {
@@ -29,8 +31,6 @@ const STEP_MIN: f64 = 5.0;
 const STEP_G: f64 = 0.1;
 /// Seconds in a minute.
 const S_PER_MIN: f64 = 60.0;
-/// Minutes in an hour.
-const MIN_PER_H: u32 = 60;
 
 impl PlateTimeRow {
     /// Returns the row of a plate that takes this many seconds and this much filament.
@@ -47,11 +47,7 @@ impl PrintTimeRow {
     /// Words the time and the filament of all plates: `about 5 h 50 min and 63.2 g of filament`.
     pub fn words(&self) -> String {
         let minutes: u32 = self.plates.iter().map(|plate| plate.minutes).sum();
-        let (hours, rest) = (minutes / MIN_PER_H, minutes % MIN_PER_H);
-        let time = match hours {
-            0 => format!("{rest}\u{a0}min"),
-            _ => format!("{hours}\u{a0}h {rest}\u{a0}min"),
-        };
+        let time = show_minutes(minutes);
         let filament_g: Option<f64> = self.plates.iter().map(|plate| plate.filament_g).sum();
         let filament = filament_g.map_or(String::new(), |mass_g| {
             format!(" and {mass_g:.1}\u{a0}g of filament, supports included")

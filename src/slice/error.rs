@@ -63,7 +63,7 @@ pub enum SliceError {
     NoProfile {
         /// The file.
         path: PathBuf,
-        /// What is wrong with it.
+        /// The fault.
         reason: String,
     },
     /// The slicer fails.

@@ -20,7 +20,7 @@ const MOST_PROFILE: u64 = 1_000_000;
 /// Decimals of a stated mass, g.
 const MASS_DECIMALS: f64 = 100.0;
 
-/// What is to be sliced, and by what.
+/// The kit to slice, and the slicer with its profile.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct SliceOrder {
     /// The folder of the kit.
@@ -34,7 +34,7 @@ pub struct SliceOrder {
 /// The toolpaths of a kit.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sliced {
-    /// What was sliced, with its figures.
+    /// The plates and their figures.
     pub slices: Slices,
     /// The toolpaths and `slices.json`, to be written as a folder.
     pub files: Kit,

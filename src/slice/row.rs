@@ -2,10 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::base::units::show_minutes;
+
 /// Seconds in a minute.
 const S_PER_MIN: f64 = 60.0;
-/// Minutes in an hour.
-const MIN_PER_H: u32 = 60;
 
 /// The toolpaths of a kit, by plate.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -51,7 +51,7 @@ impl PlateSlice {
 
     /// Words its time: `3 h 5 min`.
     pub fn time(&self) -> String {
-        time_words(self.minutes)
+        show_minutes(self.minutes)
     }
 }
 
@@ -61,7 +61,7 @@ impl Slices {
 
     /// Words the time of all plates: `3 h 5 min`.
     pub fn time(&self) -> String {
-        time_words(self.plates.iter().map(|plate| plate.minutes).sum())
+        show_minutes(self.plates.iter().map(|plate| plate.minutes).sum())
     }
 
     /// Returns the mass of the parts and jigs on all plates, g.
@@ -75,22 +75,13 @@ impl Slices {
     }
 }
 
-fn time_words(minutes: u32) -> String {
-    match (minutes / MIN_PER_H, minutes % MIN_PER_H) {
-        (0, rest) => format!("{rest}\u{a0}min"),
-        (hours, rest) => format!("{hours}\u{a0}h {rest}\u{a0}min"),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
-    fn times_are_rounded_up_to_minutes_and_worded_with_hours() {
+    fn times_are_rounded_up_to_minutes() {
         assert_eq!(PlateSlice::minutes_of(60.0), 1);
         assert_eq!(PlateSlice::minutes_of(60.1), 2);
-        assert_eq!(time_words(59), "59\u{a0}min");
-        assert_eq!(time_words(185), "3\u{a0}h 5\u{a0}min");
     }
 }

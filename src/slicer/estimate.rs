@@ -23,9 +23,9 @@ pub struct Estimate {
 pub struct SlicedPlate {
     /// Its toolpaths, as the slicer wrote them.
     pub bytes: Vec<u8>,
-    /// What they lay down.
+    /// The material that they lay down.
     pub read: Toolpath,
-    /// What the slicer says that they take.
+    /// Their time and filament, as the slicer states them.
     pub estimate: Estimate,
 }
 

@@ -11,6 +11,17 @@ const LINE_PER_NOZZLE: f64 = 1.125;
 /// The diameter of nearly all filament that is sold, mm.
 const FILAMENT_MM: f64 = 1.75;
 
+/// The keys for the widths of the lines of parts, besides the usual width.
+const LINE_KEYS: [&str; 5] = [
+    "perimeter_extrusion_width",
+    "external_perimeter_extrusion_width",
+    "infill_extrusion_width",
+    "solid_infill_extrusion_width",
+    "top_infill_extrusion_width",
+];
+/// The keys by which parts become larger, smaller or hollow.
+const SIZE_KEYS: [&str; 2] = ["xy_size_compensation", "spiral_vase"];
+
 /// What a slicer must know of a printer and its material.
 ///
 /// The plate's own file says what else the parts need. Speeds are the slicer's defaults.
@@ -77,7 +88,12 @@ impl SliceSettings {
             ("gcode_flavor", "marlin2".to_owned()),
             ("gcode_label_objects", "1".to_owned()),
         ];
-        pairs.iter().fold(String::new(), |mut ini, (key, value)| {
+        // A shop's profile has a width for every kind of line, and may change sizes.
+        let line = || self.line_mm.to_string();
+        let widths = LINE_KEYS.iter().map(|key| (*key, line()));
+        let sizes = SIZE_KEYS.iter().map(|key| (*key, "0".to_owned()));
+        let pairs = pairs.into_iter().chain(widths).chain(sizes);
+        pairs.fold(String::new(), |mut ini, (key, value)| {
             // Writing into a string cannot fail.
             let _ = writeln!(ini, "{key} = {value}");
             ini

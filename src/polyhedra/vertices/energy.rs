@@ -35,7 +35,7 @@ pub(super) struct Weights {
     pub reflex: f64,
 }
 
-/// What the vertices are to keep.
+/// The terms that the vertices are to keep.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Field<'a> {
     pub distance: &'a MeshDistance,

@@ -58,7 +58,7 @@ const FIRST_STEP_RATIO: f64 = 0.02;
 /// Halvings of the interval in which the last scale is looked for.
 const HALVINGS: usize = 40;
 
-/// What the vertices are asked to do.
+/// The order to the vertices.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct VertexRequest {
     /// The distance from the surface that samples keep, mm.

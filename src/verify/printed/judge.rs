@@ -136,7 +136,7 @@ impl Weighing {
     }
 }
 
-/// What is said if a check fails and no setting is wrong.
+/// The note on a check that fails while no setting is wrong.
 const UNEXPLAINED: &str = "no wrong setting was found: lines of whole width fill thin walls \
     unevenly, and the print will balance as shown";
 
