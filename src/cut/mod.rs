@@ -59,7 +59,7 @@ pub use seat::Seat;
 pub use error::{CutError, Obstacle};
 pub use ids::{CutId, IdError, JointId, PartId, PinId, VoidId};
 pub use plan::{Cut, CutMove, CutPlan, JointNote, SolidEnd, UncutFace};
-pub use planner::draft::{Drafts, SeamWeight, draft, draft_again, finish_draft};
+pub use planner::draft::{Draft, Drafts, SeamWeight, draft, draft_again, finish_draft};
 pub use planner::{measure_voids_again, plan, plan_around, plan_by};
 pub use remark::{PinLack, Proof, Remark, SightGain, Term, UncleanCause};
 pub use side::{CutSide, Side};

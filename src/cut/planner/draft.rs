@@ -1,7 +1,9 @@
 //! Drafts: plans with cuts alone, for a search that weighs many of them. The one that is taken gets
 //! its pins in the end.
 
-use super::{check_request, fewest_cuts, find_plans, limited_cut_remarks, small_part_remarks};
+use super::{
+    Fewest, check_request, fewest_cuts, find_plans, limited_cut_remarks, small_part_remarks,
+};
 use crate::{
     base::verdict::Verdict,
     cut::{
@@ -37,7 +39,7 @@ pub fn draft(
 fn draft_fewest(hollowed: &Hollowed, request: &PlanRequest) -> Result<CutPlan, CutError> {
     check_request(request)?;
     let scene = Scene::new(hollowed, request)?;
-    let (layout, notes) = fewest_cuts(&scene, find_plans(&scene)?.as_ref())?;
+    let Fewest { layout, notes, .. } = fewest_cuts(&scene, find_plans(&scene)?.as_ref())?;
     to_draft(&scene, &layout, notes)
 }
 
@@ -53,7 +55,7 @@ pub struct Drafts<'a> {
 pub struct SeamWeight {
     /// Weight of walls that lack sight, against seams.
     pub lack_weight: f64,
-    /// The plans that were tried already.
+    /// The plans that were tried already, as [`Draft::sought`] has them.
     pub tried: Vec<Vec<Plane>>,
     /// Price of seams that a plan must stay below, in circles about the model of average weight.
     pub dearest_ratio: f64,
@@ -68,6 +70,15 @@ impl SeamWeight {
         request.seams.dearest_ratio = Some(self.dearest_ratio);
         request
     }
+}
+
+/// A plan with cuts alone, and what the search found for it.
+#[derive(Debug, Clone)]
+pub struct Draft {
+    /// The plan.
+    pub plan: CutPlan,
+    /// The planes of the search, before they moved into creases and others were added.
+    pub sought: Vec<Plane>,
 }
 
 impl<'a> Drafts<'a> {
@@ -90,11 +101,16 @@ impl<'a> Drafts<'a> {
     }
 
     /// Drafts as [`draft`] does, with another weight of seams.
-    pub fn draft(&self, weight: &SeamWeight) -> Result<Verdict<CutPlan, Obstacle>, CutError> {
+    pub fn draft(&self, weight: &SeamWeight) -> Result<Verdict<Draft, Obstacle>, CutError> {
         let request = weight.weigh(self.scene.request);
         let scene = self.scene.weighed(&request);
-        let layout = fewest_cuts(&scene, self.found.as_ref());
-        verdict(layout.and_then(|(layout, notes)| to_draft(&scene, &layout, notes)))
+        let draft = |fewest: Fewest| {
+            Ok(Draft {
+                plan: to_draft(&scene, &fewest.layout, fewest.notes)?,
+                sought: fewest.sought,
+            })
+        };
+        verdict(fewest_cuts(&scene, self.found.as_ref()).and_then(draft))
     }
 }
 

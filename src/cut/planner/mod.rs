@@ -80,7 +80,7 @@ pub fn plan(
 fn plan_fewest(hollowed: &Hollowed, request: &PlanRequest) -> Result<CutPlan, CutError> {
     check_request(request)?;
     let scene = Scene::new(hollowed, request)?;
-    let (layout, notes) = fewest_cuts(&scene, find_plans(&scene)?.as_ref())?;
+    let Fewest { layout, notes, .. } = fewest_cuts(&scene, find_plans(&scene)?.as_ref())?;
     let plan = to_plan(&scene, &layout, Pins::Placed, notes.clone())?;
     snap_to_layers(&scene, &layout, plan, notes)
 }
@@ -91,18 +91,35 @@ fn find_plans(scene: &Scene) -> Result<Option<Found>, CutError> {
     has_voids.then(|| smallest_plans(scene)).transpose()
 }
 
-/// Returns the fewest cuts that open every void, of the plans found, with those that make parts
-/// fit, and the remarks on them.
-fn fewest_cuts(scene: &Scene, found: Option<&Found>) -> Result<(Layout, Vec<Remark>), CutError> {
+/// The fewest cuts that open every void, with those that clean and those that make parts fit.
+struct Fewest {
+    layout: Layout,
+    /// The remarks on the cuts.
+    notes: Vec<Remark>,
+    /// The planes that the search found, before they were moved and others added.
+    sought: Vec<Plane>,
+}
+
+/// Returns the fewest cuts of the plans found.
+fn fewest_cuts(scene: &Scene, found: Option<&Found>) -> Result<Fewest, CutError> {
     let mut notes = Vec::new();
+    let mut sought = Vec::new();
     let mut layout = match found {
-        Some(found) => opening_cuts(scene, found, &mut notes)?,
+        Some(found) => {
+            let attempt = cleanest(scene, &found.plans)?;
+            sought.clone_from(&attempt.planes);
+            opening_cuts(scene, attempt, found, &mut notes)?
+        }
         None => Layout::new(scene, Vec::new(), Vec::new())?,
     };
     fit_build_volume(scene, &mut layout, &mut notes)?;
     notes.extend(limited_cut_remarks(&layout.tree));
     notes.extend(small_part_remarks(scene, &layout));
-    Ok((layout, notes))
+    Ok(Fewest {
+        layout,
+        notes,
+        sought,
+    })
 }
 
 /// Plans the ordered cuts, each limited to its ordered sides and without the faces ordered to stay
@@ -251,14 +268,25 @@ fn check_request(request: &PlanRequest) -> Result<(), CutError> {
     })
 }
 
-/// Returns the layout of the best of the smallest plans.
-fn opening_cuts(scene: &Scene, found: &Found, notes: &mut Vec<Remark>) -> Result<Layout, CutError> {
+/// Returns the layout of the best of the smallest plans, with more cuts where they are needed to
+/// clean.
+fn opening_cuts(
+    scene: &Scene,
+    best: Attempt,
+    found: &Found,
+    notes: &mut Vec<Remark>,
+) -> Result<Layout, CutError> {
     notes.push(Remark::Fewest(found.proof()));
-    let best = straighten(scene, cleanest(scene, &found.plans)?)?;
-    let best = shift_to_creases(scene, best)?;
+    let best = shift_to_creases(scene, straighten(scene, best)?)?;
     let mut of_extra = Vec::new();
     let full = add_extra_cuts(scene, best.clone(), &mut of_extra)?;
     let has_extra = full.planes.len() > best.planes.len();
+    // With more cuts, each has more room to move.
+    let full = if has_extra {
+        shift_to_creases(scene, full)?
+    } else {
+        full
+    };
     let layout = Layout::new(scene, full.planes, full.voids)?;
     let layout = if layout.count_small(scene) == 0 {
         notes.extend(of_extra);

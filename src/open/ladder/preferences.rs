@@ -3,7 +3,7 @@
 use super::Ladder;
 use super::joined::{Fewer, Joined};
 use crate::base::verdict::Verdict;
-use crate::cut::{Cut, CutError, CutPlan, Drafts, PlanRequest, SeamWeight, dearest_spot};
+use crate::cut::{Cut, CutError, CutPlan, Draft, Drafts, PlanRequest, SeamWeight, dearest_spot};
 use crate::error::Error;
 use crate::geom::Plane;
 use crate::open::ground::Ground;
@@ -159,11 +159,11 @@ impl<'a> Ladder<'a> {
             }
             let weight = weight(lack_weight, &tried);
             lack_weight *= self.policy.lack_growth;
-            let Verdict::Found(draft) = drafts.draft(&weight)? else {
+            let Verdict::Found(Draft { plan, sought }) = drafts.draft(&weight)? else {
                 continue;
             };
-            tried.push(planes(&draft)?);
-            let other = self.clean_hidden(choice, draft, &weight.weigh(request))?;
+            tried.push(sought);
+            let other = self.clean_hidden(choice, plan, &weight.weigh(request))?;
             if other.is_some_and(|other| choice.take(other)) {
                 break;
             }
