@@ -269,7 +269,7 @@ fn sparse_infill_is_named() {
     let plate = bench.change("sparse", SETTINGS, sparse);
     let gcode = bench.slice("sparse", &plate, "--dont-arrange");
     let [_, remedy] = bench.assert_named(&gcode, "infill");
-    assert!(remedy.contains("fill_density to 100 %"), "{remedy}");
+    assert!(remedy.contains("(fill_density) to 100 %"), "{remedy}");
 }
 
 #[test]
@@ -287,16 +287,16 @@ fn another_filament_is_named() {
     let gcode = bench.slice("heavy", &bench.plate(), options);
     let [finding, remedy] = bench.assert_named(&gcode, "density");
     assert!(finding.contains("1.4 g/cm³"), "{finding}");
-    assert!(remedy.contains("filament_density to 1.24"), "{remedy}");
+    assert!(remedy.contains("(filament_density) to 1.24"), "{remedy}");
 }
 
 #[test]
 fn a_low_flow_is_named_and_not_taken_for_sparse_infill() {
     let Some(bench) = bench() else { return };
-    let options = "--dont-arrange --extrusion-multiplier 0.9";
+    let options = "--dont-arrange --extrusion-multiplier 0.85";
     let gcode = bench.slice("thin", &bench.plate(), options);
     let [_, remedy] = bench.assert_named(&gcode, "flow");
-    assert!(remedy.contains("check extrusion_multiplier"), "{remedy}");
+    assert!(remedy.contains("check Extrusion multiplier"), "{remedy}");
 }
 
 #[test]
@@ -310,7 +310,10 @@ fn thick_layers_are_named() {
     let gcode = bench.slice("thick", &plate, "--dont-arrange");
     let [finding, remedy] = bench.assert_named(&gcode, "layer-height");
     assert!(finding.contains("0.30 mm"), "{finding}");
-    assert!(remedy.contains("layer_height to 0.2 mm"), "{remedy}");
+    assert!(
+        remedy.contains("Layer height (layer_height) to 0.2 mm"),
+        "{remedy}"
+    );
 }
 
 #[test]

@@ -23,6 +23,8 @@ pub struct Facts {
     pub filament_density_g_cm3: Vec<f64>,
     /// Diameter of the filament, mm, for each tool.
     pub filament_diameter_mm: Vec<f64>,
+    /// Factor on all that is extruded, for each tool: the calibration of its filament.
+    pub flow_ratios: Vec<f64>,
     /// Diameter of the nozzle, mm, for each tool.
     pub nozzle_diameter_mm: Vec<f64>,
     /// Height of a layer, mm.

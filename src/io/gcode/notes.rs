@@ -130,6 +130,9 @@ fn note_list(facts: &mut Facts, key: &str, value: &str) {
         "filament_diameter" | "material_diameter" => {
             fill(&mut facts.filament_diameter_mm, all_positive(value));
         }
+        "extrusion_multiplier" | "filament_flow_ratio" => {
+            fill(&mut facts.flow_ratios, all_positive(value));
+        }
         "nozzle_diameter" => fill(&mut facts.nozzle_diameter_mm, all_positive(value)),
         _ => {}
     }

@@ -63,18 +63,34 @@ impl CauseKind {
         }
     }
 
-    /// Returns the name of the setting in a slicer's own words.
+    /// Returns the name of the setting in a slicer's own words, with its key in profiles.
     pub(super) fn setting(self, slicer: Option<Slicer>) -> &'static str {
         let [prusa, orca, cura] = match self {
-            Self::Infill => ["fill_density", "sparse_infill_density", "Infill Density"],
-            Self::LayerHeight => ["layer_height", "layer_height", "Layer Height"],
-            Self::LineWidth => ["extrusion_width", "line_width", "Line Width"],
+            Self::Infill => [
+                "Fill density (fill_density)",
+                "Sparse infill density (sparse_infill_density)",
+                "Infill Density (infill_sparse_density)",
+            ],
+            Self::LayerHeight => [
+                "Layer height (layer_height)",
+                "Layer height (layer_height)",
+                "Layer Height (layer_height)",
+            ],
+            Self::LineWidth => [
+                "Default extrusion width (extrusion_width)",
+                "Line width, Default (line_width)",
+                "Line Width (line_width)",
+            ],
             Self::Density => [
-                "filament_density",
-                "filament_density",
+                "Density of the filament (filament_density)",
+                "Density of the filament (filament_density)",
                 "the density of the material",
             ],
-            Self::Flow => ["extrusion_multiplier", "filament_flow_ratio", "Flow"],
+            Self::Flow => [
+                "Extrusion multiplier (extrusion_multiplier)",
+                "Flow ratio (filament_flow_ratio)",
+                "Flow (material_flow)",
+            ],
             Self::SupportInVoid => ["the support in voids"; 3],
             Self::Scale => ["the scale of the object"; 3],
             Self::Mirror => ["the mirror image of the object"; 3],

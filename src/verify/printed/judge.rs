@@ -8,12 +8,12 @@ use super::checks::printed_checks;
 use super::density::Densities;
 use super::error::PrintedError;
 use super::judgement::{PrintedFile, PrintedJudgement};
-use super::limits::PRINTED_MASS_LIMIT_RATIO;
+use super::limits::{FLOW_RATIO, PRINTED_MASS_LIMIT_RATIO};
 use super::matching::{Catalogue, Match, Matches};
 use super::names::name_some;
 use super::part::PrintedPart;
 use super::shape::Thing;
-use super::source::{Source, read_sources};
+use super::source::{Source, calibration, read_sources};
 use super::supports::Voids;
 use crate::base::watch::Watch;
 use crate::io::gcode::DiameterSource;
@@ -24,9 +24,6 @@ use crate::verify::{
     Body, Evidence, Figures, HOLLOWED_FILE, PlateSpot, Promise, Setting, assembly_moments,
     files_check, read_kit,
 };
-
-/// Difference of the flow of `M221` from 1 that is told.
-const FLOW_RATIO: f64 = 1e-3;
 
 /// Judges the toolpaths of the kit in `folder`: all plates together, in any order.
 ///
@@ -276,6 +273,15 @@ fn source_notes(source: &Source, promise: &Promise) -> Vec<String> {
     if toolpath.diameter_source == DiameterSource::Assumed {
         notes.push(format!(
             "{name} does not state the diameter of its filament; 1.75 mm is taken"
+        ));
+    }
+    let set_flows = toolpath.facts.flow_ratios.iter();
+    let is_taken_off = |ratio: &&f64| (calibration(&[**ratio], 0) - 1.0).abs() > FLOW_RATIO;
+    if let Some(ratio) = set_flows.clone().find(is_taken_off) {
+        notes.push(format!(
+            "{name} sets a flow of {:.1} % for its filament, which is not counted: it calibrates \
+             the filament",
+            ratio * 100.0
         ));
     }
     let flow_ratio = toolpath.flow_ratio();

@@ -36,8 +36,11 @@ pub(super) const EDGE_MM: f64 = 0.15;
 pub(super) const EDGE_RATIO: f64 = 0.002;
 /// Less support in the voids of a part than this share of its volume is not told.
 pub(super) const SUPPORT_RATIO: f64 = 3e-3;
-/// A flow that the file sets (`M221`) may differ by this share: more calibrates no machine.
-pub(super) const FLOW_LIMIT_RATIO: f64 = 0.1;
+/// A flow that the file sets, for a filament or with `M221`, may differ by this share. With it the
+/// lines are as they are meant. Filaments have 0.92 to 1.04; more calibrates nothing.
+pub(super) const FLOW_LIMIT_RATIO: f64 = 0.09;
+/// Difference of a flow from 1 that is told.
+pub(super) const FLOW_RATIO: f64 = 1e-3;
 /// A part with a shorter edge is scaled only if the spread of its material along that edge is less
 /// by this share of it. A part with a thin tip has 0.4.
 pub(super) const SPREAD_SHARE: f64 = 0.8;
@@ -54,5 +57,8 @@ pub(super) const LACKING_SKIN_MM: f64 = 0.02;
 pub(super) const PLACE_MM: f64 = 0.1;
 /// Another pose, or a mirror image, is taken only if it fits by this factor better than the usual.
 pub(super) const CLEARLY_RATIO: f64 = 0.5;
+/// Any angle about the vertical is tried only if right angles miss by more than this, mm: a turn of
+/// a degree does.
+pub(super) const FREE_TURN_MM: f64 = 1.0;
 /// Misfits below this tell no poses apart, mm: the accuracy of a centre.
 pub(super) const MISFIT_MM: f64 = 0.15;

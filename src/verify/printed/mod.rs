@@ -4,7 +4,7 @@
 //! the hardware, ballast and glue of the promise. It holds the figures against the promise, and
 //! names the causes of a wrong print with the setting to change.
 //!
-//! * `source` reads files; `names`, `shape` and `matching` find the parts.
+//! * `source` reads files; `names`, `shape`, `turns` and `matching` find the parts.
 //! * `part` and `density` weigh them; `supports` finds support in voids.
 //! * `cause` and `causes` name what is set wrong; `checks` gives the verdict.
 
@@ -24,6 +24,7 @@ mod source;
 mod supports;
 #[cfg(test)]
 mod tests;
+mod turns;
 
 pub use cause::{Cause, CauseKind};
 pub use error::PrintedError;

@@ -1,6 +1,8 @@
 //! The shape of printed material, and of the parts that it may be: moments and boxes.
 
-use super::limits::{CLEARLY_RATIO, MISFIT_MM, PLACE_MM};
+use super::limits::{CLEARLY_RATIO, FREE_TURN_MM, MISFIT_MM, PLACE_MM};
+use super::turns::{free_turns, right_turns};
+use crate::geom::hull::convex_hull;
 use crate::geom::{Aabb, Matrix, Point, Vector};
 use crate::mass::{Moments, moments_of_mesh};
 use crate::mesh::TriMesh;
@@ -19,6 +21,8 @@ pub(super) struct Thing<'a> {
     scale_ratio: Vector,
     /// Its box.
     pub(super) aabb: Aabb,
+    /// Its convex outline seen from above, mm.
+    outline: Vec<[f64; 2]>,
     /// The area of its surface, mm².
     pub(super) area_mm2: f64,
     /// Its moments.
@@ -86,6 +90,7 @@ impl<'a> Thing<'a> {
             pose: read.pose,
             scale_ratio,
             aabb: file.aabb(),
+            outline: convex_hull(file.vertices().iter().map(|p| [p.x, p.y]).collect()),
             area_mm2: area_mm2(&file),
             moments: moments_of_mesh(&file),
             spot,
@@ -95,9 +100,15 @@ impl<'a> Thing<'a> {
     /// Returns how the shape fits: as the kit lays the part, unless another pose or its mirror
     /// image fits far better.
     pub(super) fn fit(&self, shape: &Shape) -> Fit {
-        let usual_turn = self.usual_turn();
-        let usual = self.fit_turned(shape, &usual_turn);
-        let others: Vec<Fit> = turns().map(|turn| self.fit_turned(shape, &turn)).collect();
+        let usual = self.fit_turned(shape, &self.usual_turn());
+        let right = right_turns().map(|turn| self.fit_turned(shape, &turn));
+        let mut others: Vec<Fit> = right.collect();
+        let misses = |fit: &Fit| fit.miss_mm > FREE_TURN_MM;
+        if misses(&usual) && others.iter().all(misses) {
+            let miss_mm = |turn: &Matrix| self.fit_turned(shape, turn).miss_mm;
+            let free = free_turns(miss_mm).map(|turn| self.fit_turned(shape, &turn));
+            others.extend(free);
+        }
         let best = |is_mirrored: bool| {
             let those = others.iter().filter(|fit| fit.is_mirrored == is_mirrored);
             those
@@ -121,8 +132,9 @@ impl<'a> Thing<'a> {
         if is_clear(&mirrored, &proper) {
             // The material is where it is: it is carried back as it would be glued.
             Fit {
-                is_mirrored: true,
-                ..usual
+                turn: usual.turn,
+                shift: usual.shift,
+                ..mirrored
             }
         } else {
             proper
@@ -139,19 +151,21 @@ impl<'a> Thing<'a> {
     }
 
     fn fit_turned(&self, shape: &Shape, turn: &Matrix) -> Fit {
-        let (size, wanted) = (shape.aabb.size(), turn.abs() * self.aabb.size());
+        let (size, wanted) = (shape.aabb.size(), self.turned_box(turn).size());
         let ratio = size.component_div(&wanted);
         let scale = ratio.product().cbrt();
         let edges_mm: f64 = (size / scale - wanted).abs().sum();
         let spreads = [shape.moments, self.moments.rotated(turn)].map(|m| spread_mm2(&m));
-        let spread = spreads.map(|spread_mm2| spread_mm2.diagonal().map(f64::sqrt));
-        let back = |v: Vector| (turn.transpose() * v).abs();
+        let of_file = |spread_mm2: Matrix| turn.transpose() * spread_mm2 * turn;
+        let spread = spreads.map(|spread_mm2| of_file(spread_mm2).diagonal().map(f64::sqrt));
+        // Turned freely, both edges across the layers are in the box of both.
+        let squares = turn.component_mul(turn).transpose();
         let (shift, is_moved) = self.shift(shape, turn);
         Fit {
             turn: *turn,
             shift,
-            size_ratio: back(ratio).into(),
-            spread_ratio: back(spread[0].component_div(&spread[1])).into(),
+            size_ratio: (squares * ratio).into(),
+            spread_ratio: spread[0].component_div(&spread[1]).into(),
             edges_mm: self.aabb.size().into(),
             volume_ratio: shape.moments.volume() / self.moments.volume(),
             miss_mm: edges_mm + self.misfit_mm(shape, turn, scale),
@@ -159,6 +173,21 @@ impl<'a> Thing<'a> {
             is_turned: false,
             is_mirrored: turn.determinant() < 0.0,
         }
+    }
+
+    /// Returns its box after a turn by right angles, or by any angle about the vertical.
+    fn turned_box(&self, turn: &Matrix) -> Aabb {
+        let [low, high] = [self.aabb.min, self.aabb.max];
+        let corners = [low, high].map(|p| Point::from(turn * p.coords));
+        let of_corners = Aabb::of_points(&corners);
+        if turn[(2, 2)].abs() < 0.5 {
+            return of_corners;
+        }
+        let outline = self
+            .outline
+            .iter()
+            .flat_map(|&[x, y]| [low.z, high.z].map(|z| Point::from(turn * Vector::new(x, y, z))));
+        Aabb::of_points(&outline.collect::<Vec<Point>>())
     }
 
     /// Returns the difference of centres and spreads, mm, for a shape of so many times the size.
@@ -169,8 +198,7 @@ impl<'a> Thing<'a> {
             moments.centroid().coords - foot
         };
         let turned = self.moments.rotated(turn);
-        let corners = [self.aabb.min, self.aabb.max].map(|p| Point::from(turn * p.coords));
-        let wanted = place(&turned, &Aabb::of_points(&corners));
+        let wanted = place(&turned, &self.turned_box(turn));
         let found = place(&shape.moments, &shape.aabb) / scale;
         let (found_mm2, wanted_mm2) = (
             spread_mm2(&shape.moments) / (scale * scale),
@@ -187,8 +215,7 @@ impl<'a> Thing<'a> {
     /// sides, its middle or its centre is there. One that was moved is placed by the median of both
     /// sides and the centre.
     fn shift(&self, shape: &Shape, turn: &Matrix) -> (Vector, bool) {
-        let corners = [self.aabb.min, self.aabb.max].map(|p| Point::from(turn * p.coords));
-        let wanted = Aabb::of_points(&corners);
+        let wanted = self.turned_box(turn);
         let low = wanted.min - shape.aabb.min;
         let high = wanted.max - shape.aabb.max;
         let center = self.moments.rotated(turn).centroid() - shape.moments.centroid();
@@ -245,26 +272,6 @@ impl<'a> Thing<'a> {
             &Matrix::from_fn(|i, j| second[(i, j)] * inverse[i] * inverse[j] * by),
         )
     }
-}
-
-/// Returns every turn by right angles about the axes, and the mirror images of these.
-fn turns() -> impl Iterator<Item = Matrix> {
-    const ORDERS: [[usize; 3]; 6] = [
-        [0, 1, 2],
-        [1, 0, 2],
-        [0, 2, 1],
-        [2, 1, 0],
-        [1, 2, 0],
-        [2, 0, 1],
-    ];
-    ORDERS.into_iter().flat_map(|order| {
-        (0..8_u8).map(move |signs| {
-            Matrix::from_fn(|row, column| {
-                let sign = if signs >> row & 1 == 1 { -1.0 } else { 1.0 };
-                if order[row] == column { sign } else { 0.0 }
-            })
-        })
-    })
 }
 
 /// Returns the area of a surface, mm².

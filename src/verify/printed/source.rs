@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use super::error::PrintedError;
+use super::limits::FLOW_LIMIT_RATIO;
 use super::names::showable;
 use super::shape::Shape;
 use crate::base::watch::Watch;
@@ -60,7 +61,8 @@ pub(super) fn read_sources(files: &[PathBuf], watch: &Watch) -> Result<Vec<Sourc
     let mut sources = Vec::new();
     for path in files {
         let plates = read_gcode(path, &options(Vec::new()), watch)?;
-        for (index, plate) in plates.into_iter().enumerate() {
+        for (index, mut plate) in plates.into_iter().enumerate() {
+            take_off_calibration(&mut plate.toolpath);
             let number = plate.number.map(|number| format!(", plate {number}"));
             sources.push(Source {
                 path: path.clone(),
@@ -79,6 +81,28 @@ fn options(places: Vec<Place>) -> Options {
         support_cell_mm: Some(SUPPORT_CELL_MM),
         ..Options::default()
     }
+}
+
+/// Takes the calibration of filaments off what is laid. With it a machine lays lines of the volume
+/// that is meant.
+fn take_off_calibration(toolpath: &mut Toolpath) {
+    let ratios = &toolpath.facts.flow_ratios;
+    let objects = toolpath.objects.iter_mut();
+    let objects = objects.map(|object| &mut object.deposits);
+    for deposits in objects.chain(&mut toolpath.places) {
+        for tally in &mut deposits.tallies {
+            let by = calibration(ratios, tally.tool).recip();
+            tally.moments = tally.moments * by;
+            tally.flowed_mm3 *= by;
+        }
+    }
+}
+
+/// Returns the calibration of a tool's filament; 1 if none is stated, or one that calibrates none.
+pub(super) fn calibration(stated: &[f64], tool: u16) -> f64 {
+    let ratio = stated.get(usize::from(tool)).or(stated.first());
+    let is_one = |ratio: &&f64| (**ratio - 1.0).abs() <= FLOW_LIMIT_RATIO;
+    ratio.filter(is_one).copied().unwrap_or(1.0)
 }
 
 impl Source {
@@ -115,7 +139,10 @@ impl Source {
     ) -> Result<Vec<Deposits>, PrintedError> {
         let plates = read_gcode(&self.path, &options(places), watch)?;
         let plate = plates.into_iter().nth(self.index);
-        Ok(plate.map_or_else(Vec::new, |plate| plate.toolpath.places))
+        Ok(plate.map_or_else(Vec::new, |mut plate| {
+            take_off_calibration(&mut plate.toolpath);
+            plate.toolpath.places
+        }))
     }
 
     /// Returns the slicer that wrote it.

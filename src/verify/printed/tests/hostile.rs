@@ -1,6 +1,10 @@
 //! Damaged G-code in the judge: it is judged or refused with clear words, and never more.
 
+use super::super::judge::judge_toolpaths;
+use super::super::source::read_sources;
 use super::*;
+use crate::base::watch::Watch;
+use crate::verify::{Body, Evidence};
 
 /// Files that are damaged by chance.
 const COUNT: u64 = 800;
