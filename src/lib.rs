@@ -139,6 +139,7 @@ pub mod mesh;
 pub mod open;
 #[doc(hidden)]
 pub mod page;
+pub mod panels;
 #[doc(hidden)]
 pub mod polyhedra;
 #[doc(hidden)]

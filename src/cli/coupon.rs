@@ -5,12 +5,15 @@ use std::path::PathBuf;
 
 use super::args::CouponArgs;
 use super::exit::Exit;
-use super::flags::commands_on_coupon_sheet;
+use super::flags::{commands_on_coupon_sheet, commands_on_cut_coupon_sheet};
 use super::signals::Stop;
 use super::voice::Voice;
 use crate::base::watch::Watch;
-use crate::coupon::{CouponError, CouponSet, coupon_kit};
-use crate::kit::{Existing, KitError};
+use crate::coupon::{
+    CouponError, CouponSet, CutCouponError, CutCouponSet, coupon_kit, cut_coupon_kit,
+};
+use crate::cutter::{self, Cutter, StockSheet};
+use crate::kit::{Existing, Kit, KitError};
 use crate::printer::{MaterialError, Printer, ProfileError};
 
 /// A reason why no coupons were written.
@@ -23,6 +26,12 @@ pub enum CouponCommandError {
     /// The printer has no such material.
     #[error(transparent)]
     Material(#[from] MaterialError),
+    /// The profile of the cutter or the sheet cannot be used.
+    #[error(transparent)]
+    CutProfile(#[from] cutter::ProfileError),
+    /// The coupons of the cutter cannot be made.
+    #[error(transparent)]
+    CutCoupon(#[from] CutCouponError),
     /// The coupons cannot be made.
     #[error(transparent)]
     Coupon(#[from] CouponError),
@@ -44,20 +53,21 @@ pub fn coupon(
     stop: &Stop,
     out: &mut dyn Write,
 ) -> Result<Exit, CouponCommandError> {
-    let printer = Printer::find(&args.printer)?;
-    let set = CouponSet::of(&printer, printer.material(args.material.as_deref())?);
+    let made = match (&args.cutter, &args.sheet, &args.printer) {
+        (Some(cutter), Some(sheet), _) => of_cutter(cutter, sheet)?,
+        (_, _, printer) => of_printer(printer.as_deref().unwrap_or_default(), args)?,
+    };
     let target = args
         .out
         .clone()
-        .unwrap_or_else(|| PathBuf::from(format!("{}-coupon", printer.id)));
+        .unwrap_or_else(|| PathBuf::from(format!("{}-coupon", made.id)));
     let existing = if args.force {
         Existing::Replace
     } else {
         Existing::Keep
     };
     let watch = Watch::silent_until(stop.flag());
-    let kit = coupon_kit(&set, &commands_on_coupon_sheet(&set))?;
-    let written = kit.write_watched(&target, existing, &watch);
+    let written = made.kit.write_watched(&target, existing, &watch);
     if written.is_err()
         && let Some(exit) = stop.end()
     {
@@ -65,15 +75,48 @@ pub fn coupon(
     }
     written?;
     if voice.json {
-        writeln!(out, "{}", serde_json::to_string_pretty(&set)?)?;
+        writeln!(out, "{}", made.sizes)?;
     } else if !voice.manner.quiet {
+        let sheet = target.join("coupon.html");
         writeln!(
             out,
-            "coupons for {} ({}); the sheet is {}",
-            set.printer_name,
-            set.material_name,
-            target.join("coupon.html").display()
+            "coupons for {}; the sheet is {}",
+            made.what,
+            sheet.display()
         )?;
     }
     Ok(Exit::Kept)
+}
+
+/// Coupons that were made.
+struct Made {
+    /// The machine's id.
+    id: String,
+    /// The machine and its material, in words.
+    what: String,
+    /// The sizes as JSON.
+    sizes: String,
+    kit: Kit,
+}
+
+fn of_printer(printer: &str, args: &CouponArgs) -> Result<Made, CouponCommandError> {
+    let printer = Printer::find(printer)?;
+    let set = CouponSet::of(&printer, printer.material(args.material.as_deref())?);
+    Ok(Made {
+        kit: coupon_kit(&set, &commands_on_coupon_sheet(&set))?,
+        what: format!("{} ({})", set.printer_name, set.material_name),
+        sizes: serde_json::to_string_pretty(&set)?,
+        id: printer.id,
+    })
+}
+
+fn of_cutter(cutter: &str, sheet: &str) -> Result<Made, CouponCommandError> {
+    let (cutter, sheet) = (Cutter::find(cutter)?, StockSheet::find(sheet)?);
+    let set = CutCouponSet::of(&cutter, &sheet)?;
+    Ok(Made {
+        kit: cut_coupon_kit(&set, cutter.dialect, &commands_on_cut_coupon_sheet(&set))?,
+        what: format!("{} ({})", set.cutter_name, set.sheet_name),
+        sizes: serde_json::to_string_pretty(&set)?,
+        id: cutter.id,
+    })
 }

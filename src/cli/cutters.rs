@@ -5,14 +5,20 @@ use std::path::Path;
 
 use serde::Serialize;
 
-use super::args::{CuttersAction, NewCutterArgs};
+use super::args::{CalibrateCutterArgs, CuttersAction, NewCutterArgs};
+use super::flags::command_for_new_cutter;
 use super::new_files::{self, NewFileError, check_free, draft};
 use super::printers::origin;
+use super::shop::today;
 use super::show::table;
 use super::values::kebab;
 use crate::base::sourced::Sourced;
 use crate::base::units::format_count;
-use crate::cutter::{AnyProfile, Cutter, Fastener, ProfileError, Provenance, StockSheet};
+use crate::coupon::{CutCouponError, CutCouponSet};
+use crate::cutter::{
+    self, AnyProfile, CutCalibrateError, CutMeasured, Cutter, Fastener, ProfileError, Provenance,
+    StockSheet,
+};
 use crate::printer::import::slug;
 
 /// A reason why `cutters` could not run.
@@ -25,6 +31,24 @@ pub enum CuttersError {
     /// Fasteners are no parents of a profile.
     #[error("`{0}` is a fastener; remedy: begin with the id of a cutter or a sheet")]
     Fastener(String),
+    /// A profile that comes with the program is no shop's own.
+    #[error(
+        "`{0}` is no file of yours; remedy: make a profile of your own (`{command}`)",
+        command = command_for_new_cutter(.0)
+    )]
+    Shipped(String),
+    /// A cutter whose software offsets the cuts has no kerf to be entered.
+    #[error(
+        "`{0}` says that its software offsets the cuts by the kerf; remedy: enter what the row \
+         misses there, or set compensates_kerf to false"
+    )]
+    Compensates(String),
+    /// The measurements are not possible.
+    #[error(transparent)]
+    Measured(#[from] CutCalibrateError),
+    /// The coupons cannot be computed.
+    #[error(transparent)]
+    Coupon(#[from] CutCouponError),
     /// The file cannot be written.
     #[error(transparent)]
     File(#[from] NewFileError),
@@ -55,6 +79,7 @@ pub fn run(
         CuttersAction::Show { id } => show(&AnyProfile::find(&id)?, json, out),
         CuttersAction::Check { file } => check(&AnyProfile::read(&file)?, json, out),
         CuttersAction::New(args) => new(&args, out),
+        CuttersAction::Calibrate(args) => calibrate(&args, out),
     }
 }
 
@@ -226,6 +251,92 @@ fn new(args: &NewCutterArgs, out: &mut dyn Write) -> Result<(), CuttersError> {
         "{} is a profile: measure, and write what you measured into it",
         target.display()
     )?)
+}
+
+/// Writes what was measured into the shop's own profiles: both, or none.
+fn calibrate(args: &CalibrateCutterArgs, out: &mut dyn Write) -> Result<(), CuttersError> {
+    let name = args.file.to_string_lossy();
+    if !args.file.is_file() && Cutter::find(&name).is_ok() {
+        return Err(CuttersError::Shipped(name.into_owned()));
+    }
+    let cutter = Cutter::read(&args.file)?;
+    if cutter.compensates_kerf.value {
+        return Err(CuttersError::Compensates(cutter.id));
+    }
+    let sheet = StockSheet::find(&args.sheet)?;
+    let set = CutCouponSet::of(&cutter, &sheet)?;
+    let measured = CutMeasured {
+        day: args.date.clone().unwrap_or_else(today),
+        lot: args.lot.clone(),
+        squares: set.squares,
+        side_mm: set.side_mm,
+        row_mm: args.row,
+        thickness_mm: args.thickness.clone(),
+        weighed_g: args.weighed,
+    };
+    let read = |path: &Path| {
+        std::fs::read_to_string(path).map_err(|source| ProfileError::Unreadable {
+            path: path.to_owned(),
+            source,
+        })
+    };
+    let text = read(&args.file)?;
+    let text = cutter::calibrate_cutter(&name, &text, sheet.material, &measured)?;
+    let own_sheet = Path::new(&args.sheet);
+    let check = |path: &Path| AnyProfile::read(&draft(path)).map(|_| ());
+    if own_sheet.is_file() {
+        let after = cutter::calibrate_sheet(&args.sheet, &read(own_sheet)?, &measured)?;
+        new_files::write_checked([(args.file.as_path(), &text), (own_sheet, &after)], || {
+            check(&args.file)?;
+            Ok::<_, CuttersError>(check(own_sheet)?)
+        })?;
+    } else {
+        new_files::write_checked([(args.file.as_path(), &text)], || {
+            Ok::<_, CuttersError>(check(&args.file)?)
+        })?;
+    }
+    print_measured(&set, &sheet, &measured, out)?;
+    if !own_sheet.is_file() {
+        writeln!(
+            out,
+            "note: {} comes with the program and stays as it is; for a profile of your own: {}",
+            args.sheet,
+            command_for_new_cutter(&args.sheet)
+        )?;
+    }
+    Ok(())
+}
+
+/// Prints each new number with the one it replaces.
+fn print_measured(
+    set: &CutCouponSet,
+    sheet: &StockSheet,
+    measured: &CutMeasured,
+    out: &mut dyn Write,
+) -> Result<(), CuttersError> {
+    let (kerf_mm, thickness_mm) = (measured.kerf_mm()?, measured.mean_thickness_mm()?);
+    writeln!(
+        out,
+        "kerf in {}: {kerf_mm:.3} mm (was {:.3} mm)",
+        set.material, set.kerf_mm
+    )?;
+    writeln!(
+        out,
+        "thickness of {}: {thickness_mm:.2} mm (was {} mm)",
+        set.sheet, sheet.thickness_mm.value
+    )?;
+    if let Some(density) = measured.density_g_cm3()? {
+        let before = sheet.density_g_cm3.value;
+        writeln!(
+            out,
+            "density of {}: {density:.3} g/cm³ (was {before} g/cm³)",
+            set.sheet
+        )?;
+    }
+    if let Some(warning) = cutter::thickness_warning(sheet, thickness_mm) {
+        writeln!(out, "note: {warning}")?;
+    }
+    Ok(())
 }
 
 /// The head of a profile that inherits.

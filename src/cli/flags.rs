@@ -1,7 +1,7 @@
 //! The flags of the command line: the one file that words a setting as a flag.
 
 use crate::base::setting::{Key, Setting, reword};
-use crate::coupon::{Commands, CouponSet};
+use crate::coupon::{Commands, CouponSet, CutCommands, CutCouponSet};
 use crate::job::Job;
 
 /// Returns the flag of a setting, such as `--ballast=auto`.
@@ -62,6 +62,23 @@ pub fn commands_on_coupon_sheet(set: &CouponSet) -> Commands {
             set.material
         ),
         choose_profile: format!("--printer {profile}"),
+    }
+}
+
+/// Returns the command that writes a shop's own profile from a cutter or a sheet.
+pub fn command_for_new_cutter(id: &str) -> String {
+    format!("equipoise cutters new --from {id} --id shop-{id} --out shop-{id}.toml")
+}
+
+/// Returns the commands that the sheet of a cutter's coupons names.
+pub fn commands_on_cut_coupon_sheet(set: &CutCouponSet) -> CutCommands {
+    CutCommands {
+        make_profiles: [&set.cutter, &set.sheet].map(|id| command_for_new_cutter(id)),
+        calibrate: format!(
+            "equipoise cutters calibrate shop-{}.toml --sheet shop-{}.toml --lot LOT --row MM \
+             --thickness MM --thickness MM --thickness MM --weighed G",
+            set.cutter, set.sheet
+        ),
     }
 }
 

@@ -1,11 +1,15 @@
-//! Coupons: small parts that a shop prints, weighs and tries in order to calibrate the profile of
-//! its machine.
+//! Coupons: small parts that a shop makes, measures and tries in order to calibrate the profile of
+//! its printer or its laser cutter.
 
 mod bodies;
+mod cutting;
 mod sheet;
 mod sizes;
 
 pub use bodies::Coupon;
+pub use cutting::{
+    CutCommands, CutCouponError, CutCouponSet, DRAWINGS, JointTrial, Slot, cut_coupon_kit,
+};
 pub use sheet::Commands;
 pub use sizes::{CouponSet, Hole};
 

@@ -20,6 +20,23 @@ choice! {
     }
 }
 
+impl Dialect {
+    /// Returns the colours of engraving, inner cuts, outer cuts and the sheet's edge: red, green
+    /// and blue, 0 to 255.
+    pub fn colors(self) -> [[u8; 3]; 4] {
+        const BLACK: [u8; 3] = [0, 0, 0];
+        const BLUE: [u8; 3] = [0, 0, 255];
+        const RED: [u8; 3] = [255, 0, 0];
+        const GREEN: [u8; 3] = [0, 255, 0];
+        match self {
+            Self::Boxes => [GREEN, BLUE, BLACK, RED],
+            // C02, C01 and C00 of its palette, and a tool layer, which is not cut.
+            Self::Lightburn => [RED, BLUE, BLACK, [243, 105, 38]],
+            Self::Glowforge => [GREEN, BLUE, BLACK, RED],
+        }
+    }
+}
+
 /// A number of a cutter's `[numbers]` table.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]

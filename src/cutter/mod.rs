@@ -24,6 +24,7 @@
 
 mod ancestry;
 mod any;
+mod calibrate;
 mod cutter_layer;
 mod error;
 mod fastener;
@@ -38,6 +39,9 @@ mod stock_layer;
 mod tests;
 
 pub use any::AnyProfile;
+pub use calibrate::{
+    CutCalibrateError, CutMeasured, calibrate_cutter, calibrate_sheet, thickness_warning,
+};
 pub use error::{Fault, Faults, Problem, ProfileError};
 pub use fastener::{Fastener, FastenerShape, Provenance};
 pub use machine::{CannotCut, Cutter, CutterNumber, Dialect, Kerf, KerfAt, Thickest};

@@ -4,8 +4,12 @@
 //! * [`stl`], `obj`, `ply` and [`threemf`] hold one format each.
 //! * `points` reads curves, a point a line; `lines` reads them as OBJ lines or PLY edges, too.
 //! * [`gcode`] reads what a print lays down; it writes nothing.
+//! * `drawing` holds drawings for cutters, which `dxf` and `cut_svg` write.
 //! * `ear_clip` cuts the polygons of OBJ and PLY into triangles.
 
+mod cut_svg;
+mod drawing;
+mod dxf;
 mod ear_clip;
 pub mod gcode;
 mod lines;
@@ -20,6 +24,9 @@ pub mod stl;
 mod tests;
 pub mod threemf;
 
+pub use cut_svg::encode_cut_svg;
+pub use drawing::{CutDrawing, CutLayer, DrawnLine, DrawnShape, Rgb};
+pub use dxf::encode_dxf;
 pub use lines::{LinesError, decode_curve};
 pub use obj::ObjError;
 pub use ply::PlyError;

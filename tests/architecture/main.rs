@@ -73,6 +73,8 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("polyhedra", &["base", "geom", "mesh"]),
     // Profiles of cutters, sheets and fasteners are data, checked as those of printers are.
     ("cutter", &["base"]),
+    // Outlines and joints are plane geometry: what is cut from which sheet is for the rooms above.
+    ("panels", &[]),
     (
         "cut",
         &[
@@ -126,7 +128,9 @@ const ARROWS: &[(&str, &[&str])] = &[
     ),
     (
         "coupon",
-        &["geom", "io", "kit", "mesh", "page", "printer", "base"],
+        &[
+            "cutter", "geom", "io", "kit", "mesh", "page", "panels", "printer", "base",
+        ],
     ),
     ("job", &["ballast", "cut", "base", "goal", "repair"]),
     (
@@ -221,6 +225,7 @@ const ARROWS: &[(&str, &[&str])] = &[
             "mesh",
             "open",
             "page",
+            "panels",
             "polyhedra",
             "poses",
             "press",

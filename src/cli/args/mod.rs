@@ -26,7 +26,7 @@ use clap::{Args, Parser, Subcommand};
 use clap_complete::Shell;
 
 pub use again::again;
-pub use cutters::{CuttersAction, CuttersArgs, NewCutterArgs};
+pub use cutters::{CalibrateCutterArgs, CuttersAction, CuttersArgs, NewCutterArgs};
 pub use error::ArgsError;
 pub use missing::Missing;
 pub use prepare::{DEFAULT_PLANS, PrepareArgs, Request};
@@ -117,7 +117,7 @@ pub enum Command {
     /// List laser cutters, sheets and fasteners, or check a profile
     #[command(hide = true)]
     Cutters(CuttersArgs),
-    /// Make coupons to weigh and try, to fit a profile to the machine
+    /// Make coupons to measure and try, to fit a profile to the machine
     Coupon(CouponArgs),
     /// Slice a kit's plates, and tell how the toolpaths will balance
     Slice(SliceArgs),

@@ -124,12 +124,18 @@ pub struct CalibrateArgs {
 #[derive(Debug, Args)]
 pub struct CouponArgs {
     /// A known printer's id, or a profile file
-    #[arg(long, value_name = "ID|FILE")]
-    pub printer: String,
+    #[arg(long, value_name = "ID|FILE", required_unless_present = "cutter")]
+    pub printer: Option<String>,
     /// A material that the printer offers [default: the printer's]
     #[arg(long, value_name = "ID")]
     pub material: Option<String>,
-    /// Write the coupons to this folder [default: the printer's id and -coupon]
+    /// A known laser cutter's id, or a profile file, in place of a printer
+    #[arg(long, value_name = "ID|FILE", requires = "sheet", conflicts_with_all = ["printer", "material"])]
+    pub cutter: Option<String>,
+    /// The sheet to be cut: a known id, or a profile file
+    #[arg(long, value_name = "ID|FILE", requires = "cutter")]
+    pub sheet: Option<String>,
+    /// Write the coupons to this folder [default: the machine's id and -coupon]
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Replace the folder if it exists

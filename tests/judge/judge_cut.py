@@ -1,0 +1,122 @@
+#!/usr/bin/env python3
+"""Judges the drawings of a cutter's coupons: Python, ezdxf and the standard library, nothing of the program.
+
+    python3 tests/judge/judge_cut.py FOLDER
+
+FOLDER is what `equipoise coupon --cutter ID --sheet ID` wrote. The DXF must pass ezdxf's audit, be in millimetres, and hold closed
+polylines without bulges for cuts and open ones for engraving, none twice. The SVG must hold the same points, in mm, without a scale.
+The squares must be as drawn in coupon.json; each slot, after the beam has taken half a kerf on both sides, as wide as it says.
+Exit code 0: all of it holds; 1: else, with a line for each fault.
+"""
+
+import json
+import re
+import sys
+import xml.etree.ElementTree as tree
+from pathlib import Path
+
+import ezdxf
+
+CUTS, ENGRAVING = ("CUT_INNER", "CUT_OUTER"), "ENGRAVE"
+NEAR_MM = 2e-4
+SVG = "{http://www.w3.org/2000/svg}"
+
+
+def lines_of_dxf(path, faults):
+    """The lines of a DXF as (layer, is closed, points), and its units."""
+    drawing = ezdxf.readfile(path)
+    audit = drawing.audit()
+    faults += [f"audit: {entry.message}" for entry in [*audit.errors, *audit.fixes]]
+    if drawing.units != 4:
+        faults.append(f"units are {drawing.units}, not mm")
+    lines = []
+    for entity in drawing.modelspace():
+        if entity.dxftype() != "LWPOLYLINE":
+            faults.append(f"an entity is a {entity.dxftype()}")
+            continue
+        points = [(x, y) for x, y, *_, bulge in entity.get_points() if not bulge or faults.append("a bulge")]
+        lines.append((entity.dxf.layer, bool(entity.closed), points))
+    return lines
+
+
+def lines_of_svg(path, faults):
+    """The lines of an SVG in the frame of the DXF."""
+    root = tree.parse(path).getroot()
+    width, height = (float(re.fullmatch(r"([\d.]+)mm", root.get(side)).group(1)) for side in ("width", "height"))
+    if [float(number) for number in root.get("viewBox").split()] != [0, 0, width, height]:
+        faults.append("the view box scales the drawing")
+    lines = []
+    for group in root:
+        for shape in group:
+            if group.get("transform") or shape.get("transform"):
+                faults.append("a transform")
+            pairs = [pair.split(",") for pair in shape.get("points").split()]
+            points = [(float(x), height - float(y)) for x, y in pairs]
+            lines.append((group.get("id"), shape.tag == f"{SVG}polygon", points))
+    return lines
+
+
+def area(points):
+    return 0.5 * sum(a[0] * b[1] - a[1] * b[0] for a, b in zip(points, points[1:] + points[:1]))
+
+
+def size(points):
+    return [max(p[axis] for p in points) - min(p[axis] for p in points) for axis in (0, 1)]
+
+
+def check_slots(plate, sizes, faults):
+    """Holds the widths of the open slots of the plate against those that the sizes name."""
+    half = sizes["offset_kerf_mm"] / 2
+    top = max(y for _, y in plate)
+    low = min(y for _, y in plate)
+    level = (top + low) / 2 + (top - low) * 0.3
+    crossings = []
+    for a, b in zip(plate, plate[1:] + plate[:1]):
+        if (a[1] > level) != (b[1] > level):
+            crossings.append(a[0] + (b[0] - a[0]) * (level - a[1]) / (b[1] - a[1]))
+    # The outside of the plate comes first and last; between two teeth lies a slot.
+    crossings = sorted(crossings)[1:-1]
+    widths = [b - a + 2 * half for a, b in zip(crossings[::2], crossings[1::2])]
+    if len(widths) != len(sizes["slots"]):
+        faults.append(f"{len(widths)} slots, not {len(sizes['slots'])}")
+    for width, slot in zip(widths, sizes["slots"]):
+        if abs(width - slot["width_mm"]) > NEAR_MM:
+            faults.append(f"slot {slot['number']} is {width:.4f} mm wide, not {slot['width_mm']:.4f}")
+
+
+def judge(folder):
+    faults = []
+    sizes = json.loads((folder / "coupon.json").read_text())
+    dxf, svg = lines_of_dxf(folder / "coupon.dxf", faults), lines_of_svg(folder / "coupon.svg", faults)
+    for layer, is_closed, points in dxf:
+        if is_closed != (layer in CUTS) or layer not in (*CUTS, ENGRAVING):
+            faults.append(f"a line on {layer} is {'closed' if is_closed else 'open'}")
+        if is_closed and len(points) < 3 or len(points) < 2:
+            faults.append("a line has no length")
+    rounded = [(layer, tuple((round(x, 3), round(y, 3)) for x, y in points)) for layer, _, points in dxf]
+    if len(set(rounded)) != len(rounded):
+        faults.append("a line is drawn twice")
+    if len(dxf) != len(svg):
+        faults.append(f"the DXF has {len(dxf)} lines and the SVG {len(svg)}")
+    for (layer, closed, a), (other, same, b) in zip(dxf, svg):
+        apart = max((abs(p - q) for one, two in zip(a, b) for p, q in zip(one, two)), default=0)
+        if (layer, closed, len(a)) != (other, same, len(b)) or apart > NEAR_MM:
+            faults.append(f"a line on {layer} differs between both files")
+    cuts = [points for layer, _, points in dxf if layer == "CUT_OUTER"]
+    if any(area(points) <= 0 for points in cuts):
+        faults.append("an outline goes clockwise")
+    squares = [points for points in cuts if all(abs(side - sizes["side_mm"]) < NEAR_MM for side in size(points))]
+    if len(squares) != sizes["squares"]:
+        faults.append(f"{len(squares)} squares, not {sizes['squares']}")
+    if len(cuts) != sizes["squares"] + 1 + 2 * len(sizes["joints"]):
+        faults.append(f"{len(cuts)} pieces to be cut")
+    check_slots(cuts[sizes["squares"]], sizes, faults)
+    return faults
+
+
+if __name__ == "__main__":
+    if len(sys.argv) != 2:
+        sys.exit(__doc__)
+    found = judge(Path(sys.argv[1]))
+    print("\n".join(found) or "the drawings are as coupon.json says")
+    sys.exit(1 if found else 0)
