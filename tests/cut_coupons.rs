@@ -27,15 +27,19 @@ fn run(folder: &Path, line: &str) -> Output {
     command.output().unwrap()
 }
 
-/// Returns `EQUIPOISE_JUDGE_PYTHON`, or `python3`; `None`, with a message, if it lacks ezdxf.
+/// Returns `EQUIPOISE_JUDGE_PYTHON`, or `python3`; `None`, with a message, if it lacks a package.
 fn find_python() -> Option<OsString> {
     let python = std::env::var_os("EQUIPOISE_JUDGE_PYTHON").unwrap_or_else(|| "python3".into());
-    let output = Command::new(&python).args(["-c", "import ezdxf"]).output();
-    let has_ezdxf = output.is_ok_and(|output| output.status.success());
-    if !has_ezdxf {
-        eprintln!("SKIPPED: no Python with ezdxf here; pip install it");
+    let output = Command::new(&python)
+        .args(["-c", "import ezdxf, manifold3d, shapely, trimesh"])
+        .output();
+    let has_packages = output.is_ok_and(|output| output.status.success());
+    if !has_packages {
+        eprintln!(
+            "SKIPPED: no Python with ezdxf, manifold3d, shapely, trimesh here; pip install them"
+        );
     }
-    has_ezdxf.then_some(python)
+    has_packages.then_some(python)
 }
 
 /// Lets the judge look at coupons; returns its exit code and what it printed.
@@ -50,7 +54,7 @@ fn judge(python: &OsString, folder: &Path) -> (Option<i32>, String) {
 }
 
 #[test]
-fn an_independent_reader_finds_the_slots_and_squares_that_the_sizes_name() {
+fn an_independent_judge_finds_slots_and_squares_as_named_and_joints_that_go_together() {
     let Some(python) = find_python() else { return };
     let folder = tempfile::tempdir().unwrap();
     for (cutter, sheet) in [
@@ -63,7 +67,7 @@ fn an_independent_reader_finds_the_slots_and_squares_that_the_sizes_name() {
         let (code, said) = judge(&python, &folder.path().join(cutter));
         assert_eq!(code, Some(0), "{cutter}: {said}");
     }
-    // A slot of another width, and a scaled picture, are found.
+    // A slot of another width, a joint at another angle, and a scaled picture, are found.
     let coupons = folder.path().join("glowforge");
     let sizes = fs::read_to_string(coupons.join("coupon.json")).unwrap();
     let wrong = sizes.replacen(
@@ -72,6 +76,7 @@ fn an_independent_reader_finds_the_slots_and_squares_that_the_sizes_name() {
         1,
     );
     assert_ne!(sizes, wrong);
+    let wrong = wrong.replacen("\"angle_deg\": 60.0", "\"angle_deg\": 55.0", 1);
     fs::write(coupons.join("coupon.json"), wrong).unwrap();
     let svg = fs::read_to_string(coupons.join("coupon.svg")).unwrap();
     let scaled = svg.replacen("viewBox=\"0 0 ", "viewBox=\"0 0 1", 1);
@@ -79,7 +84,9 @@ fn an_independent_reader_finds_the_slots_and_squares_that_the_sizes_name() {
     let (code, said) = judge(&python, &coupons);
     assert_eq!(code, Some(1));
     assert!(
-        said.contains("slot 3 is") && said.contains("the view box scales"),
+        said.contains("slot 3 is")
+            && said.contains("the panels of A1 overlap")
+            && said.contains("the view box scales"),
         "{said}"
     );
 }

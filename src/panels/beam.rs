@@ -165,8 +165,14 @@ mod tests {
         );
         let hole = Outline::new(square.corners().iter().rev().copied()).unwrap();
         let inside = beam_path(&hole, KERF_MM).unwrap();
-        let [low, high] = inside.bounds_mm();
-        assert!((low[0] - 0.1).abs() < 1e-9 && (high[1] - 19.9).abs() < 1e-9);
+        let long = inside
+            .edges()
+            .filter(|[a, b]| (b[0] - a[0]).hypot(b[1] - a[1]) > 1.0);
+        let sides: Vec<[[f64; 2]; 2]> = long.collect();
+        assert_eq!(sides.len(), 4);
+        for at in sides.into_iter().flatten() {
+            assert!((distance_mm(&square, at) - 0.1).abs() < 1e-9, "{at:?}");
+        }
     }
 
     #[test]

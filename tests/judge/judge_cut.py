@@ -1,24 +1,31 @@
 #!/usr/bin/env python3
-"""Judges the drawings of a cutter's coupons: Python, ezdxf and the standard library, nothing of the program.
+"""Judges the drawings of a cutter's coupons: Python with ezdxf, shapely, trimesh and manifold3d, nothing of the program.
 
     python3 tests/judge/judge_cut.py FOLDER
 
 FOLDER is what `equipoise coupon --cutter ID --sheet ID` wrote. The DXF must pass ezdxf's audit, be in millimetres, and hold closed
 polylines without bulges for cuts and open ones for engraving, none twice. The SVG must hold the same points, in mm, without a scale.
-The squares must be as drawn in coupon.json; each slot, after the beam has taken half a kerf on both sides, as wide as it says.
+The squares must be as drawn in coupon.json; each slot, after the beam has taken half a kerf on both sides, as wide as it says. Both
+panels of each joint are put together at its angle: loose and exact ones must not overlap, and pressed ones must.
 Exit code 0: all of it holds; 1: else, with a line for each fault.
 """
 
 import json
+import math
 import re
 import sys
 import xml.etree.ElementTree as tree
 from pathlib import Path
 
 import ezdxf
+import numpy as np
+import trimesh
+from shapely.geometry import Polygon
 
 CUTS, ENGRAVING = ("CUT_INNER", "CUT_OUTER"), "ENGRAVE"
 NEAR_MM = 2e-4
+# Drawings are rounded to a ten-thousandth, over some hundred mm² of faces that touch.
+TOUCH_MM3, PRESSED_MM3 = 0.02, 0.1
 SVG = "{http://www.w3.org/2000/svg}"
 
 
@@ -84,6 +91,34 @@ def check_slots(plate, sizes, faults):
             faults.append(f"slot {slot['number']} is {width:.4f} mm wide, not {slot['width_mm']:.4f}")
 
 
+def panel(points, sizes, angle, side):
+    """A panel as the beam leaves it, its outer face in a plane through the x axis that leans by half the angle."""
+    sheet = sizes["thickness_mm"]
+    left = Polygon(points).buffer(-sizes["offset_kerf_mm"] / 2, join_style=2, mitre_limit=5)
+    x, y, *_ = left.bounds
+    # The tips of the fingers are known from the angle alone.
+    tip = max(0.0, sheet / math.tan(angle))
+    placed = Polygon([(a - x, b - y + tip) for a, b in left.exterior.coords])
+    body = trimesh.creation.extrude_polygon(placed, sheet)
+    along, across, deep = body.vertices.T
+    sine, cosine = math.sin(angle / 2), math.cos(angle / 2)
+    corners = np.stack([along, side * (across * sine - deep * cosine), across * cosine + deep * sine], axis=1)
+    body = trimesh.Trimesh(corners, body.faces)
+    if body.volume < 0:
+        body.invert()
+    return body
+
+
+def check_joints(panels, sizes, faults):
+    for joint, pair in zip(sizes["joints"], zip(panels[::2], panels[1::2])):
+        angle = math.radians(joint["angle_deg"])
+        bodies = [panel(points, sizes, angle, side) for points, side in zip(pair, (1, -1))]
+        shared = trimesh.boolean.intersection(bodies, engine="manifold")
+        overlap = shared.volume if len(shared.faces) else 0.0
+        if (overlap > PRESSED_MM3) != (joint["press_mm"] > 0) or joint["press_mm"] <= 0 and overlap > TOUCH_MM3:
+            faults.append(f"the panels of {joint['name']} overlap by {overlap:.3f} mm³")
+
+
 def judge(folder):
     faults = []
     sizes = json.loads((folder / "coupon.json").read_text())
@@ -111,6 +146,7 @@ def judge(folder):
     if len(cuts) != sizes["squares"] + 1 + 2 * len(sizes["joints"]):
         faults.append(f"{len(cuts)} pieces to be cut")
     check_slots(cuts[sizes["squares"]], sizes, faults)
+    check_joints(cuts[sizes["squares"] + 1 :], sizes, faults)
     return faults
 
 

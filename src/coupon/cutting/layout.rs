@@ -250,10 +250,11 @@ mod tests {
 
     #[test]
     fn a_sheet_that_the_cutter_does_not_cut_and_one_without_room_are_refused() {
-        let error = set("makerspace-900x600", "birch-12").map(|_| ());
-        if let Err(error) = error {
-            assert!(error.to_string().contains("cuts plywood up to"), "{error}");
-        }
+        let cutter = Cutter::find("makerspace-900x600").unwrap();
+        let thick = StockSheet::find("birch-6").unwrap();
+        let thick = thick.measured(9.5, "a calliper");
+        let error = CutCouponSet::of(&cutter, &thick).unwrap_err().to_string();
+        assert!(error.contains("cuts plywood up to 8 mm"), "{error}");
         let small = CutCouponSet {
             room_mm: [100.0, 100.0],
             ..set("makerspace-900x600", "birch-5").unwrap()
