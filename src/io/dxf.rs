@@ -194,7 +194,7 @@ fn tables(drawing: &CutDrawing) -> String {
 
 /// The table of dimension styles, whose records have a handle of their own kind.
 fn dimension_styles() -> String {
-    let head = pairs(&[
+    pairs(&[
         ("0", "TABLE"),
         ("2", "DIMSTYLE"),
         ("5", "A"),
@@ -211,8 +211,7 @@ fn dimension_styles() -> String {
         ("2", "Standard"),
         ("70", "0"),
         ("0", "ENDTAB"),
-    ]);
-    head
+    ])
 }
 
 fn table(name: &str, handle: &str, records: &[String]) -> String {

@@ -71,7 +71,7 @@ impl FingerJoint {
     /// Returns whether the angle is one at which fingers hold: from 30 to 150 degrees.
     pub fn holds(&self) -> bool {
         let limit = PI / 6.0;
-        (limit..=PI - limit).contains(&self.angle_rad) && self.stretches % 2 == 1
+        (limit..=PI - limit).contains(&self.angle_rad) && !self.stretches.is_multiple_of(2)
     }
 
     /// Returns the outline of one panel, with the joint's edge along x and the panel above it.
@@ -101,7 +101,7 @@ impl FingerJoint {
     }
 
     fn is_finger(stretch: usize, side: FingerSide) -> bool {
-        (stretch % 2 == 0) == (side == FingerSide::First)
+        stretch.is_multiple_of(2) == (side == FingerSide::First)
     }
 
     /// Returns the place of a border between two stretches, or of the first or last. A finger takes
