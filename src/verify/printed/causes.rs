@@ -4,7 +4,7 @@ use super::cause::{Cause, CauseKind};
 use super::density::Densities;
 use super::limits::{
     DENSITY_RATIO, EDGE_MM, EDGE_RATIO, EXTRA_SKIN_MM, FLOW_LIMIT_RATIO, LACKING_SKIN_MM,
-    LAYER_RATIO, LINE_RATIO, PRINTED_MASS_LIMIT_RATIO, SPREAD_SHARE, SUPPORT_RATIO,
+    LAYER_RATIO, LINE_RATIO, LONE_EDGE_LOSS, PRINTED_MASS_LIMIT_RATIO, SPREAD_SHARE, SUPPORT_RATIO,
     WHOLE_SPREAD_SHARE, WRONG_LAYER_RATIO,
 };
 use super::part::PrintedPart;
@@ -269,7 +269,8 @@ fn is_scaled(part: &PrintedPart, promise: &Promise) -> bool {
         > WHOLE_SPREAD_SHARE * edge_loss.iter().sum::<f64>()
         && longer.iter().filter(|longer| **longer < -0.5).count() > 1;
     (0..3).any(|axis| {
-        let is_axis_less = spread_loss[axis] > SPREAD_SHARE * edge_loss[axis];
+        let is_axis_less =
+            edge_loss[axis] > LONE_EDGE_LOSS && spread_loss[axis] > SPREAD_SHARE * edge_loss[axis];
         longer[axis] > 1.0 || longer[axis] < -1.0 && (is_axis_less || is_whole_less)
     })
 }

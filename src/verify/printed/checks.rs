@@ -3,8 +3,8 @@
 use super::cause::{Cause, CauseKind};
 use super::judgement::PrintedJudgement;
 use super::limits::{
-    INERTIA_RATIO, PRINTED_CENTER_LIMIT_MM, PRINTED_MASS_LIMIT_RATIO, PRINTED_SKIN_MM,
-    PRINTED_TILT_LIMIT_DEG,
+    CENTER_RATIO, INERTIA_RATIO, PRINTED_CENTER_LIMIT_MM, PRINTED_MASS_LIMIT_RATIO,
+    PRINTED_SKIN_MM, PRINTED_TILT_LIMIT_DEG,
 };
 use super::part::PrintedPart;
 use crate::geom::Vector;
@@ -90,12 +90,14 @@ fn weight_checks(found: &PrintedJudgement) -> Vec<Check> {
         Some((laid_g / written_g - 1.0).abs() * 100.0),
         Limit::at_most(most_ratio * 100.0, "%"),
     );
+    let edges_mm = parts.iter().flat_map(|part| part.edges_mm);
+    let longest_mm = edges_mm.fold(0.0, f64::max);
     let center = found.missing.is_empty().then(|| {
         Check::new(
             CheckKind::PrintedCenters,
             "their centre of mass is that of the parts, within",
             Some((printed - written).norm()),
-            Limit::at_most(PRINTED_CENTER_LIMIT_MM, "mm"),
+            Limit::at_most(PRINTED_CENTER_LIMIT_MM.max(CENTER_RATIO * longest_mm), "mm"),
         )
     });
     std::iter::once(mass).chain(center).collect()

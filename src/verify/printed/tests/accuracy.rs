@@ -101,6 +101,27 @@ fn layers_that_the_printer_lays_as_well_are_told_and_pass() {
 }
 
 #[test]
+fn a_long_thin_end_that_is_left_out_is_no_scale() {
+    // The last quarter of a millimetre of a leg is missing, and with it spread along the leg.
+    let mut short = TRIPOD;
+    short[0].1[0] -= 0.25;
+    let text = RIGHT.gcode(&[(LABELS[0], LOWS_MM[0], &short)]);
+    let found = judged(&tripod_kit(), text);
+    let [x, y, z] = found.parts[0].size_ratio;
+    assert!(
+        x < 0.994 && y > 0.999 && z > 0.999,
+        "{:?}",
+        found.parts[0].size_ratio
+    );
+    assert_eq!(kinds(&found), [], "{:?}", found.causes);
+    // An edge that is 3 % shorter is told.
+    short[0].1[0] -= 1.0;
+    let text = RIGHT.gcode(&[(LABELS[0], LOWS_MM[0], &short)]);
+    let found = judged(&tripod_kit(), text);
+    assert_eq!(kinds(&found), [CauseKind::Scale], "{:?}", found.parts[0]);
+}
+
+#[test]
 fn a_set_flow_that_calibrates_passes_and_another_is_wrong() {
     let print = |percent: u32| {
         let text = RIGHT.trays(LABELS);
