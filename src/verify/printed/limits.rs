@@ -12,8 +12,8 @@ pub const PRINTED_MASS_LIMIT_RATIO: f64 = 0.02;
 pub const PRINTED_SKIN_MM: f64 = 0.042;
 /// The centre of all parts may be this far from its promised place, mm; slicers reach 0.112 mm.
 pub const PRINTED_CENTER_LIMIT_MM: f64 = 0.15;
-/// The centre of large parts may be off by this share of their longest edge. A solid bunny of 230 mm
-/// got 0.0022: what is laid too much lies farther away.
+/// The centre of large parts may be off by this share of their longest edge. A solid bunny of 230
+/// mm got 0.0022: what is laid too much lies farther away.
 pub(super) const CENTER_RATIO: f64 = 0.0025;
 /// The principal axis may lean this far from the spin axis, degrees, as that of right prints does.
 pub const PRINTED_TILT_LIMIT_DEG: f64 = 0.15;
@@ -47,8 +47,8 @@ pub(super) const FLOW_RATIO: f64 = 1e-3;
 /// A part with a shorter edge is scaled only if the spread of its material along that edge is less
 /// by this share of it. A part with a thin tip has 0.4.
 pub(super) const SPREAD_SHARE: f64 = 0.8;
-/// One edge alone is scaled only if it is shorter by more than this share. An ear of 180 mm lost 1 mm
-/// of its tip, and the spread along it 0.7 %.
+/// One edge alone is scaled only if it is shorter by more than this share. An ear of 180 mm lost 1
+/// mm of its tip, and the spread along it 0.7 %.
 pub(super) const LONE_EDGE_LOSS: f64 = 0.01;
 /// If two edges and more are shorter, this share of the mean loss of all edges is enough. Parts
 /// scaled to 99 % have 0.66 and more, right parts with thin rims up to 0.25.
