@@ -128,6 +128,6 @@ fn calibrate(commands: &Commands) -> Markup {
 }
 
 /// A line to write on.
-fn blank() -> Markup {
+pub(super) fn blank() -> Markup {
     html! { span class="fill" { "\u{a0}" } }
 }

@@ -2,6 +2,7 @@
 
 use maud::{Markup, PreEscaped, html};
 
+use super::super::sheet::blank;
 use super::set::CutCouponSet;
 use crate::base::units::{MM3_PER_CM3, show_mm};
 use crate::page::document;
@@ -127,9 +128,4 @@ fn calibrate(commands: &CutCommands) -> Markup {
         p { "Then enter what you measured (leave out the mass if you did not weigh):" }
         p { code { (commands.calibrate) } }
     }
-}
-
-/// A line to write on.
-fn blank() -> Markup {
-    html! { span class="fill" { "\u{a0}" } }
 }

@@ -3,7 +3,7 @@
 use super::cause::{Cause, CauseKind};
 use super::judgement::PrintedJudgement;
 use super::limits::{
-    CENTER_RATIO, INERTIA_RATIO, PRINTED_CENTER_LIMIT_MM, PRINTED_MASS_LIMIT_RATIO,
+    CENTER_FROM_MM, CENTER_RATIO, INERTIA_RATIO, PRINTED_CENTER_LIMIT_MM, PRINTED_MASS_LIMIT_RATIO,
     PRINTED_SKIN_MM, PRINTED_TILT_LIMIT_DEG,
 };
 use super::part::PrintedPart;
@@ -97,7 +97,10 @@ fn weight_checks(found: &PrintedJudgement) -> Vec<Check> {
             CheckKind::PrintedCenters,
             "their centre of mass is that of the parts, within",
             Some((printed - written).norm()),
-            Limit::at_most(PRINTED_CENTER_LIMIT_MM.max(CENTER_RATIO * longest_mm), "mm"),
+            Limit::at_most(
+                PRINTED_CENTER_LIMIT_MM + CENTER_RATIO * (longest_mm - CENTER_FROM_MM).max(0.0),
+                "mm",
+            ),
         )
     });
     std::iter::once(mass).chain(center).collect()

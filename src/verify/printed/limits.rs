@@ -12,9 +12,12 @@ pub const PRINTED_MASS_LIMIT_RATIO: f64 = 0.02;
 pub const PRINTED_SKIN_MM: f64 = 0.042;
 /// The centre of all parts may be this far from its promised place, mm; slicers reach 0.112 mm.
 pub const PRINTED_CENTER_LIMIT_MM: f64 = 0.15;
-/// The centre of large parts may be off by this share of their longest edge. A solid bunny of 230
-/// mm got 0.0022: what is laid too much lies farther away.
-pub(super) const CENTER_RATIO: f64 = 0.0025;
+/// The centre may be off by this much more for each mm by which the longest edge exceeds
+/// [`CENTER_FROM_MM`]. What is laid too much lies farther away there. It rests on one solid bunny:
+/// with an edge of 215 mm its centre was 0.52 mm off.
+pub(super) const CENTER_RATIO: f64 = 0.0033;
+/// Longest edge up to which the limit of the centre holds as it was measured, mm.
+pub(super) const CENTER_FROM_MM: f64 = 100.0;
 /// The principal axis may lean this far from the spin axis, degrees, as that of right prints does.
 pub const PRINTED_TILT_LIMIT_DEG: f64 = 0.15;
 /// Error of a principal moment at equal mass, as a share of it.
