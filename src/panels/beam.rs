@@ -47,7 +47,7 @@ pub fn beam_path(outline: &Outline, kerf_mm: f64) -> Result<Outline, BeamError> 
     let narrow = |at_mm: [f64; 2]| BeamError::TooNarrow { at_mm, kerf_mm };
     let path = Outline::new(path).ok_or(narrow(corners[0]))?;
     let is_turned = path.area_mm2().signum() != outline.area_mm2().signum();
-    match crossing(&path) {
+    match path.crossing() {
         Some(at_mm) => Err(narrow(at_mm)),
         None if is_turned => Err(narrow(corners[0])),
         None => Ok(path),
@@ -93,24 +93,6 @@ fn direction(from: [f64; 2], to: [f64; 2]) -> Option<[f64; 2]> {
     let [x, y] = [to[0] - from[0], to[1] - from[1]];
     let length = x.hypot(y);
     (length > 0.0).then(|| [x / length, y / length])
-}
-
-/// Returns a place where a line crosses itself; `None` if it does not.
-fn crossing(line: &Outline) -> Option<[f64; 2]> {
-    let edges: Vec<[[f64; 2]; 2]> = line.edges().collect();
-    let side = |[a, b]: [[f64; 2]; 2], p: [f64; 2]| {
-        (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0])
-    };
-    let cross = |a: [[f64; 2]; 2], b: [[f64; 2]; 2]| {
-        side(a, b[0]) * side(a, b[1]) < 0.0 && side(b, a[0]) * side(b, a[1]) < 0.0
-    };
-    for (index, edge) in edges.iter().enumerate() {
-        let later = edges.iter().skip(index + 1);
-        if later.clone().any(|other| cross(*edge, *other)) {
-            return Some(edge[0]);
-        }
-    }
-    None
 }
 
 #[cfg(test)]

@@ -82,7 +82,17 @@ impl FingerJoint {
         if !is_possible {
             return None;
         }
-        let mut corners = vec![[0.0, depth_mm], [0.0, self.setback_mm()]];
+        let mut corners = vec![[0.0, depth_mm]];
+        corners.extend(self.edge(side));
+        corners.push([self.edge_mm, depth_mm]);
+        Outline::new(corners)
+    }
+
+    /// Returns the line of one panel's edge along x, mm, from one plain end to the other. Heights
+    /// are from the line in which the outer faces meet. The other panel's line is the same from
+    /// either end.
+    pub fn edge(&self, side: FingerSide) -> Vec<[f64; 2]> {
+        let mut corners = vec![[0.0, self.setback_mm()]];
         let first_mm = self.border_mm(0, side);
         corners.push([first_mm, self.setback_mm()]);
         for index in 0..self.stretches {
@@ -96,8 +106,8 @@ impl FingerJoint {
         }
         let last_mm = self.border_mm(self.stretches, side);
         corners.push([last_mm, self.setback_mm()]);
-        corners.extend([[self.edge_mm, self.setback_mm()], [self.edge_mm, depth_mm]]);
-        Outline::new(corners)
+        corners.push([self.edge_mm, self.setback_mm()]);
+        corners
     }
 
     fn is_finger(stretch: usize, side: FingerSide) -> bool {

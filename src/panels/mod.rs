@@ -4,14 +4,22 @@
 //! * [`Outline`] is a closed line that goes round material, or round a hole.
 //! * [`beam_path`] offsets an outline by half the kerf, with reliefs in inner corners.
 //! * [`FingerJoint`] joins two panels along an edge at any angle.
+//! * [`PanelSet`] makes the panels of a polyhedron, with the joints along its edges.
+//! * [`nest`] lays panels on sheets.
 //! * [`engraved`] writes text in strokes.
 
 mod beam;
 mod engraving;
 mod fingers;
+mod nest;
 mod outline;
+mod panel;
+mod set;
 
 pub use beam::{BeamError, beam_path};
 pub use engraving::engraved;
 pub use fingers::{FingerJoint, FingerSide};
+pub use nest::{NestError, NestRequest, NestedSheet, Placement, Stock, nest};
 pub use outline::Outline;
+pub use panel::{Hole, Panel};
+pub use set::{BracketKind, EdgeJoint, JointStyle, PanelEdge, PanelError, PanelRequest, PanelSet};

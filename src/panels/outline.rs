@@ -74,6 +74,22 @@ impl Outline {
         })
     }
 
+    /// Returns a place where it crosses itself; `None` if it does not.
+    pub fn crossing(&self) -> Option<[f64; 2]> {
+        let edges: Vec<[[f64; 2]; 2]> = self.edges().collect();
+        let side = |[a, b]: [[f64; 2]; 2], p: [f64; 2]| {
+            (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0])
+        };
+        let cross = |a: [[f64; 2]; 2], b: [[f64; 2]; 2]| {
+            side(a, b[0]) * side(a, b[1]) < 0.0 && side(b, a[0]) * side(b, a[1]) < 0.0
+        };
+        let crossed = edges.iter().enumerate().find(|(index, edge)| {
+            let later = edges.iter().skip(index + 1);
+            later.clone().any(|other| cross(**edge, *other))
+        });
+        crossed.map(|(_, edge)| edge[0])
+    }
+
     /// Returns the outline moved by a distance, mm.
     #[must_use]
     pub fn moved(&self, by: [f64; 2]) -> Self {

@@ -5,7 +5,7 @@ use super::ground::Ground;
 use super::limits::{Breach, Limits};
 use super::separation::{Separation, SeparationError};
 use super::side::Side;
-use crate::geom::{Plane, Point};
+use crate::geom::{Aabb, Plane, Point};
 use crate::mesh::{MeshError, TriMesh};
 
 /// A convex polyhedron that keeps a distance from the surface of a model.
@@ -127,6 +127,18 @@ impl Polyhedron {
     /// Returns the edges, each with the indices of its two faces.
     pub fn edges(&self) -> &[Edge] {
         &self.edges
+    }
+
+    /// Returns the edges of the polyhedron with all planes moved inward by a distance, mm; empty if
+    /// that leaves nothing. Faces keep their indices.
+    pub fn edges_inside(&self, by_mm: f64) -> Vec<Edge> {
+        let moved = |face: &Face| Plane {
+            offset_mm: face.plane.offset_mm - by_mm,
+            ..face.plane
+        };
+        let planes: Vec<Plane> = self.faces.iter().map(moved).collect();
+        let body = Convex::of_planes(&planes, &Aabb::of_points(&self.corners));
+        body.map_or_else(Vec::new, |body| body.edges())
     }
 
     /// Returns the volume, mm³.

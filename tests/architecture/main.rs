@@ -74,7 +74,7 @@ const ARROWS: &[(&str, &[&str])] = &[
     // Profiles of cutters, sheets and fasteners are data, checked as those of printers are.
     ("cutter", &["base"]),
     // Outlines and joints are plane geometry: what is cut from which sheet is for the rooms above.
-    ("panels", &[]),
+    ("panels", &["geom", "mesh", "polyhedra"]),
     (
         "cut",
         &[

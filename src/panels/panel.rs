@@ -1,0 +1,104 @@
+//! A panel: a plane piece of sheet with its place in the model.
+
+use super::Outline;
+use crate::geom::{Frame, Point};
+use crate::mesh::{MeshError, TriMesh};
+
+/// A round hole through a panel.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Hole {
+    /// Its middle in the panel's frame, mm.
+    pub at_mm: [f64; 2],
+    /// The diameter, mm.
+    pub diameter_mm: f64,
+}
+
+/// A panel of a base.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Panel {
+    /// The index of its face of the polyhedron.
+    pub face: usize,
+    /// Its place: the outer side lies in the plane z = 0, and z points out of the base.
+    pub frame: Frame,
+    /// The thickness, mm.
+    pub sheet_mm: f64,
+    /// The outline, seen from outside, mm.
+    pub outline: Outline,
+    /// The holes.
+    pub holes: Vec<Hole>,
+}
+
+impl Panel {
+    /// Returns a point of the panel in the model: from outside at z = 0 to inside at z = −1
+    /// thickness.
+    pub fn at(&self, [x, y]: [f64; 2], depth: f64) -> Point {
+        self.frame
+            .to_model(&Point::new(x, y, -depth * self.sheet_mm))
+    }
+
+    /// Returns the panel as a body in its place in the model, without its holes.
+    ///
+    /// # Errors
+    /// The outline crosses itself, so that no triangles fill it.
+    pub fn body(&self) -> Result<TriMesh, MeshError> {
+        let corners = self.outline.corners();
+        let count = corners.len() as u32;
+        let on = |depth: f64| corners.iter().map(move |at| self.at(*at, depth));
+        let points: Vec<Point> = on(0.0).chain(on(1.0)).collect();
+        let mut triangles = Vec::new();
+        for [a, b, c] in fill(corners) {
+            triangles.push([a, b, c]);
+            triangles.push([count + a, count + c, count + b]);
+        }
+        for from in 0..count {
+            let to = (from + 1) % count;
+            triangles.push([from, count + from, count + to]);
+            triangles.push([from, count + to, to]);
+        }
+        TriMesh::new(points, triangles)
+    }
+
+    /// Returns the volume with its holes, mm³.
+    pub fn volume_mm3(&self) -> f64 {
+        let hole = |hole: &Hole| std::f64::consts::FRAC_PI_4 * hole.diameter_mm.powi(2);
+        let holes_mm2: f64 = self.holes.iter().map(hole).sum();
+        (self.outline.area_mm2() - holes_mm2) * self.sheet_mm
+    }
+}
+
+/// Returns triangles that fill an outline, counterclockwise, by cutting off one ear after another.
+/// If it crosses itself, some of it may stay empty.
+fn fill(corners: &[[f64; 2]]) -> Vec<[u32; 3]> {
+    let mut left: Vec<u32> = (0..corners.len() as u32).collect();
+    let mut triangles = Vec::new();
+    while left.len() > 2 {
+        let count = left.len();
+        let ear = (0..count).find(|&k| {
+            let triangle = [k + count - 1, k, k + 1].map(|i| left[i % count]);
+            is_ear(corners, &left, triangle)
+        });
+        let Some(ear) = ear else { break };
+        triangles.push([ear + count - 1, ear, ear + 1].map(|i| left[i % count]));
+        left.remove(ear);
+    }
+    triangles
+}
+
+fn is_ear(corners: &[[f64; 2]], left: &[u32], triangle: [u32; 3]) -> bool {
+    let [a, b, c] = triangle.map(|i| corners[i as usize]);
+    let is_inside = |p: [f64; 2]| {
+        [[a, b], [b, c], [c, a]]
+            .iter()
+            .all(|&[a, b]| turn(a, b, p) >= 0.0)
+    };
+    turn(a, b, c) > 0.0
+        && left
+            .iter()
+            .filter(|i| !triangle.contains(i))
+            .all(|&i| !is_inside(corners[i as usize]))
+}
+
+/// Returns twice the area of a triangle, mm²; more than zero if it goes counterclockwise.
+fn turn(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
+    (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+}

@@ -1,0 +1,411 @@
+//! The panels of a polyhedron, with a joint along every edge.
+
+use std::f64::consts::PI;
+
+use super::Outline;
+use super::fingers::{FingerJoint, FingerSide};
+use super::panel::{Hole, Panel};
+use crate::geom::{Frame, Plane, Point, Vector};
+use crate::polyhedra::{Edge, Polyhedron};
+
+/// Length of a finger along the edge, in thicknesses of the sheet.
+const FINGER_SHEETS: f64 = 8.0;
+/// Length without fingers at both ends of an edge, in thicknesses.
+const END_SHEETS: f64 = 2.0;
+/// The largest angle at which fingers hold, radians: 150°.
+const FLATTEST_RAD: f64 = PI * 5.0 / 6.0;
+/// Rounding of that angle, radians.
+const ROUNDING_RAD: f64 = 1e-9;
+/// Width of a bracket along the edge, in diameters of the screw's head; its two screws are half of
+/// that apart.
+const BRACKET_HEADS: f64 = 4.0;
+/// Distance of a screw from the inner end of a plain edge, in diameters of its head.
+const FLANGE_HEADS: f64 = 1.0;
+
+/// The joints along edges.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum JointStyle {
+    /// Fingers where they fit, brackets elsewhere.
+    Auto,
+    /// Fingers; edges that have no room for them are an error.
+    Fingers,
+    /// Brackets on all edges.
+    Brackets,
+}
+
+/// The screws of brackets, mm.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BracketKind {
+    /// Diameter of the hole that the screw passes.
+    pub hole_mm: f64,
+    /// Diameter of the screw's head.
+    pub head_mm: f64,
+}
+
+/// The order for panels.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PanelRequest {
+    /// The thickness of the sheet, mm.
+    pub sheet_mm: f64,
+    /// The joints.
+    pub joints: JointStyle,
+    /// By how much fingers are wider than their gaps, mm; less than zero for a loose fit.
+    pub press_mm: f64,
+    /// The brackets.
+    pub brackets: BracketKind,
+}
+
+/// The joint along an edge.
+#[derive(Debug, Clone, PartialEq)]
+pub enum EdgeJoint {
+    /// Fingers.
+    Fingers(FingerJoint),
+    /// Brackets inside, each given by its middle along the edge, mm from the edge's start.
+    Brackets(Vec<f64>),
+}
+
+/// An edge at which two panels meet.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PanelEdge {
+    /// The indices of both panels, the lower one first.
+    pub panels: [usize; 2],
+    /// The ends of the stretch that both share, in the line in which the outer sides meet.
+    pub ends: [Point; 2],
+    /// The inner angle between the panels, radians.
+    pub angle_rad: f64,
+    /// The joint.
+    pub joint: EdgeJoint,
+}
+
+impl PanelEdge {
+    /// Returns the length of the shared stretch, mm.
+    pub fn length_mm(&self) -> f64 {
+        (self.ends[1] - self.ends[0]).norm()
+    }
+}
+
+/// The reason that a polyhedron gets no panels.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum PanelError {
+    /// The sheet is too thick for a face.
+    #[error(
+        "the sheet of {sheet_mm} mm is too thick for face {face}: nothing of the panel is left"
+    )]
+    TooThick {
+        /// The thickness, mm.
+        sheet_mm: f64,
+        /// The index of the face.
+        face: usize,
+    },
+    /// An edge without room for fingers, where fingers were ordered.
+    #[error(
+        "the edge between faces {} and {} has no room for fingers: it is {length_mm:.1} mm long, \
+         at {angle_deg:.0}°", .faces[0], .faces[1]
+    )]
+    NoFingers {
+        /// The indices of the faces.
+        faces: [usize; 2],
+        /// The length of the shared stretch, mm.
+        length_mm: f64,
+        /// The inner angle, degrees.
+        angle_deg: f64,
+    },
+}
+
+/// The panels of a polyhedron.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PanelSet {
+    /// The panels, in the order of their faces.
+    pub panels: Vec<Panel>,
+    /// The edges.
+    pub edges: Vec<PanelEdge>,
+}
+
+impl PanelSet {
+    /// Makes the panels of a polyhedron.
+    ///
+    /// Each panel is its face, moved inward on all sides by the thickness and laid back on the
+    /// face's plane. Panels are then disjoint, and neighbours meet in one line (DESIGN: squares cut
+    /// at right angles). Where fingers of two edges would meet, the shorter edge gets brackets.
+    ///
+    /// # Errors
+    /// The sheet is too thick for a face, or an edge has no room for the fingers that were ordered.
+    pub fn of(body: &Polyhedron, request: &PanelRequest) -> Result<Self, PanelError> {
+        let inner = body.edges_inside(request.sheet_mm);
+        let faces: Vec<usize> = (0..body.faces().len())
+            .filter(|&face| body.faces()[face].area_mm2 > 0.0)
+            .collect();
+        let rings = faces.iter().map(|&face| {
+            let ring = ring_of(face, &inner);
+            ring.ok_or(PanelError::TooThick {
+                sheet_mm: request.sheet_mm,
+                face,
+            })
+        });
+        let rings = rings.collect::<Result<Vec<Vec<usize>>, PanelError>>()?;
+        let layout = Layout {
+            body,
+            request,
+            inner,
+            faces,
+            rings,
+        };
+        layout.panels()
+    }
+}
+
+/// Returns the indices of a face's edges in their order, counterclockwise; `None` if they do not
+/// close.
+fn ring_of(face: usize, edges: &[Edge]) -> Option<Vec<usize>> {
+    let own: Vec<usize> = (0..edges.len())
+        .filter(|&edge| edges[edge].planes.contains(&face))
+        .collect();
+    let mut ring = vec![*own.first()?];
+    while ring.len() < own.len() {
+        let [_, end] = about(face, &edges[*ring.last()?]);
+        let starts_here = |edge: &&usize| {
+            let [start, _] = about(face, &edges[**edge]);
+            !ring.contains(edge) && start == end
+        };
+        ring.push(*own.iter().find(starts_here)?);
+    }
+    (ring.len() > 2).then_some(ring)
+}
+
+/// Returns the ends of an edge, counterclockwise about a face.
+fn about(face: usize, edge: &Edge) -> [Point; 2] {
+    let [from, to] = edge.ends;
+    if edge.planes[0] == face {
+        [from, to]
+    } else {
+        [to, from]
+    }
+}
+
+/// The faces and edges from which panels are made.
+struct Layout<'a> {
+    body: &'a Polyhedron,
+    request: &'a PanelRequest,
+    /// The edges of the body moved inward by the thickness.
+    inner: Vec<Edge>,
+    /// The faces that get panels.
+    faces: Vec<usize>,
+    /// The edges about each of them.
+    rings: Vec<Vec<usize>>,
+}
+
+impl Layout<'_> {
+    fn plane(&self, face: usize) -> &Plane {
+        &self.body.faces()[face].plane
+    }
+
+    /// Makes the panels, with brackets in place of fingers that would meet.
+    fn panels(&self) -> Result<PanelSet, PanelError> {
+        let mut fingers: Vec<Option<FingerJoint>> = (0..self.inner.len())
+            .map(|edge| self.fingers(edge))
+            .collect();
+        loop {
+            let panels: Vec<Panel> = (0..self.faces.len())
+                .map(|panel| self.panel(panel, &fingers))
+                .collect();
+            let crossed = panels
+                .iter()
+                .enumerate()
+                .find(|(_, panel)| !is_sound(panel));
+            let Some((panel, _)) = crossed else {
+                return self.set(panels, &fingers);
+            };
+            let has_fingers = |edge: &&usize| fingers[**edge].is_some();
+            let length_mm =
+                |edge: usize| (self.inner[edge].ends[1] - self.inner[edge].ends[0]).norm();
+            let shortest = self.rings[panel]
+                .iter()
+                .filter(has_fingers)
+                .min_by(|&&a, &&b| length_mm(a).total_cmp(&length_mm(b)));
+            match shortest {
+                Some(&edge) => fingers[edge] = None,
+                None => {
+                    return Err(PanelError::TooThick {
+                        sheet_mm: self.request.sheet_mm,
+                        face: self.faces[panel],
+                    });
+                }
+            }
+        }
+    }
+
+    /// Returns the inner angle at an edge, radians.
+    fn angle_rad(&self, edge: usize) -> f64 {
+        let [a, b] = self.inner[edge].planes.map(|face| self.plane(face).normal);
+        PI - a.dot(&b).clamp(-1.0, 1.0).acos()
+    }
+
+    /// Returns the fingers of an edge; `None` if they do not fit, or if brackets were ordered.
+    fn fingers(&self, edge: usize) -> Option<FingerJoint> {
+        let sheet_mm = self.request.sheet_mm;
+        let edge_mm = (self.inner[edge].ends[1] - self.inner[edge].ends[0]).norm();
+        let room_mm = edge_mm - 2.0 * END_SHEETS * sheet_mm;
+        let angle_rad = self.angle_rad(edge);
+        let fits = room_mm >= FINGER_SHEETS * sheet_mm && angle_rad <= FLATTEST_RAD + ROUNDING_RAD;
+        if !fits || self.request.joints == JointStyle::Brackets {
+            return None;
+        }
+        let pairs = (room_mm / (FINGER_SHEETS * sheet_mm) - 1.0) / 2.0;
+        let joint = FingerJoint {
+            sheet_mm,
+            angle_rad: angle_rad.min(FLATTEST_RAD),
+            edge_mm,
+            end_mm: END_SHEETS * sheet_mm,
+            stretches: 2 * pairs.round() as usize + 1,
+            press_mm: self.request.press_mm,
+        };
+        joint.holds().then_some(joint)
+    }
+
+    /// Returns a panel with the fingers of its edges.
+    fn panel(&self, panel: usize, fingers: &[Option<FingerJoint>]) -> Panel {
+        let face = self.faces[panel];
+        let frame = self.frame(face);
+        let mut corners = Vec::new();
+        for &edge in &self.rings[panel] {
+            let [from, to] = about(face, &self.inner[edge]).map(|end| flat(&frame, &end));
+            match &fingers[edge] {
+                Some(joint) => {
+                    let is_first = self.inner[edge].planes.iter().all(|&other| face <= other);
+                    let side = if is_first {
+                        FingerSide::First
+                    } else {
+                        FingerSide::Second
+                    };
+                    let line = joint.edge(side).into_iter();
+                    corners
+                        .extend(line.map(|[x, y]| along([from, to], [x, y - joint.setback_mm()])));
+                }
+                None => corners.push(from),
+            }
+        }
+        Panel {
+            face,
+            frame,
+            sheet_mm: self.request.sheet_mm,
+            outline: Outline::new(corners).unwrap_or(Outline::rectangle([0.0; 2], [0.0; 2])),
+            holes: Vec::new(),
+        }
+    }
+
+    /// Returns the frame of a face, with its origin at the centroid.
+    fn frame(&self, face: usize) -> Frame {
+        Frame::with_axis(self.body.faces()[face].centroid, &self.plane(face).normal)
+    }
+
+    /// Adds the edges and the holes of their brackets.
+    fn set(
+        &self,
+        mut panels: Vec<Panel>,
+        fingers: &[Option<FingerJoint>],
+    ) -> Result<PanelSet, PanelError> {
+        let mut edges = Vec::new();
+        for (index, inner) in self.inner.iter().enumerate() {
+            let mut sides = inner.planes;
+            sides.sort_unstable();
+            let ends = about(sides[0], inner);
+            let length_mm = (ends[1] - ends[0]).norm();
+            let angle_rad = self.angle_rad(index);
+            if fingers[index].is_none() && self.request.joints == JointStyle::Fingers {
+                return Err(PanelError::NoFingers {
+                    faces: sides,
+                    length_mm,
+                    angle_deg: angle_rad.to_degrees(),
+                });
+            }
+            let joint = match fingers[index] {
+                Some(joint) => EdgeJoint::Fingers(joint),
+                None => EdgeJoint::Brackets(self.brackets(length_mm)),
+            };
+            let panel_of = |face: usize| self.faces.iter().position(|&known| known == face);
+            let [Some(a), Some(b)] = sides.map(panel_of) else {
+                continue;
+            };
+            if let EdgeJoint::Brackets(places) = &joint {
+                for (panel, face) in [(a, sides[0]), (b, sides[1])] {
+                    let ends = about(face, inner).map(|end| flat(&panels[panel].frame, &end));
+                    let holes = self.screws(places, length_mm, face == sides[0]);
+                    let holes = holes.map(|at| along(ends, at));
+                    panels[panel].holes.extend(holes.map(|at_mm| Hole {
+                        at_mm,
+                        diameter_mm: self.request.brackets.hole_mm,
+                    }));
+                }
+            }
+            edges.push(PanelEdge {
+                panels: [a, b],
+                ends: ends.map(|end| self.to_outer_line(sides, &end)),
+                angle_rad,
+                joint,
+            });
+        }
+        Ok(PanelSet { panels, edges })
+    }
+
+    /// Returns the middles of the brackets of an edge: two, or one where there is room for one.
+    fn brackets(&self, length_mm: f64) -> Vec<f64> {
+        let width_mm = BRACKET_HEADS * self.request.brackets.head_mm;
+        if length_mm >= 2.0 * width_mm {
+            vec![0.25 * length_mm, 0.75 * length_mm]
+        } else if length_mm >= width_mm {
+            vec![0.5 * length_mm]
+        } else {
+            Vec::new()
+        }
+    }
+
+    /// Returns the screws of some brackets: along the edge and away from it, mm. `is_first` tells
+    /// whether the panel goes the same way along the edge as the brackets are counted.
+    fn screws<'b>(
+        &self,
+        places: &'b [f64],
+        length_mm: f64,
+        is_first: bool,
+    ) -> impl Iterator<Item = [f64; 2]> + 'b {
+        let head_mm = self.request.brackets.head_mm;
+        let apart_mm = 0.25 * BRACKET_HEADS * head_mm;
+        let away_mm = FLANGE_HEADS * head_mm + self.request.sheet_mm;
+        places.iter().flat_map(move |&place| {
+            [-apart_mm, apart_mm].map(|by| {
+                let x = place + by;
+                [if is_first { x } else { length_mm - x }, away_mm]
+            })
+        })
+    }
+
+    /// Returns the point of the line in which the outer sides meet beside a point of the inner
+    /// edge.
+    fn to_outer_line(&self, faces: [usize; 2], inner: &Point) -> Point {
+        let [a, b] = faces.map(|face| self.plane(face).normal);
+        let out: Vector = (a + b) / (1.0 + a.dot(&b));
+        inner + out * self.request.sheet_mm
+    }
+}
+
+/// Returns a point in a panel's frame, without its height, mm.
+fn flat(frame: &Frame, point: &Point) -> [f64; 2] {
+    let local = frame.to_local(point);
+    [local.x, local.y]
+}
+
+/// Returns the place at x along an edge and at y to its left, mm.
+fn along([from, to]: [[f64; 2]; 2], [x, y]: [f64; 2]) -> [f64; 2] {
+    let way = [to[0] - from[0], to[1] - from[1]];
+    let length = way[0].hypot(way[1]);
+    let way = way.map(|mm| mm / length);
+    [
+        from[0] + x * way[0] - y * way[1],
+        from[1] + x * way[1] + y * way[0],
+    ]
+}
+
+/// Returns whether an outline goes counterclockwise and does not cross itself.
+fn is_sound(panel: &Panel) -> bool {
+    panel.outline.area_mm2() > 0.0 && panel.outline.crossing().is_none()
+}
