@@ -66,7 +66,7 @@ impl Attempt {
     }
 
     /// Returns the share of all walls that lacks sight; 0 without voids.
-    fn lack_ratio(&self) -> f64 {
+    pub(crate) fn lack_ratio(&self) -> f64 {
         let area_mm2 = self.area_mm2();
         if area_mm2 > 0.0 {
             self.lack_mm2 / area_mm2

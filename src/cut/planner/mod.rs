@@ -16,6 +16,7 @@ pub(crate) mod shift;
 pub(crate) mod straighten;
 pub(crate) mod to_plan;
 pub(crate) mod turns;
+pub(crate) mod whole;
 
 #[cfg(test)]
 mod tests;
@@ -42,6 +43,7 @@ use crate::{
             shift::shift_to_creases,
             straighten::straighten,
             to_plan::{rename_cuts, to_plan},
+            whole::whole_parts,
         },
         remark::Remark,
         request::PlanRequest,
@@ -51,10 +53,6 @@ use crate::{
     geom::{Aabb, Plane, Point, Vector},
     mesh::{move_off_faces, move_off_vertices},
 };
-
-/// Number of plans that are cut if the best leaves a part below the least. Each takes some tenths
-/// of a second.
-const COMPARED_FOR_SIZE: usize = 6;
 
 /// Greatest number of extra cuts that make parts fit the build volume.
 const MAX_FITTING_CUTS: usize = 8;
@@ -287,14 +285,14 @@ fn opening_cuts(
     } else {
         full
     };
-    let layout = Layout::new(scene, full.planes, full.voids)?;
+    let layout = Layout::new(scene, full.planes.clone(), full.voids.clone())?;
     let layout = if layout.count_small(scene) == 0 {
         notes.extend(of_extra);
         layout
     } else {
         let others = has_extra.then(|| best.planes.clone()).into_iter();
         let plans = others.chain(found.plans.iter().map(|plan| plan.planes.clone()));
-        match whole_parts(scene, plans.take(COMPARED_FOR_SIZE))? {
+        match whole_parts(scene, plans, full.lack_ratio())? {
             Some(whole) => whole,
             None => {
                 notes.extend(of_extra);
@@ -308,22 +306,6 @@ fn opening_cuts(
     };
     notes.extend(layout.tree.planes.iter().enumerate().map(score));
     Ok(layout)
-}
-
-/// Returns the first layout of some plans that has no part below the least; `None` if all have.
-/// Ends of voids that it leaves unclean are for the caller to keep solid.
-fn whole_parts(
-    scene: &Scene,
-    plans: impl Iterator<Item = Vec<Plane>>,
-) -> Result<Option<Layout>, CutError> {
-    for planes in plans {
-        let Attempt { planes, voids, .. } = Attempt::new(scene, &planes)?;
-        let layout = Layout::new(scene, planes, voids)?;
-        if layout.count_small(scene) == 0 {
-            return Ok(Some(layout));
-        }
-    }
-    Ok(None)
 }
 
 /// Returns a remark on each part that is below the least all the same.
