@@ -181,6 +181,8 @@ fn print_prepared(
         writeln!(out, "{}", with_flags(choice))?;
     }
     write!(out, "{}", ten_lines(checklist, &request.out, voice.manner))?;
+    // The slicer takes its time: what is known is shown before.
+    out.flush()?;
     if let Some(line) = print_time(prepared, request, voice) {
         write!(out, "{line}")?;
     }
