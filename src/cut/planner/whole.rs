@@ -41,19 +41,22 @@ pub(crate) fn whole_parts(
 mod tests {
     use super::*;
     use crate::{
-        cut::scenes::{cuboid, request, with_balls},
+        cut::{
+            PlanRequest,
+            scenes::{cuboid, request, with_balls},
+        },
         geom::Vector,
         printer::{Cleaning, CleaningRule},
     };
 
     #[test]
     fn a_plan_that_leaves_most_of_a_void_unclean_is_not_taken_for_its_whole_parts() {
-        // The cut at the neck of two balls sees one of them; a cut at the end sees neither.
+        // A cut across the bar opens one of two balls; a cut along it opens both.
         let body = with_balls(
             cuboid([0.0; 3], [60.0, 30.0, 30.0]),
             &[[18.0, 15.0, 15.0, 10.0], [42.0, 15.0, 15.0, 10.0]],
         );
-        let request = crate::cut::PlanRequest {
+        let request = PlanRequest {
             cleaning: Cleaning {
                 rule: CleaningRule::InSight,
                 sight_ratio: 0.95,
@@ -78,8 +81,8 @@ mod tests {
         };
         // One ball of two stays closed.
         let one = across(18.013);
-        assert_eq!(is_taken(&[one.clone()], 0.0), None);
-        assert_eq!(is_taken(&[one.clone()], 0.9), Some(Vector::x()));
+        assert_eq!(is_taken(std::slice::from_ref(&one), 0.0), None);
+        assert_eq!(is_taken(std::slice::from_ref(&one), 0.9), Some(Vector::x()));
         assert_eq!(is_taken(&[one, lengthwise], 0.0), Some(Vector::z()));
     }
 }
