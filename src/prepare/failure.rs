@@ -12,7 +12,6 @@ use crate::goal::{
     Contact, PrintStock, Request, TipChoice, Up, Water, Waterline, place_in_material,
 };
 use crate::run::Placed;
-use crate::sheet::Certificate;
 use crate::verify::{Check, CheckKind, FigureName};
 
 /// Steps of a degree in which a smaller promise is advised: it is rounded down to tenths.
@@ -93,12 +92,12 @@ fn reason(prepared: &Prepared, broken: &[&Check]) -> String {
     let shaky = broken.iter().find(|check| {
         check.kind == CheckKind::Standing
             && proof.figure == FigureName::TopplesDeg
-            && !check.comparison.holds(possible(proof), check.limit)
+            && !check.comparison.holds(proof.possible(), check.limit)
     });
     if let Some(check) = shaky {
         return format!(
             "it topples too early: no hollowing with this wall reaches more than {}, and {} are promised",
-            quantity(possible(proof), unit),
+            quantity(proof.possible(), unit),
             quantity(check.limit, unit)
         );
     }
@@ -111,17 +110,11 @@ fn reason(prepared: &Prepared, broken: &[&Check]) -> String {
              pins, cuts and cleaning take is more than there is to spare",
             names.join(", "),
             proof.figure.name(),
-            quantity(possible(proof), unit),
+            quantity(proof.possible(), unit),
             quantity(written, unit)
         ),
         None => format!("the kit breaks {}", names.join(", ")),
     }
-}
-
-/// Returns the best figure of any hollowing with the wall, before ends that cannot be cleaned were
-/// kept solid.
-fn possible(proof: &Certificate) -> f64 {
-    proof.value_before_cleaning.unwrap_or(proof.bound)
 }
 
 /// Returns true if what pins, cuts and cleaning take can break this promise.

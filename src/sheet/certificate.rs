@@ -37,6 +37,14 @@ pub struct Certificate {
     pub course: Option<Course>,
 }
 
+impl Certificate {
+    /// Returns the best figure of any hollowing with the wall, before ends that cannot be cleaned
+    /// were kept solid.
+    pub fn possible(&self) -> f64 {
+        self.value_before_cleaning.unwrap_or(self.bound)
+    }
+}
+
 /// A proof about tops with their centre of mass at any height. It holds on the printer's own
 /// columns, or on coarser ones if the lever is free too or the voids are filled.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
