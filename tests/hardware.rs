@@ -73,6 +73,7 @@ fn a_checklist_with_false_numbers_about_its_hardware_is_found_out() {
         fs::write(&sheet, text).unwrap();
         verify(&kit).0
     };
+    assert_eq!(verdict(&text), Some(0));
     for (stated, lie) in [
         ("\"density_g_cm3\": 7.85", "\"density_g_cm3\": 7.8"),
         ("\"string_gap_mm\": 3.0", "\"string_gap_mm\": 3.01"),

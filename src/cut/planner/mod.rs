@@ -285,14 +285,15 @@ fn opening_cuts(
     } else {
         full
     };
-    let layout = Layout::new(scene, full.planes.clone(), full.voids.clone())?;
+    let lack_ratio = full.lack_ratio();
+    let layout = Layout::new(scene, full.planes, full.voids)?;
     let layout = if layout.count_small(scene) == 0 {
         notes.extend(of_extra);
         layout
     } else {
         let others = has_extra.then(|| best.planes.clone()).into_iter();
         let plans = others.chain(found.plans.iter().map(|plan| plan.planes.clone()));
-        match whole_parts(scene, plans, full.lack_ratio())? {
+        match whole_parts(scene, plans, lack_ratio)? {
             Some(whole) => whole,
             None => {
                 notes.extend(of_extra);

@@ -13,10 +13,6 @@ use crate::open::tendency::lean;
 use crate::open::way::{Way, seam_price};
 use crate::run::{Achieved, Policy, Remark, Rung, Tendency, Untried, Voids};
 
-/// Share of the figure that a plan with fewer parts may lose to be offered: one that loses more
-/// would hardly keep what is promised.
-const MOST_OFFERED_LOSS_RATIO: f64 = 0.5;
-
 /// A draft whose seams are to be seen less than those of the usual plan.
 struct Hidden<'a> {
     way: Way<'a>,
@@ -326,7 +322,7 @@ impl<'a> Ladder<'a> {
             }
             return Ok((few, few_walls));
         }
-        if few.loss_ratio(&usual) <= MOST_OFFERED_LOSS_RATIO {
+        if few.loss_ratio(&usual) <= self.policy.offered_loss_ratio {
             let certificate = |way: &Way| way.bossed.voids.solution.certificate;
             self.notes.push(Remark::FewerParts {
                 parts: [&few, &usual].map(|way| way.bossed.plan.count_parts()),
