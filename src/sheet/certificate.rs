@@ -38,8 +38,8 @@ pub struct Certificate {
 }
 
 impl Certificate {
-    /// Returns the best figure that is known to be possible with the wall: the bound, or what was
-    /// reached before ends that cannot be cleaned were kept solid, if that is better.
+    /// Returns the best figure that is known to be possible with the wall: the bound, or the value
+    /// before cleaning if that is better. Ends that cannot be cleaned are kept solid after it.
     pub fn possible(&self) -> f64 {
         let before = self.value_before_cleaning.unwrap_or(self.bound);
         if self.figure.more_is_better() {
