@@ -278,6 +278,13 @@ fn first_clean(scene: &Scene, plans: &[RankedPlan]) -> Result<Attempt, CutError>
     attempts.best.map_or_else(|| Attempt::new(scene, &[]), Ok)
 }
 
+/// Returns the first of some plans with which every void can be cleaned, as far as estimates tell;
+/// `None` if none is clean.
+pub(crate) fn any_clean(scene: &Scene, plans: &[RankedPlan]) -> Result<Option<Attempt>, CutError> {
+    let attempt = first_clean(scene, plans)?;
+    Ok(attempt.is_clean().then_some(attempt))
+}
+
 /// A series of plans that are measured one after another.
 struct Attempts<'a> {
     scene: &'a Scene<'a>,

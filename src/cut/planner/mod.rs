@@ -5,6 +5,7 @@ pub(crate) mod cover;
 pub(crate) mod draft;
 pub(crate) mod extra;
 pub(crate) mod family;
+pub(crate) mod fewer;
 pub(crate) mod layers;
 pub(crate) mod layout;
 pub(crate) mod limit;
@@ -36,6 +37,7 @@ use crate::{
         planner::{
             attempt::{Attempt, cleanest},
             extra::add_extra_cuts,
+            fewer::fewer_clean_cuts,
             layers::snap_to_layers,
             layout::Layout,
             score::{Scene, burden, estimate_seam_penalty},
@@ -284,6 +286,13 @@ fn opening_cuts(
         shift_to_creases(scene, full)?
     } else {
         full
+    };
+    let (full, has_extra) = match fewer_clean_cuts(scene, &full, found)? {
+        Some(clean) => {
+            of_extra.clear();
+            (clean, false)
+        }
+        None => (full, has_extra),
     };
     let lack_ratio = full.lack_ratio();
     let layout = Layout::new(scene, full.planes, full.voids)?;
