@@ -158,6 +158,17 @@ fn of_two_plans_with_their_pins_the_one_with_fewer_parts_is_taken_if_it_costs_no
 }
 
 #[test]
+fn a_plan_with_the_fewest_parts_is_sought_beside_many_and_only_there() {
+    let placed = deep_box();
+    let ladder = ladder_of(&placed);
+    let usual = usual_of(&ladder);
+    let few = ladder.draft_fewest_parts(&usual).unwrap().unwrap();
+    let parts = [&usual, &few].map(|way| way.bossed.plan.count_parts());
+    assert!(parts[0] > 2 && parts[1] == 2, "{parts:?}");
+    assert!(ladder.draft_fewest_parts(&few).unwrap().is_none());
+}
+
+#[test]
 fn fewer_parts_with_pins_come_before_more_without_up_to_a_limit() {
     let mut placed = deep_box();
     placed.policy.aligned_loss_ratio = 1.0;
