@@ -31,26 +31,46 @@ fn check<'a>(sheet: &'a Value, name: &str) -> Option<&'a Value> {
 }
 
 #[test]
-fn every_process_opens_its_voids_and_cleans_them_by_its_own_rule() {
+fn powder_escapes() {
+    assert_rule("formlabs-fuse1", "powder-escape");
+}
+
+#[test]
+fn filament_needs_no_support_or_is_seen() {
+    assert_rule("prusa-mk4", "in-sight-or-self-supporting");
+}
+
+#[test]
+fn support_melts_out() {
+    assert_rule("ultimaker-s5", "melt-out");
+}
+
+/// Another test looks into the voids of an Objet.
+#[test]
+#[ignore = "long: 20 s; run with -- --ignored"]
+fn photopolymer_is_seen() {
+    assert_rule("objet-connex350", "in-sight");
+}
+
+#[test]
+#[ignore = "long: 20 s; run with -- --ignored"]
+fn resin_is_seen() {
+    assert_rule("formlabs-form3", "in-sight");
+}
+
+/// Makes a kit for a process, which opens its voids and cleans them by its own rule.
+fn assert_rule(printer: &str, rule: &str) {
     let folder = tempfile::tempdir().unwrap();
-    for (printer, rule) in [
-        ("objet-connex350", "in-sight"),
-        ("formlabs-form3", "in-sight"),
-        ("formlabs-fuse1", "powder-escape"),
-        ("prusa-mk4", "in-sight-or-self-supporting"),
-        ("ultimaker-s5", "melt-out"),
-    ] {
-        let kit = folder.path().join(printer);
-        let sheet = make_on(printer, &kit, &["--goal", "top", "--up", "z"]);
-        assert_eq!(sheet["printer"]["cleaning"]["rule"], rule, "{printer}");
-        let voids = list(&sheet, "voids");
-        assert!(!voids.is_empty(), "{printer}");
-        voids
-            .iter()
-            .for_each(|void| assert_open_and_clean(void, &sheet, rule));
-        let page = fs::read_to_string(kit.join("certificate.html")).unwrap();
-        assert!(page.contains(voids[0]["method"].as_str().unwrap()) && page.contains("✓ kept"));
-    }
+    let kit = folder.path().join(printer);
+    let sheet = make_on(printer, &kit, &["--goal", "top", "--up", "z"]);
+    assert_eq!(sheet["printer"]["cleaning"]["rule"], rule, "{printer}");
+    let voids = list(&sheet, "voids");
+    assert!(!voids.is_empty(), "{printer}");
+    voids
+        .iter()
+        .for_each(|void| assert_open_and_clean(void, &sheet, rule));
+    let page = fs::read_to_string(kit.join("certificate.html")).unwrap();
+    assert!(page.contains(voids[0]["method"].as_str().unwrap()) && page.contains("✓ kept"));
 }
 
 fn assert_open_and_clean(void: &Value, sheet: &Value, rule: &str) {
@@ -91,6 +111,7 @@ fn make_with_short_tool(folder: &Path) -> Value {
 fn voids_beyond_a_short_tool_stay_solid_and_the_sheet_states_the_cost() {
     let folder = tempfile::tempdir().unwrap();
     let sheet = make_with_short_tool(folder.path());
+    assert_eq!(sheet["printer"]["cleaning"]["rule"], "in-sight");
     let proof = &sheet["certificate"];
     let rounds = list(proof, "cleaning_rounds");
     assert!((1..=8).contains(&rounds.len()), "{proof}");
@@ -100,10 +121,8 @@ fn voids_beyond_a_short_tool_stay_solid_and_the_sheet_states_the_cost() {
     let [value, before] = ["/value", "/value_before_cleaning"].map(|key| number(proof, key));
     assert!(value <= before, "{value} {before}");
     for void in list(&sheet, "voids") {
-        assert!(
-            void["is_clean"] == true && number(void, "/sight_ratio") >= 0.95,
-            "{void}"
-        );
+        assert!(number(void, "/sight_ratio") >= 0.95, "{void}");
+        assert_open_and_clean(void, &sheet, "in-sight");
     }
     let page = fs::read_to_string(folder.path().join("short/certificate.html")).unwrap();
     assert!(page.contains("that could have been emptied stays solid"));

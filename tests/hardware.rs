@@ -12,48 +12,51 @@ mod common;
 use std::f64::consts::PI;
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
 
 use common::{
-    assert_exit, equipoise, files, glue_g, list, make_kit, number, path, prepare_quickly, printed,
-    sum, verify,
+    assert_exit, copy, equipoise, files, glue_g, list, make_kit, number, path, prepare_quickly,
+    printed, sum, verify,
 };
 use equipoise::geom::{Quadric, Vector};
 use equipoise::interior::{Columns, moments_where_positive};
 use serde_json::Value;
 
-/// Makes a yo-yo on an axle of 4 × 15 mm.
-fn make_yoyo(folder: &Path) -> (PathBuf, Value) {
-    let kit = folder.join("yoyo");
-    let goal = "--wall 1mm --goal yoyo --up y --string-gap 3mm --axle 4mmx15mm";
-    let sheet = make_kit(&kit, goal);
-    (kit, sheet)
+/// A yo-yo on an axle of 4 × 15 mm, and its sheet. It is made once and never changed.
+fn yoyo() -> &'static (PathBuf, Value) {
+    static YOYO: OnceLock<(PathBuf, Value)> = OnceLock::new();
+    YOYO.get_or_init(|| {
+        let kit = tempfile::tempdir().unwrap().keep().join("yoyo");
+        let goal = "--wall 1mm --goal yoyo --up y --string-gap 3mm --axle 4mmx15mm";
+        let sheet = make_kit(&kit, goal);
+        (kit, sheet)
+    })
 }
 
 #[test]
 fn a_yoyo_on_its_axle_keeps_its_promises() {
-    let folder = tempfile::tempdir().unwrap();
-    let (kit, sheet) = make_yoyo(folder.path());
+    let (kit, sheet) = yoyo();
     // A steel cylinder of 4 × 15 mm.
     let axle_g = 7.85e-3 * PI * 4.0 * 15.0;
-    assert!((number(&sheet, "/hardware/0/mass_g") / axle_g - 1.0).abs() < 1e-12);
-    let parts = list(&sheet, "parts");
-    let all_g = sum(parts, "/mass_g") + axle_g + glue_g(&sheet);
-    assert!((number(&sheet, "/assembly/mass_g") / all_g - 1.0).abs() < 1e-9);
-    assert_eq!(number(&sheet, "/string_gap_mm"), 3.0);
+    assert!((number(sheet, "/hardware/0/mass_g") / axle_g - 1.0).abs() < 1e-12);
+    let parts = list(sheet, "parts");
+    let all_g = sum(parts, "/mass_g") + axle_g + glue_g(sheet);
+    assert!((number(sheet, "/assembly/mass_g") / all_g - 1.0).abs() < 1e-9);
+    assert_eq!(number(sheet, "/string_gap_mm"), 3.0);
     for half in ["A", "B"] {
         assert!(parts.iter().any(|part| part["half"] == half), "{half}");
     }
-    assert_eq!(verify(&kit).0, Some(0));
+    assert_eq!(verify(kit).0, Some(0));
 }
 
 #[test]
 fn the_job_of_a_yoyo_makes_the_same_kit_again() {
     let folder = tempfile::tempdir().unwrap();
-    let (kit, _) = make_yoyo(folder.path());
+    let (kit, _) = yoyo();
     let (job, again) = (kit.join("job.toml"), folder.path().join("again"));
     let replay = ["-q", "prepare", "--job", path(&job), "--out", path(&again)];
     assert_exit(&equipoise(&replay), 0);
-    let [kit, again] = [kit, again].map(|kit| files(&kit));
+    let [kit, again] = [kit, &again].map(|kit| files(kit));
     for file in ["checklist.json", "hollowed.stl", "pictures/cut-away.svg"] {
         assert!(kit[Path::new(file)] == again[Path::new(file)], "{file}");
     }
@@ -62,7 +65,8 @@ fn the_job_of_a_yoyo_makes_the_same_kit_again() {
 #[test]
 fn a_checklist_with_false_numbers_about_its_hardware_is_found_out() {
     let folder = tempfile::tempdir().unwrap();
-    let (kit, _) = make_yoyo(folder.path());
+    let kit = folder.path().join("kit");
+    copy(&yoyo().0, &kit);
     let sheet = kit.join("checklist.json");
     let text = fs::read_to_string(&sheet).unwrap();
     let verdict = |text: &str| {

@@ -14,8 +14,9 @@ use std::ffi::OsString;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::sync::OnceLock;
 
-use common::{assert_exit, checklist, list, make_kit, number, prepare, printed, words};
+use common::{assert_exit, checklist, copy, list, make_kit, number, prepare, printed, words};
 
 /// The judge of a kit's folder.
 const JUDGE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/judge/judge_kit.py");
@@ -48,76 +49,72 @@ fn judge(judge: &str, python: &OsString, kit: &Path) -> (Option<i32>, String) {
     (output.status.code(), printed(&output))
 }
 
-/// Asserts that the judge agrees with a kit that holds hardware, and that it finds a false density.
-fn assert_hardware_is_judged(goal: &str) {
-    let Some(python) = find_python(PACKAGES) else {
-        return;
-    };
-    let folder = tempfile::tempdir().unwrap();
-    let kit = folder.path().join("kit");
-    make_kit(&kit, &format!("--wall 1mm --up y {goal}"));
-    let (code, said) = judge(JUDGE, &python, &kit);
-    assert!(code == Some(0) && said.contains("H2"), "{said}");
+/// Replaces a text on a kit's checklist.
+fn replace(kit: &Path, stated: &str, lie: &str) {
     let sheet = kit.join("checklist.json");
-    let stated = fs::read_to_string(&sheet).unwrap();
+    let text = fs::read_to_string(&sheet).unwrap();
+    assert!(text.contains(stated) && stated != lie, "{stated}");
+    fs::write(&sheet, text.replacen(stated, lie, 1)).unwrap();
+}
+
+/// States a density of steel on a checklist that is false by a thousandth.
+fn state_false_density(kit: &Path) {
     let [density, lie] = [7.85, 7.84].map(|value| format!("\"density_g_cm3\": {value}"));
-    assert!(stated.contains(&density));
-    fs::write(&sheet, stated.replacen(&density, &lie, 1)).unwrap();
-    let (code, said) = judge(JUDGE, &python, &kit);
-    assert!(code == Some(1) && said.contains("FAIL mass"), "{said}");
+    replace(kit, &density, &lie);
+}
+
+/// Makes a yo-yo on an axle.
+fn make_yoyo(folder: &Path) -> PathBuf {
+    let kit = folder.join("yoyo");
+    let rods = "--string-gap 3mm --axle 4mmx15mm --hardware-mass 2";
+    make_kit(&kit, &format!("--wall 1mm --up y --goal yoyo {rods}"));
+    kit
 }
 
 #[test]
 fn an_independent_judge_weighs_the_axle_of_a_yoyo() {
-    let rods = "--string-gap 3mm --axle 4mmx15mm --hardware-mass 2";
-    assert_hardware_is_judged(&format!("--goal yoyo {rods}"));
-}
-
-#[test]
-fn an_independent_judge_weighs_the_tip_and_the_stem_of_a_top() {
-    let rods = "--tip 4mmx12mmx8mm --stem 4mmx16mm";
-    assert_hardware_is_judged(&format!("--goal top --contact center {rods}"));
-}
-
-#[test]
-fn an_independent_judge_leans_a_top_on_its_tip_and_finds_a_false_lean() {
     let Some(python) = find_python(PACKAGES) else {
         return;
     };
     let folder = tempfile::tempdir().unwrap();
-    let kit = folder.path().join("kit");
-    let sheet = make_kit(&kit, "--wall 1mm --up y --goal top --contact center");
-    let (code, said) = judge(JUDGE, &python, &kit);
-    assert!(code == Some(0) && said.contains("lean promised"), "{said}");
-    let lean_deg = number(&sheet, "/goal/spins_on/lean_deg");
-    let path = kit.join("checklist.json");
-    let stated = fs::read_to_string(&path).unwrap();
-    let lie = stated.replacen(
-        &format!("\"lean_deg\": {lean_deg}"),
-        &format!("\"lean_deg\": {}", lean_deg + 0.01),
-        1,
-    );
-    assert_ne!(stated, lie);
-    fs::write(&path, lie).unwrap();
-    let (code, said) = judge(JUDGE, &python, &kit);
-    assert!(code == Some(1) && said.contains("FAIL lean, °"), "{said}");
+    let (code, said) = judge(JUDGE, &python, &make_yoyo(folder.path()));
+    assert!(code == Some(0) && said.contains("H2"), "{said}");
 }
 
 #[test]
-fn an_independent_judge_agrees_with_the_checklist_and_finds_a_false_mass() {
+#[ignore = "long: half a minute, and the same lie is found on a top; run with -- --ignored"]
+fn an_independent_judge_finds_a_false_density_of_the_axle_of_a_yoyo() {
     let Some(python) = find_python(PACKAGES) else {
         return;
     };
     let folder = tempfile::tempdir().unwrap();
-    let kit = folder.path().join("kit");
-    make_kit(&kit, "--goal top --up z --wall 1.5mm");
-    let (code, said) = judge(JUDGE, &python, &kit);
-    assert_eq!(code, Some(0), "{said}");
-    let mut sheet = checklist(&kit);
-    sheet["assembly"]["mass_g"] = (number(&sheet, "/assembly/mass_g") * 1.000_01).into();
-    fs::write(kit.join("checklist.json"), sheet.to_string()).unwrap();
+    let kit = make_yoyo(folder.path());
+    state_false_density(&kit);
     let (code, said) = judge(JUDGE, &python, &kit);
     assert!(code == Some(1) && said.contains("FAIL mass"), "{said}");
+}
+
+#[test]
+fn an_independent_judge_weighs_the_tip_and_the_stem_of_a_top_and_finds_a_false_lean() {
+    let Some(python) = find_python(PACKAGES) else {
+        return;
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let kit = folder.path().join("kit");
+    let rods = "--tip 4mmx12mmx8mm --stem 4mmx16mm";
+    let options = format!("--goal top --contact center {rods}");
+    make_kit(&kit, &format!("--wall 1mm --up y {options}"));
+    let (code, said) = judge(JUDGE, &python, &kit);
+    assert!(code == Some(0) && said.contains("H2"), "{said}");
+    assert!(said.contains("lean promised"), "{said}");
+    state_false_density(&kit);
+    // The lean follows from shapes alone, so that both lies are found side by side.
+    let lean_deg = number(&checklist(&kit), "/goal/spins_on/lean_deg");
+    let [lean, lie] = [lean_deg, lean_deg + 0.01].map(|value| format!("\"lean_deg\": {value}"));
+    replace(&kit, &lean, &lie);
+    let (code, said) = judge(JUDGE, &python, &kit);
+    assert!(code == Some(1) && said.contains("FAIL mass"), "{said}");
+    assert!(said.contains("FAIL lean, °"), "{said}");
 }
 
 /// Moves one corner of a binary STL file, in all triangles that have it, mm.
@@ -138,47 +135,80 @@ fn dent(stl: &Path, by_mm: f32) {
     fs::write(stl, bytes).unwrap();
 }
 
-#[test]
-fn an_independent_judge_finds_a_dent_of_a_tenth_in_one_part() {
-    let Some(python) = find_python(PACKAGES) else {
-        return;
-    };
-    let folder = tempfile::tempdir().unwrap();
-    let kit = folder.path().join("kit");
-    let sheet = make_kit(&kit, "--goal top --up z --wall 1mm");
-    let part = &list(&sheet, "parts")[0];
-    dent(&kit.join(part["file"].as_str().unwrap()), 0.1);
-    let (code, said) = judge(JUDGE, &python, &kit);
-    let complaint = format!("FAIL {} off its surfaces", part["id"].as_str().unwrap());
-    assert!(code == Some(1) && said.contains(&complaint), "{said}");
+/// Kits of a small top in both formats and as packages only, each made once and never changed.
+static IN_BOTH: OnceLock<PathBuf> = OnceLock::new();
+static IN_3MF: OnceLock<PathBuf> = OnceLock::new();
+
+fn kit_in_both() -> &'static Path {
+    IN_BOTH.get_or_init(|| make_packages("objet-connex350", "both"))
+}
+
+fn kit_in_3mf() -> &'static Path {
+    IN_3MF.get_or_init(|| make_packages("prusa-mk4", "3mf"))
 }
 
 /// Makes a kit that states its parts in a format.
-fn make_packages(folder: &Path, printer: &str, format: &str) -> PathBuf {
-    let kit = folder.join(format);
+fn make_packages(printer: &str, format: &str) -> PathBuf {
+    let kit = tempfile::tempdir().unwrap().keep().join(format);
     let sizes = "--goal top --up z --size 60mm --wall 1.5mm --pitch 0.3mm";
     let options = format!("{sizes} --printer {printer} --format {format}");
     assert_exit(&prepare(&kit, &words(&options)), 0);
     kit
 }
 
+/// Copies a kit so that a test may change it.
+fn copy_of(kit: &Path, folder: &Path) -> PathBuf {
+    let copied = folder.join("kit");
+    copy(kit, &copied);
+    copied
+}
+
+#[test]
+fn an_independent_judge_agrees_with_the_checklist_and_finds_a_false_mass() {
+    let Some(python) = find_python(PACKAGES) else {
+        return;
+    };
+    let (code, said) = judge(JUDGE, &python, kit_in_both());
+    assert_eq!(code, Some(0), "{said}");
+    let folder = tempfile::tempdir().unwrap();
+    let kit = copy_of(kit_in_both(), folder.path());
+    let mut sheet = checklist(&kit);
+    sheet["assembly"]["mass_g"] = (number(&sheet, "/assembly/mass_g") * 1.000_01).into();
+    fs::write(kit.join("checklist.json"), sheet.to_string()).unwrap();
+    let (code, said) = judge(JUDGE, &python, &kit);
+    assert!(code == Some(1) && said.contains("FAIL mass"), "{said}");
+}
+
+#[test]
+fn an_independent_judge_finds_a_dent_of_a_tenth_in_one_part() {
+    let Some(python) = find_python(PACKAGES) else {
+        return;
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let kit = copy_of(kit_in_both(), folder.path());
+    let part = list(&checklist(&kit), "parts")[0].clone();
+    dent(&kit.join(part["file"].as_str().unwrap()), 0.1);
+    let (code, said) = judge(JUDGE, &python, &kit);
+    let complaint = format!("FAIL {} off its surfaces", part["id"].as_str().unwrap());
+    assert!(code == Some(1) && said.contains(&complaint), "{said}");
+}
+
+/// Another test gives the kit in both formats to the judge of folders.
 #[test]
 fn lib3mf_reads_every_package_of_a_kit_in_strict_mode() {
     let Some(python) = find_python(PACKAGES_3MF) else {
         return;
     };
-    let folder = tempfile::tempdir().unwrap();
-    for (printer, format) in [("objet-connex350", "both"), ("prusa-mk4", "3mf")] {
-        let kit = make_packages(folder.path(), printer, format);
-        let (code, said) = judge(JUDGE_3MF, &python, &kit);
+    for kit in [kit_in_both(), kit_in_3mf()] {
+        let (code, said) = judge(JUDGE_3MF, &python, kit);
         assert_eq!(code, Some(0), "{said}");
         for file in ["assembly.3mf", "plate.3mf", "parts/"] {
             assert!(said.contains(file), "{file}: {said}");
         }
-        if let Some(python) = find_python(PACKAGES) {
-            let (code, said) = judge(JUDGE, &python, &kit);
-            assert_eq!(code, Some(0), "{said}");
-        }
+    }
+    if let Some(python) = find_python(PACKAGES) {
+        let (code, said) = judge(JUDGE, &python, kit_in_3mf());
+        assert_eq!(code, Some(0), "{said}");
     }
 }
 
@@ -188,7 +218,7 @@ fn lib3mf_finds_parts_that_are_not_in_print_pose() {
         return;
     };
     let folder = tempfile::tempdir().unwrap();
-    let kit = make_packages(folder.path(), "prusa-mk4", "3mf");
+    let kit = copy_of(kit_in_3mf(), folder.path());
     fs::copy(kit.join("assembly.3mf"), kit.join("plate.3mf")).unwrap();
     let (code, said) = judge(JUDGE_3MF, &python, &kit);
     assert_eq!(code, Some(1), "{said}");

@@ -11,6 +11,7 @@ mod common;
 
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
 
 use common::{assert_exit, json, list, make_kit, number, path, prepare, sum, words};
 use equipoise::io::stl;
@@ -26,6 +27,16 @@ fn make_small_top(out: &Path, options: &[&str]) -> Value {
     json(&output)
 }
 
+/// A small top with bosses, as it comes, and its result. It is made once and never changed.
+fn small_top() -> &'static (PathBuf, Value) {
+    static TOP: OnceLock<(PathBuf, Value)> = OnceLock::new();
+    TOP.get_or_init(|| {
+        let kit = tempfile::tempdir().unwrap().keep().join("kit");
+        let sheet = make_small_top(&kit, &[]);
+        (kit, sheet)
+    })
+}
+
 /// Makes the kit again from its own plan.
 fn make_again(kit: &Path, out: &Path) -> Value {
     make_small_top(out, &["--cut", path(&kit.join("cuts.toml"))])
@@ -33,10 +44,8 @@ fn make_again(kit: &Path, out: &Path) -> Value {
 
 #[test]
 fn walls_too_thin_for_pins_get_bosses_and_the_sheet_states_their_cost() {
-    let folder = tempfile::tempdir().unwrap();
-    let kit = folder.path().join("kit");
-    let sheet = make_small_top(&kit, &[]);
-    let rounds = list(&sheet, "rounds");
+    let (kit, sheet) = small_top();
+    let rounds = list(sheet, "rounds");
     assert!((1..=3).contains(&rounds.len()), "{rounds:?}");
     for round in rounds {
         // Less may be emptied, so the speed cannot fall by more than the optimum's accuracy.
@@ -45,8 +54,8 @@ fn walls_too_thin_for_pins_get_bosses_and_the_sheet_states_their_cost() {
         assert!(number(round, "/gap_ratio").abs() < 1e-6, "{round}");
         assert!(number(round, "/kept_solid_mm3") > 0.0, "{round}");
     }
-    assert!(number(&sheet, "/certificate/bosses_mm3") > 0.0);
-    let joints = list(&sheet, "joints");
+    assert!(number(sheet, "/certificate/bosses_mm3") > 0.0);
+    let joints = list(sheet, "joints");
     let is_pinned = |joint: &Value| number(joint, "/pins") >= 2.0;
     assert!(joints.iter().all(is_pinned), "{joints:?}");
     let page = fs::read_to_string(kit.join("certificate.html")).unwrap();
@@ -56,13 +65,13 @@ fn walls_too_thin_for_pins_get_bosses_and_the_sheet_states_their_cost() {
 #[test]
 fn a_kit_with_bosses_made_again_from_its_plan_has_the_same_parts() {
     let folder = tempfile::tempdir().unwrap();
-    let [kit, again] = ["kit", "again"].map(|name| folder.path().join(name));
-    let [sheet, again] = [make_small_top(&kit, &[]), make_again(&kit, &again)];
+    let (kit, sheet) = small_top();
+    let again = make_again(kit, &folder.path().join("again"));
     let hashes = |sheet: &Value| -> Vec<Value> {
         let parts = list(sheet, "parts").iter();
         parts.map(|part| part["sha256"].clone()).collect()
     };
-    assert_eq!(hashes(&sheet), hashes(&again));
+    assert_eq!(hashes(sheet), hashes(&again));
 }
 
 /// The cap of the ellipsoid above z = 12 mm of its 18 stays solid.

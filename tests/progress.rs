@@ -26,7 +26,9 @@ use equipoise::prepare::{Outcome, prepare};
 const LONGEST_STILL: Duration = Duration::from_secs(2);
 /// The longest time from a stop to the end of the run.
 const LONGEST_STOP: Duration = Duration::from_secs(2);
-/// Points of a run at which it is stopped, evenly spread over its progress.
+/// Points of a run at which it is stopped, evenly spread over its progress, by default and in a
+/// long run.
+const FEW_STOPS: u32 = 5;
 const STOPS: u32 = 12;
 /// The acceptance table.
 const TABLE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/.ci/models");
@@ -128,12 +130,22 @@ fn progress_rises_to_the_end_and_never_stands_still() {
 }
 
 #[test]
+fn a_run_that_is_stopped_ends_at_once_and_writes_nothing() {
+    assert_stopped(FEW_STOPS);
+}
+
+#[test]
+#[ignore = "long: a minute; run with -- --ignored"]
 fn a_run_stopped_anywhere_ends_at_once_and_writes_nothing() {
+    assert_stopped(STOPS);
+}
+
+fn assert_stopped(stops: u32) {
     let options = format!("{QUICK} --goal top --up z --wall 1.5mm");
-    for stop in 0..STOPS {
+    for stop in 0..stops {
         let room = tempfile::tempdir().unwrap();
         let order = order(Path::new(ELLIPSOID), &room.path().join("kit"), &options);
-        let at_ratio = 0.96 * f64::from(stop) / f64::from(STOPS - 1);
+        let at_ratio = 0.96 * f64::from(stop) / f64::from(stops - 1);
         let (outcome, took) = run_until(&order, at_ratio);
         let is_cancelled = matches!(outcome, Err(Error::Cancelled));
         assert!(is_cancelled, "stopped at {at_ratio:.2}");

@@ -11,6 +11,7 @@ mod common;
 use std::path::{Path, PathBuf};
 
 use common::{ELLIPSOID, QUICK, assert_exit, equipoise, json, list, path, printed, words};
+use rayon::prelude::*;
 use serde_json::Value;
 
 /// The acceptance table.
@@ -42,19 +43,12 @@ fn with_remedy(options: &[&str], remedy: &Value) -> Vec<String> {
 /// Types every remedy that is offered for an impossible order; returns those that make no kit.
 fn failures(model: &Path, options: &[&str]) -> Vec<String> {
     let folder = tempfile::tempdir().unwrap();
-    let kit = folder.path().join("kit");
-    let run = |options: &[&str]| {
-        let start = [
-            "--json",
-            "prepare",
-            path(model),
-            "--force",
-            "--out",
-            path(&kit),
-        ];
+    let run = |kit: &str, options: &[&str]| {
+        let kit = folder.path().join(kit);
+        let start = ["--json", "prepare", path(model), "--out", path(&kit)];
         equipoise(&[&start[..], options].concat())
     };
-    let refused = run(options);
+    let refused = run("none", options);
     assert_exit(&refused, 1);
     let told = json(&refused);
     let remedies = list(&told, "remedies").iter();
@@ -62,22 +56,20 @@ fn failures(model: &Path, options: &[&str]) -> Vec<String> {
         .filter(|one| one["confirmed"].is_object())
         .collect();
     println!("{}: {} remedies", model.display(), offered.len());
-    let mut failed = Vec::new();
-    for remedy in offered {
+    let try_one = |(index, remedy): (usize, &&Value)| {
         assert!(
             !list(remedy, "settings").is_empty(),
             "nothing to type: {remedy:#}"
         );
         let typed = with_remedy(options, remedy);
         let typed: Vec<&str> = typed.iter().map(String::as_str).collect();
-        let output = run(&typed);
+        let output = run(&format!("kit{index}"), &typed);
         let line = typed.join(" ");
         println!("  exit {:?}: {line}", output.status.code());
-        if output.status.code() != Some(0) {
-            failed.push(format!("{line}: {}", printed(&output)));
-        }
-    }
-    failed
+        (output.status.code() != Some(0)).then(|| format!("{line}: {}", printed(&output)))
+    };
+    let all = offered.par_iter().enumerate();
+    all.filter_map(try_one).collect()
 }
 
 #[test]

@@ -136,6 +136,14 @@ fn an_axis_beside_the_bore_is_refused() {
         "{}",
         printed(&refused)
     );
+}
+
+#[test]
+#[ignore = "long: 10 s, and the axis of a model with two bores is typed too; run with -- --ignored"]
+fn an_axis_along_the_bore_is_taken() {
+    let folder = tempfile::tempdir().unwrap();
+    let model = write(folder.path(), &pulley(&[[3.0, 2.0, 4.0]]));
+    let kit = folder.path().join("kit");
     assert_exit(&balance(&model, &kit, "--up z --spin-point 3,2,10"), 0);
 }
 

@@ -192,14 +192,14 @@ fn the_print_time_by_a_slicer_is_on_the_sheet_and_the_same_again() {
     }
     let folder = tempfile::tempdir().unwrap();
     let [one, two] = ["one", "two"].map(|name| folder.path().join(name));
-    let sheet = make_standing(&one, "--slicer prusa-slicer");
+    let make = |kit: &Path| make_standing(kit, "--slicer prusa-slicer");
+    let (sheet, _) = rayon::join(|| make(&one), || make(&two));
     let minutes = number(&sheet["print_time"]["plates"][0], "/minutes");
     assert!((30.0..600.0).contains(&minutes), "{minutes}");
     let page = fs::read_to_string(one.join("job.html")).unwrap();
     assert!(page.contains("Print time") && page.contains("PrusaSlicer 2."));
     let job = fs::read_to_string(one.join("job.toml")).unwrap();
     assert!(job.contains("version = \"PrusaSlicer 2."), "{job}");
-    make_standing(&two, "--slicer prusa-slicer");
     let again = fs::read_to_string(two.join("checklist.json")).unwrap();
     assert_eq!(
         fs::read_to_string(one.join("checklist.json")).unwrap(),

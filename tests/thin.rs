@@ -55,12 +55,12 @@ fn a_thin_antenna_breaks_a_promise_until_it_is_thickened() {
     // From half of 0.5 mm to half of a wall of 1 mm, and the bumps of the balls.
     let moved_mm = number(&sheet, "/model/thickened/moved_mm");
     assert!((0.25..0.6).contains(&moved_mm), "{moved_mm}");
-    let verified = equipoise(&["verify", path(&kit), "--model", path(&model)]);
+    let (again, job) = (folder.path().join("again"), kit.join("job.toml"));
+    let (verified, replayed) = rayon::join(
+        || equipoise(&["verify", path(&kit), "--model", path(&model)]),
+        || equipoise(&["prepare", "--job", path(&job), "--out", path(&again)]),
+    );
     assert_exit(&verified, 0);
-
-    let again = folder.path().join("again");
-    let job = kit.join("job.toml");
-    let replayed = equipoise(&["prepare", "--job", path(&job), "--out", path(&again)]);
     assert_exit(&replayed, 0);
     let parts = |kit: &Path| fs::read(kit.join("SHA256SUMS")).unwrap();
     assert!(

@@ -192,8 +192,8 @@ fn a_top_spins_on_the_advised_contact_and_on_none_that_is_nearer() {
         panic!("no contact")
     };
     let (asked, radius) = (Point::from(asked), SHORT * remedy.amount.unwrap());
-    for i in 0..36 {
-        let (sin, cos) = (f64::from(i) * 10.0).to_radians().sin_cos();
+    for i in 0..12 {
+        let (sin, cos) = (f64::from(i) * 30.0).to_radians().sin_cos();
         let at = asked + Vector::new(cos, sin, 0.0) * radius;
         let request = Request {
             contact: Some(Contact::At(at.into())),
@@ -215,8 +215,8 @@ fn a_yoyo_spins_about_the_advised_axis_and_about_none_that_is_nearer() {
     let tilt = up.direction().unwrap().angle(&asked);
     assert!((tilt.to_degrees() - remedy.amount.unwrap()).abs() < 0.02);
     let frame = Frame::with_axis(Point::origin(), &asked);
-    for i in 0..24 {
-        let (sin, cos) = (f64::from(i) * 15.0).to_radians().sin_cos();
+    for i in 0..12 {
+        let (sin, cos) = (f64::from(i) * 30.0).to_radians().sin_cos();
         let aside = (SHORT * tilt).sin();
         let nearer =
             frame.direction_to_model(&Vector::new(aside * cos, aside * sin, (SHORT * tilt).cos()));
@@ -250,7 +250,7 @@ fn a_yoyo_about_a_point_out_of_reach_is_advised_one_within() {
     let Some(SpinPoint::At(asked)) = away.spin_point else {
         panic!("no point")
     };
-    for direction in directions::lattice(40) {
+    for direction in directions::lattice(20) {
         let at = Point::from(asked) + direction * SHORT * remedy.amount.unwrap();
         let request = Request {
             spin_point: Some(SpinPoint::At(at.into())),

@@ -10,12 +10,17 @@ use super::prepare::{PrepareError, print_impossible};
 use super::signals::Stop;
 use super::voice::Voice;
 use crate::base::setting::{Key, Setting};
+use crate::base::units::format_count;
 use crate::base::verdict::Verdict;
 use crate::base::watch::Watch;
 use crate::error::Error;
 use crate::kit::{Existing, PLANS_FILE};
 use crate::prepare::Impossible;
 use crate::prepare::plans::{PlanChoice, Plans, SeamRow, figure_words, plans};
+
+/// Share of the figure by which the first plan may be worse than the best and is still proposed.
+/// Its seams are hidden, which costs some of the figure.
+const FAR_RATIO: f64 = 0.15;
 
 /// Finds plans and writes them, unless `stop` is pressed before; prints what each reaches.
 pub fn cuts(
@@ -84,26 +89,38 @@ fn print(
     }
     let page = request.out.join(PLANS_FILE);
     writeln!(out, "pictures      {}", page.display())?;
-    writeln!(out, "to choose     {}", to_choose(request))?;
+    writeln!(out, "to choose     {}", to_choose(plans, request))?;
     Ok(())
 }
 
-/// Returns the command that makes a kit by the first plan.
-fn to_choose(request: &Request) -> String {
-    let typed: Vec<String> = std::env::args().collect();
-    let plan = request.out.join("plan1.toml");
+/// Returns the first plan, or the best if the first is far from it.
+fn proposed(choices: &[PlanChoice]) -> Option<&PlanChoice> {
+    let first = choices.first().filter(|plan| plan.loss_ratio <= FAR_RATIO);
+    let best = || {
+        let choices = choices.iter();
+        choices.min_by(|a, b| a.loss_ratio.total_cmp(&b.loss_ratio))
+    };
+    first.or_else(best)
+}
+
+/// Returns the command that makes a kit by the plan that is proposed.
+fn to_choose(plans: &Plans, request: &Request) -> String {
+    let Some(chosen) = proposed(&plans.plans) else {
+        return command_for_plan(&request.job);
+    };
+    let plan = request.out.join(&chosen.file);
     let plan = flag(&Setting::new(Key::Plan, quoted(&plan.to_string_lossy())));
-    again(&typed, "prepare", &plan).unwrap_or_else(|| command_for_plan(&request.job))
+    again(&request.typed, "prepare", &plan).unwrap_or_else(|| command_for_plan(&request.job))
 }
 
 /// Returns the lines on a plan.
 fn words(plan: &PlanChoice) -> String {
     let head = format!(
-        "{}    {}; {} parts, {} pins; {}\n",
+        "{}    {}; {}, {}; {}\n",
         plan.file,
         plan.tendency,
-        plan.parts,
-        plan.pins,
+        format_count(plan.parts, "part"),
+        format_count(plan.pins, "pin"),
         figure_words(plan)
     );
     let seam = |row: &SeamRow| {
@@ -113,4 +130,36 @@ fn words(plan: &PlanChoice) -> String {
         )
     };
     head + &plan.seams.iter().map(seam).collect::<String>()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::hollow::Figure;
+
+    #[test]
+    fn the_usual_plan_is_proposed_unless_it_is_far_from_the_best() {
+        let choice = |file: &str, loss_ratio: f64| PlanChoice {
+            file: file.to_owned(),
+            tendency: "the usual plan".to_owned(),
+            figure: Figure::TopplingAngleRad,
+            value: 0.1,
+            loss_ratio,
+            parts: 2,
+            pins: 2,
+            joints_without_pins: 0,
+            seams: Vec::new(),
+            offers: Vec::new(),
+        };
+        let file_of = |losses: [f64; 2]| {
+            let choices = [
+                choice("plan1.toml", losses[0]),
+                choice("plan2.toml", losses[1]),
+            ];
+            proposed(&choices).map(|plan| plan.file.clone())
+        };
+        assert_eq!(file_of([0.1, 0.0]).as_deref(), Some("plan1.toml"));
+        assert_eq!(file_of([0.84, 0.0]).as_deref(), Some("plan2.toml"));
+        assert!(proposed(&[]).is_none());
+    }
 }

@@ -180,7 +180,9 @@ fn print_prepared(
     if let Some(choice) = &checklist.goal.choice {
         writeln!(out, "{}", with_flags(choice))?;
     }
-    write!(out, "{}", ten_lines(checklist, &request.out, voice.manner))?;
+    write!(out, "{}", ten_lines(checklist, request, voice.manner))?;
+    // The slicer takes its time: what is known is shown before.
+    out.flush()?;
     if let Some(line) = print_time(prepared, request, voice) {
         write!(out, "{line}")?;
     }

@@ -1,7 +1,7 @@
 //! The print time of a kit, as the slicer that is installed states it.
 
 use super::args::Request;
-use super::show::table;
+use super::show::{say, table};
 use super::voice::Voice;
 use crate::base::watch::Watch;
 use crate::prepare::{Prepared, time_kit};
@@ -17,6 +17,7 @@ pub fn print_time(prepared: &Prepared, request: &Request, voice: Voice) -> Optio
     if !is_asked || !voice.manner.is_terminal {
         return None;
     }
+    say("asking the slicer for the print time, which may take a minute");
     let row = time_kit(&request.job, &prepared.kit, &Watch::silent())?;
     let line = [PRINT_TIME.to_owned(), print_time_words(&row)];
     Some(table(&[line]).replace('\u{a0}', " "))

@@ -1,9 +1,7 @@
 //! The result of `prepare` for a person: ten lines, or with `-v` every check and the solver's
 //! steps.
 
-use std::path::Path;
-
-use super::args::again;
+use super::args::{Request, again};
 use super::bars::words as stage_name;
 use super::flags::{OTHER_PLANS, with_flags};
 use super::print_time::{PRINT_TIME, print_time_words};
@@ -23,12 +21,12 @@ const MIN_SHOWN_OFFSET: f64 = 0.001;
 const STEP_NUMBERS: [&str; 4] = ["passes", "value", "bound", "residual"];
 
 /// Returns the kit in ten lines, and below them the broken promises in full.
-pub fn ten_lines(checklist: &Checklist, out: &Path, manner: Manner) -> String {
+pub fn ten_lines(checklist: &Checklist, request: &Request, manner: Manner) -> String {
     let lines = [
         Some(("what it does", deed(checklist))),
         Some(("if solid", solid_words(checklist))),
         Some(("how good", bound_words(checklist))),
-        shortfall_words(checklist).map(|words| ("short of best", words)),
+        shortfall_words(checklist, &request.typed).map(|words| ("short of best", words)),
         balance(checklist).map(|words| ("balance", words)),
         Some((
             "mass, size",
@@ -46,7 +44,10 @@ pub fn ten_lines(checklist: &Checklist, out: &Path, manner: Manner) -> String {
             .timing_s
             .as_ref()
             .map(|timing| ("time", times(timing.total_s(), &timing.0))),
-        Some(("job sheet", out.join(SHEET_FILE).display().to_string())),
+        Some((
+            "job sheet",
+            request.out.join(SHEET_FILE).display().to_string(),
+        )),
     ];
     let rows: Vec<[String; 2]> = lines
         .into_iter()
@@ -118,7 +119,7 @@ fn bound_words(checklist: &Checklist) -> String {
 
 /// Returns what took a tenth or more of the best figure, and what to try; `None` if the kit is
 /// nearer to it.
-fn shortfall_words(checklist: &Checklist) -> Option<String> {
+fn shortfall_words(checklist: &Checklist, typed: &[String]) -> Option<String> {
     let words = shortfall(checklist)?;
     let has = |taker: Taker| {
         let taken = checklist
@@ -126,15 +127,14 @@ fn shortfall_words(checklist: &Checklist) -> Option<String> {
             .map_or(Vec::new(), |short| short.taken);
         taken.iter().any(|taken| taken.by == taker)
     };
-    let plans =
-        has(Taker::Cleaning).then(|| format!(" Other plans with their figures: {}", other_plans()));
+    let plans = has(Taker::Cleaning)
+        .then(|| format!(" Other plans with their figures: {}", other_plans(typed)));
     Some(words + &plans.unwrap_or_default())
 }
 
 /// Returns the command that writes other plans of the same job.
-fn other_plans() -> String {
-    let typed: Vec<String> = std::env::args().collect();
-    again(&typed, "cuts", "").unwrap_or_else(|| OTHER_PLANS.to_owned())
+fn other_plans(typed: &[String]) -> String {
+    again(typed, "cuts", "").unwrap_or_else(|| OTHER_PLANS.to_owned())
 }
 
 fn balance(checklist: &Checklist) -> Option<String> {

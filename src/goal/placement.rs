@@ -140,7 +140,7 @@ pub enum Warning {
     AxisMissesModel,
     /// A part of the model lies lower than the contact.
     #[error(
-        "the model reaches {depth_mm:.1} mm below the contact point and will touch a flat floor \
+        "the model reaches {depth_mm:.1} mm below its contact point: it would touch the floor there \
          first"
     )]
     BelowContact {

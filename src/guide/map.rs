@@ -15,7 +15,7 @@
 //! | What is tried if the goal cannot be met? | `remedies` in `prepare/advise.rs`; the trials are in `advice/remedy.rs` |
 //! | Which cut is better than another, and by how much? | `penalty` and `Term` in `cut/planner/score.rs` |
 //! | What of a seam is seen, and what does it cost? | `look` in `cut/seam/look.rs` weighs the outside, `Skin` in `cut/seam/skin.rs` prices a seam |
-//! | When does a plan give way to one with hidden seams? | `hide_seams` in `open/ladder/preferences.rs`, within `seam_loss_ratio` of `run/policy.rs` |
+//! | When does a plan give way to one with hidden seams? | `hide_seams` in `open/ladder/hidden.rs`, within `seam_loss_ratio` of `run/policy.rs` |
 //! | Where is the pin's diameter decided? | `size_pairs` in `cut/joints/pin_size.rs`, from the profile by `cut/for_printer.rs` |
 //! | What happens if no cut opens a void? | `Obstacle::Unopenable` of `cut/planner/search.rs` makes `open/clean.rs` keep the void solid and solve again |
 //! | On what are plans compared, and on what are they built? | `open/search.rs` climbs on a coarse copy of the body (`open/proxy.rs`); `open/build.rs` builds what it finds |

@@ -1,10 +1,11 @@
 //! The ladder: rungs are tried in order until one gives every joint its pins; the best are kept.
 
+mod fewer;
+mod hidden;
 mod joined;
-mod preferences;
 mod rungs;
 
-use joined::Joined;
+use joined::{Fewer, Joined};
 
 use super::aligned::count_unaligned_of;
 use super::bosses::{Bossed, add_bosses};
@@ -158,8 +159,15 @@ impl<'a> Ladder<'a> {
     fn place_pins(&mut self, drafted: Way<'a>) -> Result<(Way<'a>, Way<'a>), Error> {
         let Joined { walls, fewer } = self.join_parts(drafted)?;
         let usual = self.add_bosses(walls.clone(), Rung::Bosses)?;
-        match fewer {
-            Some(fewer) => self.weigh_fewer_parts((usual, walls), fewer),
+        let (usual, walls) = match fewer {
+            Some(fewer) => self.weigh_fewer_parts((usual, walls), fewer)?,
+            None => (usual, walls),
+        };
+        match self.draft_fewest_parts(&usual)? {
+            Some(draft) => {
+                let is_as_good = false;
+                self.weigh_fewer_parts((usual, walls), Fewer { draft, is_as_good })
+            }
             None => Ok((usual, walls)),
         }
     }

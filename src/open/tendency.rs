@@ -11,13 +11,30 @@ const SAME_NORMAL: f64 = 2e-3;
 /// Score of a part beyond two where few are wanted: as much as a seam half around the model.
 const FEW_PARTS_WEIGHT: f64 = 1.5;
 
+/// Weight of walls without sight where few parts are wanted and seams are looked at. A part then
+/// weighs as much as a third of all walls. A neck that leaves some of a void solid is cut in place
+/// of a body and two arms.
+const FEW_PARTS_LACK_WEIGHT: f64 = 4.0;
+
+/// Returns a request of which each part costs more, and no extra cut is made. What stays solid
+/// weighs as much as before.
+pub fn with_fewer_parts(request: PlanRequest) -> PlanRequest {
+    PlanRequest {
+        worth_ratio: 1.0,
+        part_weight: FEW_PARTS_WEIGHT,
+        ..request
+    }
+}
+
 /// Returns a request with a tendency.
 pub fn lean(mut request: PlanRequest, tendency: Tendency) -> PlanRequest {
     let seams = &mut request.seams;
     match tendency {
         Tendency::FewerParts => {
-            request.worth_ratio = 1.0;
-            request.part_weight = FEW_PARTS_WEIGHT;
+            if seams.skin.is_some() {
+                seams.lack_weight = Some(FEW_PARTS_LACK_WEIGHT);
+            }
+            return with_fewer_parts(request);
         }
         Tendency::Level => seams.only_level = true,
         Tendency::Short => *seams = seams.unseen(),

@@ -108,12 +108,17 @@ impl<'a> Apart<'a> {
         Draft {
             file: "pictures/parts.svg".to_owned(),
             role: Role::Exploded,
-            caption: "The parts drawn apart along the cuts. Dashed lines show where each pin goes; a dashed leader ends at something hidden. N: pins, H: hardware, B: ballast."
-                .to_owned(),
+            caption: caption(promised),
             alt: alt_text(promised),
             shot: Shot {
                 scene: Scene {
-                    items: self.parts.iter().zip(&self.shifts).enumerate().map(item).collect(),
+                    items: self
+                        .parts
+                        .iter()
+                        .zip(&self.shifts)
+                        .enumerate()
+                        .map(item)
+                        .collect(),
                     cut: None,
                 },
                 camera: Camera::new(self.toward_viewer(frame), frame.axis()).with_label_margins(),
@@ -176,6 +181,16 @@ impl<'a> Apart<'a> {
             Label::At(tip, pin.id.clone()),
         ])
     }
+}
+
+/// Words what the picture shows.
+fn caption(promised: &[PromisedPart]) -> String {
+    let pins = if pins_by_part(promised).next().is_some() {
+        " Dashed lines show where each pin (N) goes."
+    } else {
+        ""
+    };
+    format!("The parts drawn apart along the cuts.{pins}")
 }
 
 /// Describes the picture in words.

@@ -79,6 +79,7 @@ fn facts(sheet: &Checklist) -> Markup {
                 }
             }
             tr { th scope="row" { "Wall" } td { (words::wall(&sheet.wall)) } }
+            @for offer in &sheet.offers { tr { th scope="row" { "Other plan" } td { (sentence(offer)) } } }
         }
     }
 }

@@ -8,6 +8,7 @@ use super::inputs::PageInputs;
 use super::job_id::JobId;
 use super::running::{code, on_screen};
 use super::steps::step_names;
+use super::tools::you_need;
 use super::words;
 use crate::base::numbers::{measured, measured_extent, number};
 use crate::base::units::format_count;
@@ -37,7 +38,6 @@ pub(super) fn cover(inputs: &PageInputs, job: &JobId) -> Markup {
             }
             (overview(sheet))
             (shortfall(sheet))
-            (offers(sheet))
         }
     }
 }
@@ -68,15 +68,9 @@ fn shortfall(sheet: &Checklist) -> Markup {
     }
 }
 
-fn offers(sheet: &Checklist) -> Markup {
-    html! {
-        @for offer in &sheet.offers { p class="small" { strong { "Another plan: " } (sentence(offer)) } }
-    }
-}
-
 fn facts(sheet: &Checklist) -> Markup {
     let size_mm = sheet.finished_size_mm.unwrap_or(sheet.model.size_mm);
-    let rows: [(&str, Markup); 6] = [
+    let rows: [(&str, Markup); 7] = [
         ("Size", html! { (measured_extent(&size_mm)) }),
         ("Printer", html! { (sheet.printer.name) }),
         (
@@ -86,6 +80,7 @@ fn facts(sheet: &Checklist) -> Markup {
         ("Material", html! { (sheet.material.name) }),
         ("Mass", mass(sheet)),
         ("Kit", html! { (pieces(sheet)) }),
+        ("You need", html! { (you_need(sheet)) }),
     ];
     html! {
         table class="facts" {

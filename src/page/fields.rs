@@ -5,6 +5,9 @@ use maud::{Markup, html};
 use crate::base::numbers::{number, quantity};
 use crate::sheet::{Checklist, Half, Process};
 
+/// Deviation of a sound print's mass where the profile gives none, as a share of the mass.
+const COMMON_SPREAD_RATIO: f64 = 0.03;
+
 /// Returns a line to write on.
 pub(super) fn blank() -> Markup {
     html! { span class="fill" { "\u{a0}" } }
@@ -81,6 +84,15 @@ pub(super) fn residue(process: &Process) -> &'static str {
         Process::Mjp => "wax",
         _ => "support",
     }
+}
+
+/// Returns the deviation of a sound print's mass, as a share of the mass.
+pub(super) fn spread_ratio(sheet: &Checklist) -> f64 {
+    let material = &sheet.material;
+    let known = material
+        .density_spread_ratio
+        .or(material.typical_spread_ratio);
+    known.unwrap_or(COMMON_SPREAD_RATIO)
 }
 
 #[cfg(test)]

@@ -79,6 +79,9 @@ fn jig_steps(sheet: &Checklist) -> Markup {
     }
 }
 
+/// Mass of a drop of glue, g.
+const DROP_G: f64 = 0.05;
+
 /// Returns how the parts are glued, two bodies at a time.
 pub(super) fn glue(sheet: &Checklist) -> Markup {
     html! {
@@ -117,12 +120,21 @@ fn glue_words(sheet: &Checklist, glue: &GlueRow) -> Markup {
     html! {
         p {
             strong { "Glue: " } (glue.name)
-            @if mass_g > 0.0 { ", " (measured(mass_g, "g")) " in all (calculated)" }
+            @if mass_g > 0.0 { ", " (amount(mass_g)) " in all (calculated)" }
             "."
             @if let Some(seconds) = glue.hold_s { " Hold each joint for " (measured(seconds, "s")) "." }
             @if let Some(hours) = glue.cure_h { " Leave it for " (quantity(hours, "h")) " before the test." }
         }
         @if let Some(safety) = &glue.safety { p { strong { "Safety: " } (safety) } }
+    }
+}
+
+/// Words an amount of glue as somebody can give it.
+fn amount(mass_g: f64) -> String {
+    if mass_g < DROP_G {
+        "one drop".to_owned()
+    } else {
+        measured(mass_g, "g")
     }
 }
 
@@ -135,7 +147,7 @@ fn line(sheet: &Checklist, closing: &Closing) -> Markup {
             th scope="row" { "☐ " (closing.name()) }
             td data-head="Movement" { (closing.movement(sheet)) }
             td class="n" data-head="Area" { (measured(area_mm2, "mm²")) }
-            td class="n" data-head="Glue" { @if mass_g > 0.0 { (measured(mass_g, "g")) } @else { "a thin film" } }
+            td class="n" data-head="Glue" { @if mass_g > 0.0 { (amount(mass_g)) } @else { "a thin film" } }
             td data-head="Glued, clamped until" { (blank()) }
         }
     }

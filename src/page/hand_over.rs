@@ -66,6 +66,10 @@ fn customer_promise(sheet: &Checklist) -> String {
             )
         }
         (GoalKind::Yoyo, _) => "Spins steadily as a yo-yo.".to_owned(),
+        (GoalKind::Balance, _) => match sheet.goal.aim.rotor {
+            Some(order) => format!("Runs true up to {}.", measured(order.speed_rpm, "rpm")),
+            None => "Runs true on its shaft.".to_owned(),
+        },
         _ => words::promise(sheet),
     }
 }
@@ -85,7 +89,7 @@ fn use_lines(sheet: &Checklist) -> Vec<String> {
         GoalKind::Yoyo => "Tie the string around the axle, wind it up and let it fall. It runs down and up without leaning.".to_owned(),
         GoalKind::Stand => "Set it on a table. It stands on its own, with nothing to hold it.".to_owned(),
         GoalKind::Float => "Set it on water, the right way up. It floats upright and comes back when it is pushed over.".to_owned(),
-        GoalKind::Balance => "Mount it on its shaft. It runs true at the speed it was balanced for.".to_owned(),
+        GoalKind::Balance => "Mount it on its shaft. It is balanced: drill nothing into it and stick nothing to it.".to_owned(),
     };
     vec![line]
 }

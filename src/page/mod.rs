@@ -40,6 +40,7 @@ mod telescope_album;
 mod telescope_proof;
 #[cfg(test)]
 mod tests;
+mod tools;
 mod trials;
 mod view;
 mod viewpoint;

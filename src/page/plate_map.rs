@@ -19,7 +19,7 @@ const SIZE_PX: [usize; 2] = [720, 560];
 /// Height of words, pixels: 10 points at half the width of an A4 page.
 const TEXT_PX: f64 = 30.0;
 /// Shares of the picture left free for names: at the sides, and above and below.
-const MARGIN_RATIO: [f64; 2] = [0.14, 0.09];
+const MARGIN_RATIO: [f64; 2] = [0.14, 0.13];
 /// Distance of the drawn plate below what lies on it, mm.
 const BELOW_MM: f64 = 0.05;
 /// Distance of the plate's sizes from its edges, pixels.

@@ -9,11 +9,15 @@ use super::hardware::bar;
 use super::support;
 use crate::base::numbers::{measured, measured_extent, quantity};
 use crate::base::units::MM3_PER_CM3;
+use crate::mesh::{BRIM_MM, GOOD_FOOT_MM2};
 use crate::sheet::{Checklist, PartRow, Process};
 
 /// Least volume of a cup that gets a warning, mm³: a smaller one, such as a socket or a letter,
 /// drains and causes no suction.
 const LEAST_CUP_MM3: f64 = 150.0;
+
+/// Area of a foot that is hardly more than a point, mm²: a few lines of filament.
+const POINT_MM2: f64 = 10.0;
 
 /// Returns the step in which the parts are printed, with a card for every part.
 pub(super) fn print_step(sheet: &Checklist, pictures: &[Picture]) -> Markup {
@@ -24,7 +28,7 @@ pub(super) fn print_step(sheet: &Checklist, pictures: &[Picture]) -> Markup {
                 li { strong { "Solid, 100 % infill: " } (solid(sheet)) }
                 li { strong { "Support: " } (support::of_all(sheet)) }
                 @if sheet.printer.process == Process::Fdm {
-                    li { strong { "Brim: " } "in the 3MF files, on parts that stand on a small spot. Add one if you load STL files, and cut it off flush." }
+                    li { strong { "Brim: " } "in the 3MF files, on the parts marked below. Add it if you load STL files. Cut it off flush." }
                 }
                 @if sheet.printer.build_volume_mm.is_none() {
                     li { strong { "Room: " } "the build volume of this printer is not known; check by hand that every part fits." }
@@ -45,7 +49,12 @@ pub(super) fn print_step(sheet: &Checklist, pictures: &[Picture]) -> Markup {
 fn jigs(sheet: &Checklist) -> Markup {
     html! {
         @if !sheet.jigs.is_empty() {
-            p { "Tools to print as well, of any material. Each lies as in its file and needs no support; its mass does not matter:" }
+            p {
+                "Tools to print as well, of any material. Each lies as in its file and needs no support; its mass does not matter."
+                @if !sheet.plates.is_empty() && sheet.printer.process != Process::Fdm {
+                    " They are on the plate too: delete them there if a cheaper printer makes them."
+                }
+            }
             ul class="ticks" {
                 @for jig in &sheet.jigs {
                     li {
@@ -97,10 +106,25 @@ fn orders(sheet: &Checklist, part: &PartRow) -> Markup {
         }
         p { (file_name(&part.file)) }
         @if let Some(words) = support::of_part(sheet, part) { p { (words) } }
+        @if let Some(words) = brim_words(part) { p { (words) } }
         @if !part.drains_over.is_empty() {
             p { "Drain: hold cut face " (part.drains_over.join(" or ")) " down over the vat until no resin drips, then wash." }
         }
     }
+}
+
+/// Words the brim that holds a part on the plate; `None` if its foot is large enough, or if the
+/// process has none.
+fn brim_words(part: &PartRow) -> Option<String> {
+    let foot_mm2 = part.support?.foot_mm2;
+    let foot = measured(foot_mm2, "mm²");
+    let brim = quantity(BRIM_MM, "mm");
+    if foot_mm2 < POINT_MM2 {
+        return Some(format!(
+            "Brim {brim}: it stands on a point ({foot}) and on its support. Do not start without the brim."
+        ));
+    }
+    (foot_mm2 < GOOD_FOOT_MM2).then(|| format!("Brim {brim}: it stands on {foot} only."))
 }
 
 /// Returns the files to load into the slicer.
@@ -208,6 +232,7 @@ pub fn cup_warning(sheet: &Checklist) -> Option<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::sheet::SupportRow;
     use crate::testing::sample;
 
     fn page_of(change: impl Fn(&mut Checklist)) -> String {
@@ -246,6 +271,30 @@ mod tests {
         let page = page_of(|sheet| sheet.printer.build_volume_mm = None);
         assert!(
             !page.contains("plate_") && page.contains("build volume of this printer is not known")
+        );
+    }
+
+    #[test]
+    fn a_part_on_a_small_foot_gets_a_brim_and_one_on_a_point_a_word_of_warning() {
+        let mut part = sample().0.parts.remove(0);
+        assert_eq!(brim_words(&part), None);
+        let mut words = |foot_mm2: f64| {
+            let foot = SupportRow {
+                foot_mm2,
+                ..SupportRow::default()
+            };
+            part.support = Some(foot);
+            brim_words(&part)
+        };
+        assert_eq!(words(50.0), None);
+        assert_eq!(
+            words(20.0).unwrap(),
+            "Brim 5\u{a0}mm: it stands on 20\u{a0}mm² only."
+        );
+        assert!(
+            words(6.0)
+                .unwrap()
+                .contains("Do not start without the brim")
         );
     }
 

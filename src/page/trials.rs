@@ -47,7 +47,15 @@ pub(super) fn test_step(sheet: &Checklist, pictures: &[Picture]) -> Markup {
 /// Words the tests, with the figures to expect.
 fn test_lines(sheet: &Checklist) -> Vec<String> {
     let size_mm = sheet.finished_size_mm.unwrap_or(sheet.model.size_mm);
-    let size = format!("Measure its overall size: {}.", measured_extent(&size_mm));
+    let within = sheet.size_tolerance_mm.map(|mm| {
+        let mm = measured(mm, "mm");
+        format!(", each within {mm}")
+    });
+    let size = format!(
+        "Measure its overall size: {}{}.",
+        measured_extent(&size_mm),
+        within.unwrap_or_default()
+    );
     let own = match sheet.goal.aim.kind {
         GoalKind::Top => top_lines(sheet),
         GoalKind::Yoyo => yoyo_lines(sheet),
@@ -218,8 +226,9 @@ fn rotor_lines(sheet: &Checklist) -> Vec<String> {
             measured(order.speed_rpm, "rpm")
         )
     });
-    [level_line(&sheet.goal.turns_on)]
+    ream_line(sheet)
         .into_iter()
+        .chain([level_line(&sheet.goal.turns_on)])
         .chain(residual)
         .collect()
 }
@@ -228,6 +237,16 @@ fn rotor_lines(sheet: &Checklist) -> Vec<String> {
 fn allowed_g_mm(order: &RotorOrder, mass_g: f64) -> f64 {
     let omega_rad_s = order.speed_rpm * std::f64::consts::TAU / S_PER_MIN;
     0.5 * mass_g * order.grade_mm_s / omega_rad_s
+}
+
+/// Words how a bore is made round where seams cross it; `None` without a bore or a seam.
+fn ream_line(sheet: &Checklist) -> Option<String> {
+    let shaft = sheet.goal.turns_on.first()?;
+    let is_crossed = shaft.kind != ShaftKind::ShaftEnd && !sheet.joints.is_empty();
+    is_crossed.then(|| {
+        let diameter = measured(shaft.diameter_mm, "mm");
+        format!("Where a seam runs in the bore, take off glue and steps: ream it to {diameter}.")
+    })
 }
 
 /// Words the test of a rotor on knife edges: any position must be one of rest.

@@ -2,7 +2,7 @@
 
 use maud::{Markup, html};
 
-use super::fields::{blank, mass_of_parts_g, residue};
+use super::fields::{blank, mass_of_parts_g, residue, spread_ratio};
 use super::hardware::word;
 use crate::base::numbers::measured;
 use crate::base::units::MM3_PER_CM3;
@@ -10,9 +10,6 @@ use crate::sheet::Checklist;
 
 /// Least difference that a scale in a shop shows, g.
 const SCALE_G: f64 = 0.1;
-
-/// Deviation of a sound print's mass where the profile gives none, as a share of the mass.
-const COMMON_SPREAD_RATIO: f64 = 0.03;
 
 /// Least distance of a share from its limits, in per cent: what rounding leaves.
 const LEAST_SHARE_PERCENT: f64 = 0.1;
@@ -73,15 +70,6 @@ fn weigh_line(sheet: &Checklist, id: &str, mass_g: f64) -> Markup {
 /// have the same.
 fn is_by_share(sheet: &Checklist) -> bool {
     sheet.material.density_spread_ratio.is_none() && sheet.parts.len() > 1
-}
-
-/// Returns the deviation of a sound print's mass, as a share of the mass.
-fn spread_ratio(sheet: &Checklist) -> f64 {
-    let material = &sheet.material;
-    let known = material
-        .density_spread_ratio
-        .or(material.typical_spread_ratio);
-    known.unwrap_or(COMMON_SPREAD_RATIO)
 }
 
 /// Words the least and the greatest share of a sound part.

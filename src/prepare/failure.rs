@@ -3,8 +3,8 @@
 use super::advise::case;
 use super::hints::{can_thicken, hint};
 use super::outcome::{Failure, Prepared};
+use super::reason::{is_out_of_reach, reason};
 use crate::advice::{self, Kind, Remedy};
-use crate::base::numbers::quantity;
 use crate::base::setting::{Key, Setting};
 use crate::base::watch::{Cancelled, Phase, Watch};
 use crate::error::Error;
@@ -40,7 +40,7 @@ pub fn on_failure(placed: &Placed, prepared: Prepared, watch: &Watch) -> Result<
     let failure = Failure {
         reason: reason(&prepared, &broken),
         hints,
-        remedies: if falls_over {
+        remedies: if falls_over && is_out_of_reach(&prepared, &broken) {
             firmer(placed, watch)?
         } else {
             Vec::new()
@@ -82,56 +82,6 @@ fn smaller_promise(broken: &Check) -> Option<String> {
     let kept_deg = (broken.value? * PROMISES_PER_DEG).floor() / PROMISES_PER_DEG;
     let setting = Setting::new(key, kept_deg);
     (kept_deg > 0.0).then(|| format!("promise no more than it keeps (`{setting}`)"))
-}
-
-/// Explains what the goal could have reached, and what the parts keep of it.
-fn reason(prepared: &Prepared, broken: &[&Check]) -> String {
-    let proof = &prepared.checklist.certificate;
-    let names: Vec<String> = broken.iter().map(|check| check.kind.to_string()).collect();
-    let unit = proof.figure.unit();
-    let shaky = broken.iter().find(|check| {
-        check.kind == CheckKind::Standing
-            && proof.figure == FigureName::TopplesDeg
-            && !check.comparison.holds(proof.bound, check.limit)
-    });
-    if let Some(check) = shaky {
-        return format!(
-            "it topples too early: no hollowing with this wall reaches more than {}, and {} are promised",
-            quantity(proof.bound, unit),
-            quantity(check.limit, unit)
-        );
-    }
-    let is_far = broken
-        .iter()
-        .any(|check| follows_from_hollowing(&check.kind));
-    match proof.written_value.filter(|_| is_far) {
-        Some(written) => format!(
-            "the kit breaks {}: the best void there is reaches a {} of {}, and of that the parts that can be made keep {}; what \
-             pins, cuts and cleaning take is more than there is to spare",
-            names.join(", "),
-            proof.figure.name(),
-            quantity(proof.bound, unit),
-            quantity(written, unit)
-        ),
-        None => format!("the kit breaks {}", names.join(", ")),
-    }
-}
-
-/// Returns true if what pins, cuts and cleaning take can break this promise.
-fn follows_from_hollowing(kind: &CheckKind) -> bool {
-    matches!(
-        kind,
-        CheckKind::AxisOffset
-            | CheckKind::AxisTilt
-            | CheckKind::Dominance
-            | CheckKind::Standing
-            | CheckKind::Waterline
-            | CheckKind::Upright
-            | CheckKind::Stability
-            | CheckKind::Righting
-            | CheckKind::BalanceQuality
-            | CheckKind::PromisedFigure { .. }
-    )
 }
 
 /// Returns the request that a hint for a broken check calls for; `None` if the hint changes none.
@@ -195,18 +145,4 @@ fn firmer(placed: &Placed, watch: &Watch) -> Result<Vec<Remedy>, Cancelled> {
     // Ballast is laid in only where nothing stands at all.
     let is_firmer = |remedy: &Remedy| remedy.kind != Kind::LeastBallast && remedy.helps();
     Ok(found.filter(is_firmer).collect())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_thin_neck_is_not_laid_to_what_pins_and_cuts_take() {
-        assert!(!follows_from_hollowing(&CheckKind::ThinNecks));
-        assert!(!follows_from_hollowing(&CheckKind::VoidClean {
-            void: "V1".into()
-        }));
-        assert!(follows_from_hollowing(&CheckKind::Standing));
-    }
 }

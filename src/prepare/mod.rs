@@ -11,6 +11,7 @@ mod outcome;
 mod papers;
 mod place;
 pub mod plans;
+mod reason;
 mod rotor;
 mod slice;
 mod solve;

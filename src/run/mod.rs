@@ -25,6 +25,6 @@ pub use made::{Made, WrittenJig, WrittenPart};
 pub use natural::{NaturalUp, reasons};
 pub use opened::{Achieved, BossRound, CleaningRound, KeptBoss, KeptSolid, Opened, Voids};
 pub use policy::{Policy, Rung};
-pub use remark::{AxisChoice, KeptCause, Refusal, Remark, Untried};
+pub use remark::{AxisChoice, FewerFault, KeptCause, Refusal, Remark, Untried};
 pub use solved::{HeightProof, Solved};
 pub use tendency::Tendency;

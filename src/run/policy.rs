@@ -131,6 +131,8 @@ pub struct Policy {
     pub seam_loss_ratio: f64,
     /// Greatest loss for a plan with fewer parts that is taken unasked.
     pub part_loss_ratio: f64,
+    /// Greatest loss for a plan with fewer parts that is offered beside another.
+    pub offered_loss_ratio: f64,
     /// Greatest loss for a plan with fewer parts, or whose seams are seen, in place of another.
     /// All its joints are aligned, and those of the other are not.
     pub aligned_loss_ratio: f64,
@@ -207,6 +209,7 @@ impl Policy {
         loss_price: 0.5,
         seam_loss_ratio: 0.1,
         part_loss_ratio: 0.02,
+        offered_loss_ratio: 0.5,
         aligned_loss_ratio: 0.3,
         max_assemblies: 3,
         correction_rounds: 8,

@@ -51,6 +51,8 @@ pub enum Remark {
         figure: Figure,
         /// Its values in both, as planned with their pins.
         values: [f64; 2],
+        /// The reason why it was not taken, besides the figure; `None` if that alone decided.
+        fault: Option<FewerFault>,
     },
     /// Another plan hides its seams better, and was taken or not.
     Seams {
@@ -71,6 +73,30 @@ pub enum Remark {
         /// The effort that tries more.
         next: Effort,
     },
+}
+
+/// A fault of a plan with fewer parts, besides its figure.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FewerFault {
+    /// Its seams are seen more.
+    Seen,
+    /// More of its voids cannot be cleaned and stay solid.
+    Unclean,
+    /// So many of its joints get neither pins nor a jig.
+    Loose(usize),
+}
+
+impl fmt::Display for FewerFault {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        match self {
+            Self::Seen => f.write_str("its seams are seen more"),
+            Self::Unclean => f.write_str("not all of its voids can be cleaned"),
+            Self::Loose(joints) => {
+                let joints = format_count(*joints, "joint");
+                write!(f, "neither pins nor a jig align {joints} of it")
+            }
+        }
+    }
 }
 
 /// What a search did not try, as its work was spent.
@@ -150,6 +176,7 @@ impl fmt::Display for Remark {
                 parts: [fewer, parts],
                 figure,
                 values,
+                fault,
             } => {
                 let figure = *figure;
                 let [then, now] = values.map(|value| Reached { figure, value });
@@ -157,7 +184,8 @@ impl fmt::Display for Remark {
                 write!(
                     f,
                     "{fewer} in place of {parts}: as planned it {then}, and this plan {now}"
-                )
+                )?;
+                fault.map_or(Ok(()), |fault| write!(f, "; but {fault}"))
             }
             Self::Seams {
                 loss_ratio,
@@ -372,6 +400,7 @@ mod tests {
             parts: [4, 5],
             figure: Figure::TopplingAngleRad,
             values: [9.6_f64, 11.0].map(f64::to_radians),
+            fault: Some(FewerFault::Loose(1)),
         };
         let words = remark.to_string();
         assert!(
@@ -380,6 +409,10 @@ mod tests {
         );
         assert!(
             words.contains("9.6°") && words.contains("this plan "),
+            "{words}"
+        );
+        assert!(
+            words.ends_with("; but neither pins nor a jig align 1 joint of it"),
             "{words}"
         );
     }

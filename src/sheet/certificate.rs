@@ -37,6 +37,19 @@ pub struct Certificate {
     pub course: Option<Course>,
 }
 
+impl Certificate {
+    /// Returns the best figure that is known to be possible with the wall: the bound, or the value
+    /// before cleaning if that is better. Ends that cannot be cleaned are kept solid after it.
+    pub fn possible(&self) -> f64 {
+        let before = self.value_before_cleaning.unwrap_or(self.bound);
+        if self.figure.more_is_better() {
+            before.max(self.bound)
+        } else {
+            before.min(self.bound)
+        }
+    }
+}
+
 /// A proof about tops with their centre of mass at any height. It holds on the printer's own
 /// columns, or on coarser ones if the lever is free too or the voids are filled.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -105,4 +118,28 @@ pub struct SpeedRow {
     pub height_mm: f64,
     /// Least speed at which it could stay upright, rpm.
     pub critical_speed_rpm: f64,
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::testing::sample;
+    use crate::verify::FigureName;
+
+    #[test]
+    fn what_cleaning_kept_solid_does_not_lower_what_is_possible() {
+        let (mut sheet, _) = sample();
+        let proof = &mut sheet.certificate;
+        let mut possible = |figure, bound, before| {
+            (proof.figure, proof.bound, proof.value_before_cleaning) = (figure, bound, before);
+            proof.possible()
+        };
+        assert_eq!(possible(FigureName::TopplesDeg, 2.0, Some(14.4)), 14.4);
+        // Nothing was kept solid: the bound holds, and the value is a little below it.
+        assert_eq!(possible(FigureName::TopplesDeg, 5.05, Some(5.0)), 5.05);
+        assert_eq!(possible(FigureName::TopplesDeg, 2.0, None), 2.0);
+        assert_eq!(
+            possible(FigureName::CriticalSpeedRpm, 879.0, Some(850.0)),
+            850.0
+        );
+    }
 }

@@ -86,6 +86,9 @@ pub struct Checklist {
     /// kits of older versions.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub finished_size_mm: Option<[f64; 3]>,
+    /// Tolerance of that extent by the printer's profile, ± mm; `None` in kits of older versions.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub size_tolerance_mm: Option<f64>,
     /// Effect of turning one half of a yo-yo against the other; `None` for a single body.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub turn: Option<TurnRow>,

@@ -79,6 +79,9 @@ pub struct SupportRow {
     pub from_mm: f64,
     /// Greatest height over the plate, mm.
     pub to_mm: f64,
+    /// Area on which the part stands on the plate, mm².
+    #[serde(default)]
+    pub foot_mm2: f64,
     /// Estimate of the support's own material, mm³.
     #[serde(default)]
     pub material_mm3: f64,

@@ -146,6 +146,7 @@ fn checklist(evidence: &Evidence, found: &Judgement) -> Checklist {
         cut_list: vec![],
         string_gap_mm: None,
         finished_size_mm: Some(finished_size_mm(&evidence.parts, &[])),
+        size_tolerance_mm: Some(0.2),
         turn: None,
         foot: None,
         ballast: Vec::new(),

@@ -146,7 +146,7 @@ impl FigureName {
             Self::TopplesDeg => "toppling angle",
             Self::CenterHeightMm => "height of the centre",
             Self::MetacentricHeightMm => "metacentric height",
-            Self::MassG => "balanced mass",
+            Self::MassG => "mass that stays",
             Self::BalanceGradeMmS => "balance grade",
         }
     }
@@ -160,7 +160,7 @@ impl FigureName {
             Self::TopplesDeg => "it stands until tilted by",
             Self::CenterHeightMm => "its centre of mass is no higher than",
             Self::MetacentricHeightMm => "it floats upright with a metacentric height of",
-            Self::MassG => "it keeps, balanced, a mass of",
+            Self::MassG => "it is balanced with a mass of",
             Self::BalanceGradeMmS => "it runs true to a balance grade of",
         }
     }

@@ -83,7 +83,13 @@ fn block() -> TriMesh {
 /// Returns the kits, made once.
 pub fn kits() -> &'static [Kit] {
     static MADE: OnceLock<Vec<Kit>> = OnceLock::new();
-    MADE.get_or_init(|| KITS.into_iter().map(make).collect())
+    MADE.get_or_init(|| {
+        // Threads of their own: those of the pool may wait for these kits.
+        std::thread::scope(|scope| {
+            let makers = KITS.map(|order| scope.spawn(move || make(order)));
+            makers.map(|maker| maker.join().unwrap()).into()
+        })
+    })
 }
 
 fn make((name, model, options): Order) -> Kit {

@@ -546,14 +546,20 @@ def smallest_wall(outer, voids):
     return float(min(distances))
 
 
+def across_both(a, b):
+    """The cross products of vectors, as numpy.cross gives them, which takes long for few rows."""
+    (ax, ay, az), (bx, by, bz) = a.T, b.T
+    return np.array([ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx]).T
+
+
 def distances(corners, origin, direction):
     """How far a ray goes until it meets each triangle; infinite where it meets none. A plane and three sides each."""
     a, ab, ac = corners[:, 0], corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
-    across = np.cross(direction, ac)
+    across = across_both(direction, ac)
     with np.errstate(divide="ignore", invalid="ignore"):
         scale = 1 / np.einsum("ij,ij->i", ab, across)
         u = np.einsum("ij,ij->i", origin - a, across) * scale
-        turned = np.cross(origin - a, ab)
+        turned = across_both(origin - a, ab)
         v, t = turned @ direction * scale, np.einsum("ij,ij->i", ac, turned) * scale
         return np.where((u >= 0) & (v >= 0) & (u + v <= 1) & (t > 0), t, np.inf)
 
@@ -810,14 +816,18 @@ def mouths_of(cavity, plane, tool):
 
 
 def in_the_way(surface, start, end):
-    """Whether any triangle of a surface (its corners, its triangles' boxes, and those met last) stands between two points."""
+    """Whether any triangle of a surface (its corners, its triangles' boxes by axes, and those met last) stands between two
+    points."""
     corners, low, high, met = surface
     length = np.linalg.norm(end - start)
     direction = (end - start) / length
     # What was in the way of one place is in the way of its neighbours.
     if met and (distances(corners[met], start, direction) < length).any():
         return True
-    near = np.flatnonzero((low <= np.maximum(start, end)).all(axis=1) & (high >= np.minimum(start, end)).all(axis=1))
+    is_near = np.ones(len(corners), bool)
+    for axis in range(3):
+        is_near &= (low[axis] <= max(start[axis], end[axis])) & (high[axis] >= min(start[axis], end[axis]))
+    near = np.flatnonzero(is_near)
     found = near[distances(corners[near], start, direction) < length]
     met[:] = [*found[:4].tolist(), *met][:LAST_MET]
     return len(found) > 0
@@ -834,7 +844,7 @@ def sight(cavity, cuts, parts, printer, rotations):
     box = cavity.bounds + np.array([[-1.0], [1.0]])
     near = [c[(c.min(axis=1) <= box[1]).all(axis=1) & (c.max(axis=1) >= box[0]).all(axis=1)] for c in parts]
     all_near, owners = np.concatenate(near), np.concatenate([np.full(len(c), i) for i, c in enumerate(near)])
-    surfaces = [(c, c.min(axis=1), c.max(axis=1), []) for c in near]
+    surfaces = [(c, c.min(axis=1).T.copy(), c.max(axis=1).T.copy(), []) for c in near]
     owner_of = owners[trimesh.proximity.closest_point(welded_soup(all_near), points)[2]]
     heights = np.array([[(p - o) @ n for o, n in planes] for p in points]).reshape(len(points), len(planes))
     index_of = {c["id"]: k for k, c in enumerate(cuts)}

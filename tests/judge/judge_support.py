@@ -35,8 +35,8 @@ NEXT_TO_NOTHING_G = 0.1
 # The first layer of part and support is at least a square as wide as the height over this, and never smaller than that, mm².
 SLENDERNESS = 5.0
 LEAST_BED_MM2 = 20.0
-# A slicer refuses a part whose own first layer is smaller, mm².
-LEAST_FOOT_MM2 = 1.0
+# A part whose own first layer is smaller stands on a point, mm²: nobody prints it so.
+LEAST_FOOT_MM2 = 10.0
 # Vertices so near a pin's cylinder belong to it, mm.
 ON_PIN_MM = 1e-3
 # A plane of the cut and a face of the part are one if they are no further apart, mm.

@@ -32,6 +32,9 @@ const FIRST: &str = "What to make";
     override_usage = USAGE
 )]
 pub struct PrepareArgs {
+    /// What was answered to questions, as it would be typed.
+    #[arg(skip)]
+    pub answered: Vec<String>,
     /// The model: an STL, OBJ, PLY or 3MF file that bounds a solid
     #[arg(value_name = "MODEL")]
     pub model: Option<PathBuf>,
@@ -233,6 +236,8 @@ pub struct Request {
     pub out: PathBuf,
     /// True if an existing folder is replaced.
     pub force: bool,
+    /// The command line that was typed, with the answers to questions.
+    pub typed: Vec<String>,
 }
 
 impl PrepareArgs {
@@ -264,12 +269,19 @@ impl PrepareArgs {
             return Err(ArgsError::Missing(missing));
         }
         let (out, force, plans) = (self.out.clone(), self.force, self.plans);
+        let typed = std::env::args_os().map(|word| word.to_string_lossy().into_owned());
+        let typed = typed.chain(self.answered.iter().cloned()).collect();
         let job = match &self.job {
             Some(path) => replay(Job::read(path)?, self.model),
             None => self.new_job()?,
         };
         let out = out.unwrap_or_else(|| default_out(&job, plans));
-        Ok(Request { job, out, force })
+        Ok(Request {
+            job,
+            out,
+            force,
+            typed,
+        })
     }
 
     fn new_job(self) -> Result<Job, ArgsError> {

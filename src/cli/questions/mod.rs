@@ -112,6 +112,7 @@ pub fn ask(mut args: PrepareArgs, printer: Option<String>) -> Result<PrepareArgs
         "\nThe same without questions:\n  {}\n",
         command(std::env::args_os().skip(1).collect(), &typed)
     ));
+    args.answered = typed;
     Ok(args)
 }
 

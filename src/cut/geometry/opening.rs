@@ -11,6 +11,8 @@ use crate::{
 pub(crate) struct Opening {
     /// Diameter of the largest disc through the narrowest mouth of the void's pieces, mm.
     pub(crate) diameter_mm: f64,
+    /// Area of all mouths, mm².
+    pub(crate) area_mm2: f64,
 }
 
 /// Greatest depth of a dimple, over half the diameter of its mouth. A dimple lies wholly in sight,
@@ -28,6 +30,7 @@ pub(crate) fn measure_opening(void: &TriMesh, plane: &Plane) -> Option<Opening> 
         return None;
     }
     Some(Opening {
+        area_mm2: section.area_mm2(),
         diameter_mm: narrowest_mouth_mm(void, plane, section),
     })
 }

@@ -66,7 +66,7 @@ impl Attempt {
     }
 
     /// Returns the share of all walls that lacks sight; 0 without voids.
-    fn lack_ratio(&self) -> f64 {
+    pub(crate) fn lack_ratio(&self) -> f64 {
         let area_mm2 = self.area_mm2();
         if area_mm2 > 0.0 {
             self.lack_mm2 / area_mm2
@@ -276,6 +276,13 @@ fn first_clean(scene: &Scene, plans: &[RankedPlan]) -> Result<Attempt, CutError>
         }
     }
     attempts.best.map_or_else(|| Attempt::new(scene, &[]), Ok)
+}
+
+/// Returns the first of some plans with which every void can be cleaned, as far as estimates tell;
+/// `None` if none is clean.
+pub(crate) fn any_clean(scene: &Scene, plans: &[RankedPlan]) -> Result<Option<Attempt>, CutError> {
+    let attempt = first_clean(scene, plans)?;
+    Ok(attempt.is_clean().then_some(attempt))
 }
 
 /// A series of plans that are measured one after another.

@@ -5,6 +5,7 @@ pub(crate) mod cover;
 pub(crate) mod draft;
 pub(crate) mod extra;
 pub(crate) mod family;
+pub(crate) mod fewer;
 pub(crate) mod layers;
 pub(crate) mod layout;
 pub(crate) mod limit;
@@ -16,6 +17,7 @@ pub(crate) mod shift;
 pub(crate) mod straighten;
 pub(crate) mod to_plan;
 pub(crate) mod turns;
+pub(crate) mod whole;
 
 #[cfg(test)]
 mod tests;
@@ -35,6 +37,7 @@ use crate::{
         planner::{
             attempt::{Attempt, cleanest},
             extra::add_extra_cuts,
+            fewer::fewer_clean_cuts,
             layers::snap_to_layers,
             layout::Layout,
             score::{Scene, burden, estimate_seam_penalty},
@@ -42,6 +45,7 @@ use crate::{
             shift::shift_to_creases,
             straighten::straighten,
             to_plan::{rename_cuts, to_plan},
+            whole::whole_parts,
         },
         remark::Remark,
         request::PlanRequest,
@@ -51,10 +55,6 @@ use crate::{
     geom::{Aabb, Plane, Point, Vector},
     mesh::{move_off_faces, move_off_vertices},
 };
-
-/// Number of plans that are cut if the best leaves a part below the least. Each takes some tenths
-/// of a second.
-const COMPARED_FOR_SIZE: usize = 6;
 
 /// Greatest number of extra cuts that make parts fit the build volume.
 const MAX_FITTING_CUTS: usize = 8;
@@ -287,6 +287,14 @@ fn opening_cuts(
     } else {
         full
     };
+    let (full, has_extra) = match fewer_clean_cuts(scene, &full, found)? {
+        Some(clean) => {
+            of_extra.clear();
+            (clean, false)
+        }
+        None => (full, has_extra),
+    };
+    let lack_ratio = full.lack_ratio();
     let layout = Layout::new(scene, full.planes, full.voids)?;
     let layout = if layout.count_small(scene) == 0 {
         notes.extend(of_extra);
@@ -294,7 +302,7 @@ fn opening_cuts(
     } else {
         let others = has_extra.then(|| best.planes.clone()).into_iter();
         let plans = others.chain(found.plans.iter().map(|plan| plan.planes.clone()));
-        match whole_parts(scene, plans.take(COMPARED_FOR_SIZE))? {
+        match whole_parts(scene, plans, lack_ratio)? {
             Some(whole) => whole,
             None => {
                 notes.extend(of_extra);
@@ -308,22 +316,6 @@ fn opening_cuts(
     };
     notes.extend(layout.tree.planes.iter().enumerate().map(score));
     Ok(layout)
-}
-
-/// Returns the first layout of some plans that has no part below the least; `None` if all have.
-/// Ends of voids that it leaves unclean are for the caller to keep solid.
-fn whole_parts(
-    scene: &Scene,
-    plans: impl Iterator<Item = Vec<Plane>>,
-) -> Result<Option<Layout>, CutError> {
-    for planes in plans {
-        let Attempt { planes, voids, .. } = Attempt::new(scene, &planes)?;
-        let layout = Layout::new(scene, planes, voids)?;
-        if layout.count_small(scene) == 0 {
-            return Ok(Some(layout));
-        }
-    }
-    Ok(None)
 }
 
 /// Returns a remark on each part that is below the least all the same.

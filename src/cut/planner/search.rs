@@ -46,6 +46,12 @@ const SMALL_VOID_RATIO: f64 = 0.25;
 /// Number of smallest covers that are compared.
 const COMPARED_COVERS: usize = 20_000;
 
+/// Number of candidates measured if none of the ranked plans lets every void be cleaned, and of the
+/// plans that are then looked at. An estimate of what a plan cleans takes some hundredths of a
+/// second.
+const FURTHER_CANDIDATES: usize = 512;
+const FURTHER_PLANS: usize = 256;
+
 /// A candidate with its measured openings.
 #[derive(Debug, Clone)]
 struct MeasuredPlane {
@@ -72,8 +78,10 @@ pub(crate) struct RankedPlan {
 pub(crate) struct Found {
     /// Plans with the same number of planes, best first.
     pub(crate) plans: Vec<RankedPlan>,
-    /// Number of candidates in the family.
-    pub(crate) family: usize,
+    /// The candidates in their turn.
+    family: Vec<Candidate>,
+    /// The voids that every plan opens.
+    all: VoidSet,
     /// Number of partial choices examined in the proof.
     pub(crate) nodes: u64,
     /// True if no plan of the family has fewer cuts.
@@ -85,7 +93,7 @@ impl Found {
     pub(crate) fn proof(&self) -> Proof {
         Proof {
             cuts: self.plans.first().map_or(0, |plan| plan.planes.len()),
-            family: self.family,
+            family: self.family.len(),
             nodes: self.nodes,
             is_proved: self.is_proved,
         }
@@ -123,9 +131,10 @@ pub(crate) fn smallest_plans(scene: &Scene) -> Result<Found, CutError> {
         ROUNDS
     };
     for round in rounds.map(|round| round.min(family.len())) {
-        let fresh = &family[measured.len().min(round)..round];
-        let fresh = fresh.par_iter().map(|candidate| measure(scene, candidate));
-        measured.extend(fresh.collect::<Result<Vec<MeasuredPlane>, Cancelled>>()?);
+        measured.extend(measure_all(
+            scene,
+            &family[measured.len().min(round)..round],
+        )?);
         let opened: Vec<VoidSet> = measured.iter().map(|e| e.opened).collect();
         best = smallest_cover(&opened, all, watch)?;
         if best
@@ -138,11 +147,40 @@ pub(crate) fn smallest_plans(scene: &Scene) -> Result<Found, CutError> {
     let cover = best.ok_or_else(|| unopenable(scene, &measured, all, is_free))?;
     Ok(Found {
         plans: rank_covers(scene, &measured, all, &cover.chosen)?,
-        family: family.len(),
         nodes: cover.nodes + bound_nodes,
         is_proved: cover.chosen.len() == least
             || (measured.len() == family.len() && cover.chosen.len() == cover.at_least),
+        family,
+        all,
     })
+}
+
+/// Returns more plans with as few planes as the ranked ones, the one that opens the largest area
+/// first: it most likely shows all. The ranked plans are not among them.
+pub(crate) fn further_plans(scene: &Scene, found: &Found) -> Result<Vec<RankedPlan>, Cancelled> {
+    let Some(known) = found.plans.first() else {
+        return Ok(Vec::new());
+    };
+    let more = found.family.len().min(FURTHER_CANDIDATES);
+    let measured = measure_all(scene, &found.family[..more])?;
+    let opened: Vec<VoidSet> = measured.iter().map(|e| e.opened).collect();
+    let size = [known.planes.len(), COMPARED_COVERS];
+    let covers = covers_of_size(&opened, found.all, size, &scene.request.watch)?;
+    let area_mm2 = |cover: &Vec<usize>| -> f64 {
+        let openings = cover.iter().flat_map(|&i| &measured[i].openings);
+        openings.flatten().map(|opening| opening.area_mm2).sum()
+    };
+    let mut covers: Vec<(f64, Vec<usize>)> =
+        covers.into_iter().map(|c| (area_mm2(&c), c)).collect();
+    covers.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let plans = covers.into_iter().map(|(_, cover)| RankedPlan {
+        planes: cover.iter().map(|&i| measured[i].plane).collect(),
+        penalty: seam_penalty(&measured, &cover),
+        lack_mm2: OnceLock::new(),
+    });
+    let is_known = |plan: &RankedPlan| found.plans.iter().any(|other| other.planes == plan.planes);
+    let fresh = plans.filter(|plan| !is_known(plan));
+    Ok(fresh.take(FURTHER_PLANS).collect())
 }
 
 /// Returns the voids that every plan opens: all of them, but where seams are weighed against what
@@ -161,6 +199,12 @@ fn needed_voids(scene: &Scene) -> VoidSet {
     };
     let needed = (0..voids.len()).filter(is_needed);
     needed.fold(0, |set, void| set | 1 << void)
+}
+
+/// Measures the openings of candidates on their sections.
+fn measure_all(scene: &Scene, family: &[Candidate]) -> Result<Vec<MeasuredPlane>, Cancelled> {
+    let measured = family.par_iter().map(|candidate| measure(scene, candidate));
+    measured.collect()
 }
 
 /// Measures the candidate's openings on its sections.
@@ -191,29 +235,13 @@ fn rank_covers(
     all: VoidSet,
     known: &[usize],
 ) -> Result<Vec<RankedPlan>, Cancelled> {
-    let voids = scene.hollowed.voids.len();
     let opened: Vec<VoidSet> = measured.iter().map(|e| e.opened).collect();
     let size = [known.len(), COMPARED_COVERS];
     let mut covers = covers_of_size(&opened, all, size, &scene.request.watch)?;
     if covers.is_empty() {
         covers.push(known.to_vec());
     }
-    // A seat's opening is wide enough or not; more width is of no use.
-    let holds_nothing = |&void: &usize| scene.hollowed.voids[void].holds.is_none();
-    let needed = (0..voids).filter(|void| all >> void & 1 == 1);
-    let empty: Vec<usize> = needed.filter(holds_nothing).collect();
-    let opening_score = |cover: &Vec<usize>| {
-        opening_penalty(scene, openings_mm(measured, cover, &empty))
-            + CROSSED_WEIGHT * count_crossed(measured, cover, voids)
-    };
-    let seam_penalty = |cover: &[usize]| -> f64 {
-        let planes = cover.iter().map(|&i| &measured[i]);
-        planes.map(|plane| plane.seam_penalty).sum()
-    };
-    let mut covers: Vec<(f64, Vec<usize>)> =
-        covers.into_iter().map(|c| (opening_score(&c), c)).collect();
-    let promise = |(opening, cover): &(f64, Vec<usize>)| opening + seam_penalty(cover);
-    covers.sort_by(|a, b| promise(a).total_cmp(&promise(b)));
+    let covers = most_promising(scene, measured, all, covers);
     let burdens = burdens_of(scene, measured, &covers)?;
     let penalty = |cover: &[usize]| {
         let cuts = cover.iter().map(|&i| burdens[i].map(|b| b.penalty(scene)));
@@ -230,6 +258,34 @@ fn rank_covers(
         lack_mm2: OnceLock::new(),
     };
     Ok(scored.iter().map(plan).collect())
+}
+
+/// Returns the estimated terms of all seams of a cover.
+fn seam_penalty(measured: &[MeasuredPlane], cover: &[usize]) -> f64 {
+    cover.iter().map(|&i| measured[i].seam_penalty).sum()
+}
+
+/// Sorts covers by promise. Returns each with the terms of its openings.
+fn most_promising(
+    scene: &Scene,
+    measured: &[MeasuredPlane],
+    all: VoidSet,
+    covers: Vec<Vec<usize>>,
+) -> Vec<(f64, Vec<usize>)> {
+    let voids = scene.hollowed.voids.len();
+    // A seat's opening is wide enough or not; more width is of no use.
+    let holds_nothing = |&void: &usize| scene.hollowed.voids[void].holds.is_none();
+    let needed = (0..voids).filter(|void| all >> void & 1 == 1);
+    let empty: Vec<usize> = needed.filter(holds_nothing).collect();
+    let opening_score = |cover: &Vec<usize>| {
+        opening_penalty(scene, openings_mm(measured, cover, &empty))
+            + CROSSED_WEIGHT * count_crossed(measured, cover, voids)
+    };
+    let mut covers: Vec<(f64, Vec<usize>)> =
+        covers.into_iter().map(|c| (opening_score(&c), c)).collect();
+    let promise = |(opening, cover): &(f64, Vec<usize>)| opening + seam_penalty(measured, cover);
+    covers.sort_by(|a, b| promise(a).total_cmp(&promise(b)));
+    covers
 }
 
 /// Counts the voids that more than one of the cover's planes meet.

@@ -5,6 +5,8 @@ use std::fmt::Write as _;
 
 use quick_xml::escape::escape;
 
+use crate::mesh::{BRIM_MM, GOOD_FOOT_MM2};
+
 /// Path of PrusaSlicer's settings; SuperSlicer reads them too.
 pub const PRUSA_PART: &str = "Metadata/Slic3r_PE_model.config";
 /// Path of the settings of Bambu Studio and OrcaSlicer.
@@ -42,16 +44,10 @@ impl Subject<'_> {
             ("brim_type", "outer_only".to_owned()),
             ("brim_width", BRIM_MM.to_string()),
         ];
-        let is_needed = self.foot_mm2 < LEAST_FOOT_MM2;
+        let is_needed = self.foot_mm2 < GOOD_FOOT_MM2;
         brim.into_iter().filter(|_| is_needed).collect()
     }
 }
-
-/// Area of a foot below which an object has a brim, mm²: a smaller one comes off the plate.
-const LEAST_FOOT_MM2: f64 = 50.0;
-
-/// Width of a brim, mm.
-const BRIM_MM: f64 = 5.0;
 
 /// A setting: its name and its value.
 type Pair = (&'static str, String);

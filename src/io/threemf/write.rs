@@ -11,7 +11,7 @@ use super::settings::{BAMBU_PART, PRUSA_PART, PrintSettings, Subject, bambu_xml,
 use super::transform::Transform;
 use crate::base::setting::{Key, Setting};
 use crate::geom::Point;
-use crate::mesh::TriMesh;
+use crate::mesh::{TriMesh, foot_area_mm2};
 use crate::repair::weld;
 
 /// A package to be written.
@@ -76,8 +76,6 @@ pub struct PackageError {
 const COLORS_ID: usize = 1;
 /// Compression level, 1 to 9. On meshes, 6 takes four times as long as 3 and saves a tenth.
 const COMPRESSION_LEVEL: i64 = 3;
-/// Height of the section that counts as the foot of an object, mm: within the first layer.
-const FOOT_MM: f64 = 0.1;
 /// The namespace of PrusaSlicer's attributes.
 const PRUSA_NAMESPACE: &str = "http://schemas.slic3r.org/3mf/2017/06";
 /// The attribute of a triangle that PrusaSlicer keeps free of support: a whole triangle (no low
@@ -120,31 +118,9 @@ impl Object {
             color,
             mesh_xml: mesh_xml(&mesh, &whole),
             triangles: whole.len(),
-            foot_mm2: foot_mm2(&mesh),
+            foot_mm2: foot_area_mm2(&mesh),
         }
     }
-}
-
-/// Returns the area of a solid's section at [`FOOT_MM`] above its lowest point, mm².
-fn foot_mm2(mesh: &TriMesh) -> f64 {
-    let at = mesh.aabb().min.z + FOOT_MM;
-    let area = mesh.iter_corners().map(|corners| {
-        let [a, b, c] = &corners;
-        let (mut up, mut down) = (None, None);
-        for [from, to] in [[a, b], [b, c], [c, a]] {
-            if (from.z < at) == (to.z < at) {
-                continue;
-            }
-            let crossing = from + (to - from) * ((at - from.z) / (to.z - from.z));
-            let end = if from.z < at { &mut up } else { &mut down };
-            *end = Some(crossing);
-        }
-        let (Some(up), Some(down)) = (up, down) else {
-            return 0.0;
-        };
-        0.5 * (up.x * down.y - up.y * down.x)
-    });
-    area.sum::<f64>().abs()
 }
 
 /// A triangle to be written.
@@ -347,20 +323,4 @@ fn archive(parts: &[(&str, String)]) -> Result<Vec<u8>, zip::result::ZipError> {
         archive.write_all(text.as_bytes())?;
     }
     Ok(archive.finish()?.into_inner())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::mesh::primitives::{ball, cylinder};
-
-    #[test]
-    fn the_foot_of_a_cylinder_is_its_base_and_that_of_a_ball_a_spot() {
-        let base_mm2 = foot_mm2(&cylinder(10.0, 30.0, 256));
-        let polygon_mm2 = 128.0 * 100.0 * (std::f64::consts::TAU / 256.0).sin();
-        assert!((base_mm2 - polygon_mm2).abs() < 1e-6, "{base_mm2}");
-        // A cap of 0.1 mm on a ball of 10 mm has a circle of π·(2·10·0.1 − 0.1²) mm².
-        let spot_mm2 = foot_mm2(&ball(&Point::origin(), 10.0, 6));
-        assert!((spot_mm2 / 6.25 - 1.0).abs() < 0.03, "{spot_mm2}");
-    }
 }

@@ -1,6 +1,9 @@
 //! A plan, and another with fewer parts that may be taken in its place.
 
+use crate::error::Error;
+use crate::open::plan::are_clean;
 use crate::open::way::Way;
+use crate::run::{FewerFault, Policy};
 
 /// A plan with its pins in the walls, and another with fewer parts beside it.
 pub(super) struct Joined<'a> {
@@ -23,4 +26,22 @@ pub(super) struct Fewer<'a> {
     pub(super) draft: Way<'a>,
     /// True if its voids are as clean and its seams as well hidden.
     pub(super) is_as_good: bool,
+}
+
+/// Returns the first fault of a plan with fewer parts, besides its figure; `None` if it has none.
+pub(super) fn fault_of(
+    few: &Way,
+    usual: &Way,
+    policy: &Policy,
+) -> Result<Option<FewerFault>, Error> {
+    let loose = few.count_unaligned()?;
+    if loose > usual.count_unaligned()? {
+        return Ok(Some(FewerFault::Loose(loose)));
+    }
+    let is_clean = |way: &Way| are_clean(&way.bossed.plan, &way.request);
+    if is_clean(usual) && !is_clean(few) {
+        return Ok(Some(FewerFault::Unclean));
+    }
+    let is_seen = few.seam_price()? > usual.seam_price()?.max(policy.dear_seam_ratio);
+    Ok(is_seen.then_some(FewerFault::Seen))
 }

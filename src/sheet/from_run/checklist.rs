@@ -29,6 +29,8 @@ pub fn checklist(facts: &Facts) -> Checklist {
     let (placed, judgement) = (facts.placed, facts.judgement);
     let parts = part_rows(facts);
     let foot = foot_row(facts);
+    let finished_mm = finished_size_mm(&facts.made.evidence(), &hardware(placed));
+    let tolerance = &placed.shop.printer.tolerance;
     Checklist {
         schema: Checklist::SCHEMA,
         tool: Tool {
@@ -64,7 +66,8 @@ pub fn checklist(facts: &Facts) -> Checklist {
         dowels: dowels(&facts.made.plan),
         cut_list: cut_list(facts),
         string_gap_mm: placed.string_gap_mm(),
-        finished_size_mm: Some(finished_size_mm(&facts.made.evidence(), &hardware(placed))),
+        finished_size_mm: Some(finished_mm),
+        size_tolerance_mm: Some(tolerance.at_mm(finished_mm.into_iter().fold(0.0, f64::max))),
         ballast: ballast_rows(facts),
         fill: fill_order(placed),
         rounds: round_rows(facts),

@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 
 use crate::geom::{Bvh, Plane, Point, Vector};
-use crate::mesh::TriMesh;
 use crate::mesh::union_find::UnionFind;
+use crate::mesh::{TriMesh, foot_area_mm2};
 use crate::poses::{Columns, Shape, Support, SupportRule};
 use crate::repair::weld;
 use crate::run::{Made, Placed, WrittenPart};
@@ -124,6 +124,7 @@ pub fn support_row(
     };
     Some(SupportRow {
         material_mm3,
+        foot_mm2: foot_area_mm2(&mesh),
         ..found
     })
 }
@@ -217,7 +218,7 @@ fn to_row(places: &BTreeMap<(u32, Side), Place>) -> SupportRow {
         cut_face_mm2: area_mm2(Side::CutFace),
         from_mm: if places.is_empty() { 0.0 } else { from_mm },
         to_mm: heights().map(|[_, high]| high).fold(0.0, f64::max),
-        material_mm3: 0.0,
+        ..SupportRow::default()
     }
 }
 

@@ -128,9 +128,10 @@ fn of_two_plans_with_their_pins_the_one_with_fewer_parts_is_taken_if_it_costs_no
     let walls = usual.clone();
     let draft = ladder.draft_fewer_parts(&usual).unwrap().unwrap();
     let parts = |way: &Way| way.bossed.plan.count_parts();
-    let weigh = |limit: f64| {
+    let weigh = |limit: f64, offered: f64| {
         let mut ladder = ladder.clone();
         ladder.policy.part_loss_ratio = limit;
+        ladder.policy.offered_loss_ratio = offered;
         let fewer = Fewer {
             draft: draft.clone(),
             is_as_good: true,
@@ -139,7 +140,9 @@ fn of_two_plans_with_their_pins_the_one_with_fewer_parts_is_taken_if_it_costs_no
         let (taken, _) = ladder.weigh_fewer_parts(both, fewer).unwrap();
         (parts(&taken), ladder.notes)
     };
-    let (dear, offers) = weigh(0.0);
+    let (_, none) = weigh(0.0, 0.0);
+    assert!(none.is_empty(), "{none:?}");
+    let (dear, offers) = weigh(0.0, 1.0);
     assert_eq!(dear, parts(&usual));
     let [
         Remark::FewerParts {
@@ -150,8 +153,19 @@ fn of_two_plans_with_their_pins_the_one_with_fewer_parts_is_taken_if_it_costs_no
         panic!("{offers:?}")
     };
     assert_eq!((few, many), (2, dear));
-    let (cheap, offers) = weigh(1.0);
+    let (cheap, offers) = weigh(1.0, 1.0);
     assert!(cheap == 2 && offers.is_empty());
+}
+
+#[test]
+fn a_plan_with_the_fewest_parts_is_sought_beside_many_and_only_there() {
+    let placed = deep_box();
+    let ladder = ladder_of(&placed);
+    let usual = usual_of(&ladder);
+    let few = ladder.draft_fewest_parts(&usual).unwrap().unwrap();
+    let parts = [&usual, &few].map(|way| way.bossed.plan.count_parts());
+    assert!(parts[0] > 2 && parts[1] == 2, "{parts:?}");
+    assert!(ladder.draft_fewest_parts(&few).unwrap().is_none());
 }
 
 #[test]

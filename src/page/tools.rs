@@ -1,0 +1,96 @@
+//! What must be at hand for the steps: tools, a scale, glue and the things of the test.
+
+use super::fields::spread_ratio;
+use crate::goal::GoalKind;
+use crate::sheet::{Checklist, Process};
+
+/// Half of a part's window of masses, g, from which a scale that shows 0.1 g tells sound parts from
+/// others.
+const COARSE_SCALE_G: f64 = 0.2;
+
+/// Returns what must be at hand, in the order of the steps.
+pub(super) fn you_need(sheet: &Checklist) -> String {
+    let glue = sheet.printer.glue.as_ref().map(|glue| glue.name.clone());
+    let glue = glue.filter(|_| !sheet.joints.is_empty());
+    let things = [
+        for_cleaning(&sheet.printer.process).map(str::to_owned),
+        Some(scale(sheet).to_owned()),
+        glue,
+        for_test(sheet.goal.aim.kind).map(str::to_owned),
+    ];
+    let things: Vec<String> = things.into_iter().flatten().collect();
+    things.join("; ")
+}
+
+/// Names the tools that clean the parts; `None` for an unknown process.
+fn for_cleaning(process: &Process) -> Option<&'static str> {
+    match process {
+        Process::Fdm => Some("cutters, pliers and a lamp for the support"),
+        Process::Sla => Some("a washing bath and a curing lamp"),
+        Process::Polyjet => Some("a water jet"),
+        Process::Mjp => Some("an oven and an oil bath for the wax"),
+        Process::Sls | Process::Mjf => Some("compressed air and brushes"),
+        Process::Other(_) => None,
+    }
+}
+
+/// Names a scale that tells sound parts from others.
+fn scale(sheet: &Checklist) -> &'static str {
+    let masses = sheet.parts.iter().map(|part| part.mass_g);
+    let least_g = masses.fold(f64::INFINITY, f64::min);
+    if spread_ratio(sheet) * least_g < COARSE_SCALE_G {
+        "a scale that shows 0.01\u{a0}g"
+    } else {
+        "a scale that shows 0.1\u{a0}g"
+    }
+}
+
+/// Names the things of the last test; `None` if hands are enough.
+fn for_test(kind: GoalKind) -> Option<&'static str> {
+    match kind {
+        GoalKind::Top => Some("a thread; a hard, smooth table"),
+        GoalKind::Yoyo => Some("a thread; a string"),
+        GoalKind::Stand => Some("a thread; a rough board of 300\u{a0}mm and a ruler"),
+        GoalKind::Float => Some("a basin deeper than the object"),
+        GoalKind::Balance => Some("two level knife edges; a balancing machine"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::sample;
+
+    #[test]
+    fn the_list_names_the_tools_of_the_process_and_of_the_test() {
+        let mut sheet = sample().0;
+        sheet.printer.process = Process::Fdm;
+        sheet.goal.aim.kind = GoalKind::Stand;
+        let said = you_need(&sheet);
+        assert!(said.starts_with("cutters, pliers and a lamp"), "{said}");
+        assert!(
+            said.contains("cyanoacrylate") && said.ends_with("a ruler"),
+            "{said}"
+        );
+        sheet.joints.clear();
+        sheet.printer.process = Process::Sls;
+        sheet.goal.aim.kind = GoalKind::Float;
+        let said = you_need(&sheet);
+        assert!(
+            said.starts_with("compressed air") && !said.contains("cyanoacrylate"),
+            "{said}"
+        );
+    }
+
+    #[test]
+    fn light_parts_need_a_finer_scale() {
+        let mut sheet = sample().0;
+        sheet.material.density_spread_ratio = Some(0.02);
+        let scale_for = |sheet: &mut Checklist, mass_g: f64| {
+            sheet.parts.iter_mut().for_each(|part| part.mass_g = mass_g);
+            scale(sheet)
+        };
+        assert!(scale_for(&mut sheet, 1.4).contains("0.01"));
+        assert!(scale_for(&mut sheet, 50.0).contains("0.1\u{a0}g"));
+    }
+}
