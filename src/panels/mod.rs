@@ -9,17 +9,20 @@
 //! * [`engraved`] writes text in strokes.
 
 mod beam;
+mod edge;
 mod engraving;
 mod fingers;
 mod nest;
 mod outline;
 mod panel;
+mod rings;
 mod set;
 
 pub use beam::{BeamError, beam_path};
+pub use edge::{BracketKind, EdgeJoint, JointStyle, PanelEdge, PanelError, PanelRequest};
 pub use engraving::engraved;
 pub use fingers::{FingerJoint, FingerSide};
 pub use nest::{NestError, NestRequest, NestedSheet, Placement, Stock, nest};
 pub use outline::Outline;
 pub use panel::{Hole, Panel};
-pub use set::{BracketKind, EdgeJoint, JointStyle, PanelEdge, PanelError, PanelRequest, PanelSet};
+pub use set::PanelSet;

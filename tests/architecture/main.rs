@@ -73,7 +73,8 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("polyhedra", &["base", "geom", "mesh"]),
     // Profiles of cutters, sheets and fasteners are data, checked as those of printers are.
     ("cutter", &["base"]),
-    // Outlines and joints are plane geometry: what is cut from which sheet is for the rooms above.
+    // Outlines and joints are plane geometry, and a polyhedron gives panels their places. The sheet
+    // is a thickness: what is cut from which one is for the rooms above.
     ("panels", &["geom", "mesh", "polyhedra"]),
     (
         "cut",

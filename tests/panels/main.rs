@@ -6,7 +6,9 @@
     reason = "a test whose input cannot be had has failed; figures are shown with --nocapture"
 )]
 
+#[path = "../common/mod.rs"]
 mod common;
+mod nests;
 
 use equipoise::base::verdict::Verdict;
 use equipoise::base::watch::Watch;
@@ -14,13 +16,12 @@ use equipoise::geom::{Plane, Point, Vector};
 use equipoise::io::read_model;
 use equipoise::mesh::{Csg, Solid, primitives};
 use equipoise::panels::{
-    BracketKind, EdgeJoint, JointStyle, NestError, NestRequest, NestedSheet, Panel, PanelError,
-    PanelRequest, PanelSet, Stock, nest,
+    BracketKind, EdgeJoint, JointStyle, Panel, PanelError, PanelRequest, PanelSet,
 };
 use equipoise::polyhedra::{Ground, Limits, Polyhedron, Request, Side, grow_polyhedron};
 use equipoise::repair::repair;
 
-/// The room beyond a finger's tip counts as none below this, mm³ (CORE §5).
+/// Bodies that overlap by less touch, mm³: what rounding leaves.
 const MOST_OVERLAP_MM3: f64 = 1e-3;
 /// The same on the way out.
 const MOST_ON_THE_WAY_MM3: f64 = 1e-2;
@@ -253,160 +254,6 @@ fn a_sheet_too_thick_and_an_edge_without_room_for_ordered_fingers_are_named() {
     let why = PanelSet::of(&body, &short).unwrap_err();
     assert!(matches!(why, PanelError::NoFingers { .. }), "{why}");
     assert!(why.to_string().contains("no room for fingers"), "{why}");
-}
-
-fn stock(length: f64, width: f64) -> Stock {
-    Stock {
-        size_mm: [length, width],
-        count: None,
-    }
-}
-
-fn nest_request(stock: Vec<Stock>) -> NestRequest {
-    NestRequest {
-        stock,
-        margin_mm: 5.0,
-        spacing_mm: 3.0,
-        keeps_grain: false,
-    }
-}
-
-/// Returns the distance of two segments that do not cross, mm.
-fn apart_mm(a: [[f64; 2]; 2], b: [[f64; 2]; 2]) -> f64 {
-    let to_segment = |p: [f64; 2], [q, r]: [[f64; 2]; 2]| {
-        let way = [r[0] - q[0], r[1] - q[1]];
-        let length = way[0] * way[0] + way[1] * way[1];
-        let share = ((p[0] - q[0]) * way[0] + (p[1] - q[1]) * way[1]) / length;
-        let share = share.clamp(0.0, 1.0);
-        (p[0] - q[0] - share * way[0]).hypot(p[1] - q[1] - share * way[1])
-    };
-    let both = [
-        to_segment(a[0], b),
-        to_segment(a[1], b),
-        to_segment(b[0], a),
-        to_segment(b[1], a),
-    ];
-    both.into_iter().fold(f64::INFINITY, f64::min)
-}
-
-/// Holds that every panel lies once on the sheets, inside the margin and with the spacing. Returns
-/// the share of the used length that is panels, of the last sheet or of all whole ones.
-fn hold_nest(panels: &[Vec<[f64; 2]>], sheets: &[NestedSheet], request: &NestRequest) -> f64 {
-    let mut seen: Vec<usize> = Vec::new();
-    let (mut used, mut filled) = (0.0, 0.0);
-    for sheet in sheets {
-        let placed: Vec<Vec<[f64; 2]>> = sheet
-            .placements
-            .iter()
-            .map(|placement| {
-                panels[placement.panel]
-                    .iter()
-                    .map(|at| placement.place(*at))
-                    .collect()
-            })
-            .collect();
-        seen.extend(sheet.placements.iter().map(|placement| placement.panel));
-        used += sheet.used_mm * sheet.size_mm[1];
-        for (index, ring) in placed.iter().enumerate() {
-            for [x, y] in ring {
-                let free = [*x, *y, sheet.size_mm[0] - x, sheet.size_mm[1] - y];
-                let least = free.into_iter().fold(f64::INFINITY, f64::min);
-                assert!(least >= request.margin_mm - 1e-6, "{least}");
-                assert!(*x <= sheet.used_mm - request.margin_mm + 1e-6);
-            }
-            let edges = |ring: &[[f64; 2]]| -> Vec<[[f64; 2]; 2]> {
-                let next = ring.iter().cycle().skip(1);
-                ring.iter().zip(next).map(|(a, b)| [*a, *b]).collect()
-            };
-            filled += 0.5
-                * edges(ring)
-                    .iter()
-                    .map(|[a, b]| a[0] * b[1] - a[1] * b[0])
-                    .sum::<f64>();
-            for other in &placed[index + 1..] {
-                for a in edges(ring) {
-                    for b in edges(other) {
-                        let apart = apart_mm(a, b);
-                        assert!(apart >= request.spacing_mm - 1e-6, "{apart}");
-                    }
-                }
-            }
-        }
-    }
-    seen.sort_unstable();
-    assert_eq!(seen, (0..panels.len()).collect::<Vec<usize>>());
-    filled / used
-}
-
-#[test]
-fn squares_are_nested_without_a_gap_and_offcuts_come_first() {
-    let square = |side: f64| vec![[0.0, 0.0], [side, 0.0], [side, side], [0.0, side]];
-    // Ten squares of 97 mm with 3 mm between them fill 5 × 2 of a sheet of 1000 × 207 mm.
-    let panels: Vec<Vec<[f64; 2]>> = (0..10).map(|_| square(97.0)).collect();
-    let request = nest_request(vec![stock(1000.0, 207.0)]);
-    let sheets = nest(&panels, &request).unwrap();
-    hold_nest(&panels, &sheets, &request);
-    assert_eq!(sheets.len(), 1);
-    assert!(
-        (sheets[0].used_mm - 507.0).abs() < 1e-6,
-        "{}",
-        sheets[0].used_mm
-    );
-    assert_eq!(sheets, nest(&panels, &request).unwrap());
-    // One of them goes on an offcut that is there once.
-    let offcut = Stock {
-        count: Some(1),
-        ..stock(110.0, 110.0)
-    };
-    let request = nest_request(vec![offcut, stock(1000.0, 207.0)]);
-    let sheets = nest(&panels, &request).unwrap();
-    hold_nest(&panels, &sheets, &request);
-    let sizes: Vec<f64> = sheets.iter().map(|sheet| sheet.size_mm[0]).collect();
-    assert_eq!(sizes, [110.0, 1000.0]);
-    assert_eq!(sheets[0].placements.len(), 1);
-}
-
-#[test]
-fn grain_keeps_panels_from_being_turned_and_too_large_panels_are_named() {
-    let bar = vec![[0.0, 0.0], [30.0, 0.0], [30.0, 300.0], [0.0, 300.0]];
-    let request = nest_request(vec![stock(400.0, 100.0)]);
-    let free = nest(&[bar.clone()], &request).unwrap();
-    hold_nest(&[bar.clone()], &free, &request);
-    let grain = NestRequest {
-        keeps_grain: true,
-        ..request.clone()
-    };
-    assert_eq!(nest(&[bar.clone()], &grain), Err(NestError::TooLarge(0)));
-    let one = Stock {
-        count: Some(1),
-        ..stock(400.0, 50.0)
-    };
-    let request = nest_request(vec![one]);
-    assert_eq!(
-        nest(&[bar.clone(), bar], &request),
-        Err(NestError::NoSheetLeft(1))
-    );
-}
-
-#[test]
-fn panels_of_a_dodecahedron_lie_on_one_sheet() {
-    let set = PanelSet::of(&regular(&dodecahedron()), &request(JointStyle::Auto)).unwrap();
-    let panels: Vec<Vec<[f64; 2]>> = set
-        .panels
-        .iter()
-        .map(|panel| panel.outline.corners().to_vec())
-        .collect();
-    let request = nest_request(vec![stock(900.0, 600.0)]);
-    let sheets = nest(&panels, &request).unwrap();
-    let share = hold_nest(&panels, &sheets, &request);
-    println!(
-        "{} sheet, {:.1} mm used, {:.1} % filled",
-        sheets.len(),
-        sheets[0].used_mm,
-        100.0 * share
-    );
-    assert_eq!(sheets.len(), 1);
-    assert!(share > 0.55, "{share}");
 }
 
 /// Models of the table and sheets of 3, 5 and 6 mm.
