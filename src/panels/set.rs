@@ -36,8 +36,9 @@ impl PanelSet {
     /// Makes the panels of a polyhedron.
     ///
     /// Each panel is its face, moved inward on all sides by the thickness and laid back on the
-    /// face's plane. Panels are then disjoint, and neighbours meet in one line, so
-    /// that all cuts are at right angles to the sheet. Where fingers of two edges would meet, the shorter edge gets brackets.
+    /// face's plane. Panels are then disjoint, and neighbours meet in one line, so that all cuts
+    /// are at right angles to the sheet. Where fingers of two edges would meet, the shorter edge
+    /// gets brackets.
     ///
     /// # Errors
     /// The sheet is too thick for a face, or an edge has no room for the fingers that were ordered.
