@@ -2,8 +2,8 @@
 //!
 //! Panels are convex but for some per cent of their area, so their convex hulls are laid out. For
 //! two hulls the places that touch are a convex polygon, their no-fit polygon. It is the sum of one
-//! and the other turned by half a turn. A hull goes to the corner or crossing of these polygons that
-//! uses the least length of the sheet. Several orders are tried, the same on every run.
+//! and the other turned by half a turn. A hull goes to the corner or crossing of these polygons
+//! that uses the least length of the sheet. Several orders are tried, the same on every run.
 
 use super::rings::{area_mm2, bounds, crossings, depth_mm, grown, no_fit_polygon, turned};
 use crate::geom::hull::convex_hull;

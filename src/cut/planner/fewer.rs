@@ -14,9 +14,9 @@ use crate::cut::{
 /// Returns a plan with as few cuts as possible that lets every void be cleaned. `None` if the
 /// ranked plans hold one, or if its cuts cost more than those of `full`.
 ///
-/// On a figure such as Homer, a cut between front and back is late among the ranked plans, and alone
-/// cleans all. It is sought only where nobody looks at seams: with hidden ones in mind, humpty got a
-/// seam through its face and stood less firmly by a fifth.
+/// On a figure such as Homer, a cut between front and back is late among the ranked plans, and
+/// alone cleans all. It is sought only where nobody looks at seams. Else humpty got a seam through
+/// its face, and stood less firmly by a fifth.
 pub(crate) fn fewer_clean_cuts(
     scene: &Scene,
     full: &Attempt,
