@@ -10,7 +10,7 @@ pub const GOOD_FOOT_MM2: f64 = 50.0;
 /// Width of the brim about a smaller foot, mm.
 pub const BRIM_MM: f64 = 5.0;
 
-/// Returns the area of a solid's section at [`FOOT_MM`] above its lowest point, mm².
+/// Returns the area of a solid's section a tenth of a millimetre above its lowest point, mm².
 pub fn foot_area_mm2(mesh: &TriMesh) -> f64 {
     let at = mesh.aabb().min.z + FOOT_MM;
     let area = mesh.iter_corners().map(|corners| {

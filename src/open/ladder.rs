@@ -165,7 +165,7 @@ impl<'a> Ladder<'a> {
         };
         match self.draft_fewest_parts(&usual)? {
             Some(draft) => {
-                let is_as_good = false;
+                let is_as_good = self.is_as_good(&draft, &usual)?;
                 self.weigh_fewer_parts((usual, walls), Fewer { draft, is_as_good })
             }
             None => Ok((usual, walls)),

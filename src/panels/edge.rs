@@ -14,13 +14,36 @@ pub enum JointStyle {
     Brackets,
 }
 
-/// The screws of brackets, mm.
+/// Width of a bracket along the edge, in diameters of the screw's head; its two screws are half of
+/// that apart.
+const BRACKET_HEADS: f64 = 4.0;
+/// Distance of a screw from the inner end of a plain edge beyond the thickness, in diameters of its
+/// head.
+const FLANGE_HEADS: f64 = 1.0;
+
+/// Brackets and their screws, mm.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BracketKind {
-    /// Diameter of the hole that the screw passes.
+    /// Diameter of the hole in a panel, which the screw passes.
     pub hole_mm: f64,
     /// Diameter of the screw's head.
     pub head_mm: f64,
+    /// Diameter of the hole in a flange, in which the screw or its insert holds.
+    pub thread_mm: f64,
+    /// Thickness of a flange.
+    pub flange_mm: f64,
+}
+
+impl BracketKind {
+    /// Returns the width of a bracket along its edge, mm.
+    pub fn width_mm(&self) -> f64 {
+        BRACKET_HEADS * self.head_mm
+    }
+
+    /// Returns the distance of a bracket's screws from its middle, along the edge, mm.
+    pub fn aside_mm(&self) -> f64 {
+        0.25 * self.width_mm()
+    }
 }
 
 /// The order for panels.
@@ -34,6 +57,18 @@ pub struct PanelRequest {
     pub press_mm: f64,
     /// The brackets.
     pub brackets: BracketKind,
+}
+
+impl PanelRequest {
+    /// Returns the distance of a bracket's screws from the plain edge of a panel, mm.
+    pub fn away_mm(&self) -> f64 {
+        FLANGE_HEADS * self.brackets.head_mm + self.sheet_mm
+    }
+
+    /// Returns the length of a bracket's flange from the plain edge of a panel, mm.
+    pub fn flange_mm(&self) -> f64 {
+        self.away_mm() + self.brackets.head_mm
+    }
 }
 
 /// The joint along an edge.
@@ -54,6 +89,8 @@ pub struct PanelEdge {
     pub ends: [Point; 2],
     /// The inner angle between the panels, radians.
     pub angle_rad: f64,
+    /// How far the joint reaches into either panel from that line, mm.
+    pub depth_mm: f64,
     /// The joint.
     pub joint: EdgeJoint,
 }

@@ -4,6 +4,12 @@
 const WIDTH: f64 = 0.5;
 const PITCH: f64 = 0.75;
 
+/// Returns the width of a text, mm.
+pub fn width_mm(text: &str, height_mm: f64) -> f64 {
+    let gaps = text.chars().count().saturating_sub(1);
+    height_mm * (WIDTH + PITCH * gaps as f64)
+}
+
 /// Returns the strokes of a text with its lower left corner at a place, mm; each is a line of two
 /// or more points. Characters look as on a display of seven strokes; others are left out.
 pub fn engraved(text: &str, at_mm: [f64; 2], height_mm: f64) -> Vec<Vec<[f64; 2]>> {

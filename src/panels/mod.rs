@@ -5,13 +5,16 @@
 //! * [`beam_path`] offsets an outline by half the kerf, with reliefs in inner corners.
 //! * [`FingerJoint`] joins two panels along an edge at any angle.
 //! * [`PanelSet`] makes the panels of a polyhedron, with the joints along its edges.
-//! * [`nest`] lays panels on sheets.
+//! * [`Bracket`] holds two panels from inside, where fingers do not.
+//! * [`nest`] lays panels on sheets, and [`SheetLines`] are what is cut and engraved there.
 //! * [`engraved`] writes text in strokes.
 
 mod beam;
+mod bracket;
 mod edge;
 mod engraving;
 mod fingers;
+mod lines;
 mod nest;
 mod outline;
 mod panel;
@@ -19,9 +22,11 @@ mod rings;
 mod set;
 
 pub use beam::{BeamError, beam_path};
+pub use bracket::Bracket;
 pub use edge::{BracketKind, EdgeJoint, JointStyle, PanelEdge, PanelError, PanelRequest};
 pub use engraving::engraved;
 pub use fingers::{FingerJoint, FingerSide};
+pub use lines::{LineOrder, SheetLines};
 pub use nest::{NestError, NestRequest, NestedSheet, Placement, Stock, nest};
 pub use outline::Outline;
 pub use panel::{Hole, Panel};

@@ -2,7 +2,7 @@
 
 use super::Outline;
 use crate::geom::{Frame, Point};
-use crate::mesh::{MeshError, TriMesh};
+use crate::mesh::TriMesh;
 
 /// A round hole through a panel.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -37,25 +37,8 @@ impl Panel {
     }
 
     /// Returns the panel as a body in its place in the model, without its holes.
-    ///
-    /// # Errors
-    /// The outline crosses itself, so that no triangles fill it.
-    pub fn body(&self) -> Result<TriMesh, MeshError> {
-        let corners = self.outline.corners();
-        let count = corners.len() as u32;
-        let on = |depth: f64| corners.iter().map(move |at| self.at(*at, depth));
-        let points: Vec<Point> = on(0.0).chain(on(1.0)).collect();
-        let mut triangles = Vec::new();
-        for [a, b, c] in fill(corners) {
-            triangles.push([a, b, c]);
-            triangles.push([count + a, count + c, count + b]);
-        }
-        for from in 0..count {
-            let to = (from + 1) % count;
-            triangles.push([from, count + from, count + to]);
-            triangles.push([from, count + to, to]);
-        }
-        TriMesh::new(points, triangles)
+    pub fn body(&self) -> TriMesh {
+        prism(self.outline.corners(), |at, depth| self.at(at, depth))
     }
 
     /// Returns the volume with its holes, mm³.
@@ -64,6 +47,25 @@ impl Panel {
         let holes_mm2: f64 = self.holes.iter().map(hole).sum();
         (self.outline.area_mm2() - holes_mm2) * self.sheet_mm
     }
+}
+
+/// Returns the body between two copies of a counterclockwise ring. `place` gives the place of a
+/// corner at a depth of 0, where the ring is seen from outside, and of 1.
+pub(super) fn prism(corners: &[[f64; 2]], place: impl Fn([f64; 2], f64) -> Point) -> TriMesh {
+    let count = corners.len() as u32;
+    let on = |depth: f64| corners.iter().map(move |at| (*at, depth));
+    let points = on(0.0).chain(on(1.0)).map(|(at, depth)| place(at, depth));
+    let mut triangles = Vec::new();
+    for [a, b, c] in fill(corners) {
+        triangles.push([a, b, c]);
+        triangles.push([count + a, count + c, count + b]);
+    }
+    for from in 0..count {
+        let to = (from + 1) % count;
+        triangles.push([from, count + from, count + to]);
+        triangles.push([from, count + to, to]);
+    }
+    TriMesh::from_parts(points.collect(), triangles)
 }
 
 /// Returns triangles that fill an outline, counterclockwise, by cutting off one ear after another.

@@ -17,11 +17,8 @@ const END_SHEETS: f64 = 2.0;
 const FLATTEST_RAD: f64 = PI * 5.0 / 6.0;
 /// Rounding of that angle, radians.
 const ROUNDING_RAD: f64 = 1e-9;
-/// Width of a bracket along the edge, in diameters of the screw's head; its two screws are half of
-/// that apart.
-const BRACKET_HEADS: f64 = 4.0;
-/// Distance of a screw from the inner end of a plain edge, in diameters of its head.
-const FLANGE_HEADS: f64 = 1.0;
+/// Least distance of a flange from the bisector of a panel's corner along the edge, mm.
+const FREE_MM: f64 = 0.5;
 
 /// The panels of a polyhedron.
 #[derive(Debug, Clone, PartialEq)]
@@ -232,7 +229,7 @@ impl Layout<'_> {
             }
             let joint = match fingers[index] {
                 Some(joint) => EdgeJoint::Fingers(joint),
-                None => EdgeJoint::Brackets(self.brackets(length_mm)),
+                None => EdgeJoint::Brackets(self.brackets(index, sides)),
             };
             let panel_of = |face: usize| self.faces.iter().position(|&known| known == face);
             let [Some(a), Some(b)] = sides.map(panel_of) else {
@@ -253,21 +250,65 @@ impl Layout<'_> {
                 panels: [a, b],
                 ends: ends.map(|end| self.to_outer_line(sides, &end)),
                 angle_rad,
+                depth_mm: self.depth_mm(&joint, angle_rad),
                 joint,
             });
         }
         Ok(PanelSet { panels, edges })
     }
 
-    /// Returns the middles of the brackets of an edge: two, or one where there is room for one.
-    fn brackets(&self, length_mm: f64) -> Vec<f64> {
-        let width_mm = BRACKET_HEADS * self.request.brackets.head_mm;
-        if length_mm >= 2.0 * width_mm {
-            vec![0.25 * length_mm, 0.75 * length_mm]
-        } else if length_mm >= width_mm {
-            vec![0.5 * length_mm]
+    /// Returns the middles of the brackets of an edge, from its start about the first face: two, or
+    /// one where there is room for one. They keep clear of those of neighbouring edges.
+    fn brackets(&self, edge: usize, faces: [usize; 2]) -> Vec<f64> {
+        let [start, end] = about(faces[0], &self.inner[edge]);
+        let length_mm = (end - start).norm();
+        let [first, second] = faces.map(|face| self.corners_mm(edge, face));
+        let width_mm = self.request.brackets.width_mm();
+        let least_mm = first[0].max(second[1]) + 0.5 * width_mm;
+        let most_mm = length_mm - first[1].max(second[0]) - 0.5 * width_mm;
+        let [low, high] = [
+            least_mm.max(0.25 * length_mm),
+            most_mm.min(0.75 * length_mm),
+        ];
+        if high - low >= width_mm {
+            vec![low, high]
+        } else if least_mm <= most_mm {
+            vec![f64::midpoint(least_mm, most_mm)]
         } else {
             Vec::new()
+        }
+    }
+
+    /// Returns the lengths at both ends of an edge, counterclockwise about a face, that its
+    /// brackets leave free, mm. The flanges of the next edge's brackets are beyond the corner's
+    /// bisector.
+    fn corners_mm(&self, edge: usize, face: usize) -> [f64; 2] {
+        let panel = self.faces.iter().position(|&known| known == face);
+        let ring = panel.map_or(&[][..], |panel| &self.rings[panel]);
+        let Some(at) = ring.iter().position(|&known| known == edge) else {
+            return [0.0; 2];
+        };
+        let ends = |edge: usize| about(face, &self.inner[edge]);
+        let [from, to] = ends(edge);
+        let [before, _] = ends(ring[(at + ring.len() - 1) % ring.len()]);
+        let [_, after] = ends(ring[(at + 1) % ring.len()]);
+        let free_mm = |corner: Point, a: Point, b: Point| {
+            let half_rad = 0.5 * (a - corner).angle(&(b - corner));
+            self.request.flange_mm() / half_rad.tan() + FREE_MM
+        };
+        [free_mm(from, to, before), free_mm(to, from, after)]
+    }
+
+    /// Returns how far a joint reaches into either panel from the line in which the outer sides
+    /// meet, mm.
+    fn depth_mm(&self, joint: &EdgeJoint, angle_rad: f64) -> f64 {
+        let setback_mm = self.request.sheet_mm / (0.5 * angle_rad).tan();
+        match joint {
+            EdgeJoint::Fingers(joint) => joint.gap_mm().max(setback_mm),
+            EdgeJoint::Brackets(places) if places.is_empty() => setback_mm,
+            EdgeJoint::Brackets(_) => {
+                setback_mm + self.request.away_mm() + 0.5 * self.request.brackets.head_mm
+            }
         }
     }
 
@@ -279,9 +320,8 @@ impl Layout<'_> {
         length_mm: f64,
         is_first: bool,
     ) -> impl Iterator<Item = [f64; 2]> + 'b {
-        let head_mm = self.request.brackets.head_mm;
-        let apart_mm = 0.25 * BRACKET_HEADS * head_mm;
-        let away_mm = FLANGE_HEADS * head_mm + self.request.sheet_mm;
+        let apart_mm = self.request.brackets.aside_mm();
+        let away_mm = self.request.away_mm();
         places.iter().flat_map(move |&place| {
             [-apart_mm, apart_mm].map(|by| {
                 let x = place + by;

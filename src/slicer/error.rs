@@ -77,6 +77,18 @@ pub enum SlicerError {
         /// The limit, s.
         limit_s: u64,
     },
+    /// The slicer asked for too much memory.
+    #[error(
+        "{version} asked for more than {limit_gib} GiB of memory for {plate}; remedy: slice the plate by hand"
+    )]
+    Large {
+        /// The slicer.
+        version: String,
+        /// The plate.
+        plate: String,
+        /// The limit, GiB.
+        limit_gib: u64,
+    },
     /// The toolpaths cannot be read.
     #[error("the toolpaths of {plate} cannot be read")]
     Toolpaths {

@@ -2,7 +2,7 @@
 //!
 //! * `program` finds a slicer and asks for its version.
 //! * `settings` words a printer's profile as a slicer's settings.
-//! * `run` runs it in a folder of its own, with a limit of time.
+//! * `run` runs it in a folder of its own, with limits of time and memory.
 //! * `estimate` reads the time and the filament from the toolpaths.
 
 mod error;

@@ -63,6 +63,32 @@ pub(super) fn quiet(program: &OsStr) -> Command {
     command
 }
 
+/// Most memory that a slicer may ask for, GiB. A plate of 230 mm takes less than two.
+pub(super) const MOST_GIB: u64 = 8;
+
+/// Returns a command as [`quiet`] does, with a limit of memory where the system has a shell that
+/// sets one.
+pub(super) fn limited(program: &OsStr) -> Command {
+    if !cfg!(unix) {
+        return quiet(program);
+    }
+    const KIB_PER_GIB: u64 = 1 << 20;
+    let limit_kib = MOST_GIB * KIB_PER_GIB;
+    let mut command = quiet("sh".as_ref());
+    // The shell becomes the slicer, so that it can be stopped as one. A lower limit of the user's
+    // own stays.
+    command
+        .args([
+            "-c",
+            &format!("ulimit -v {limit_kib} 2>/dev/null; exec \"$@\""),
+            "sh",
+        ])
+        .arg(program)
+        // Else every thread of a large machine reserves memory that it does not use.
+        .env("MALLOC_ARENA_MAX", "2");
+    command
+}
+
 /// Returns the name and version in a line such as `PrusaSlicer-2.5.0+dfsg based on Slic3r`.
 fn version_of(line: &str) -> Option<String> {
     let first = line.split_whitespace().next()?;
@@ -91,6 +117,22 @@ mod tests {
         ] {
             assert_eq!(version_of(line), None, "{line}");
         }
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_slicer_runs_with_a_limit_of_memory_and_with_its_own_arguments() {
+        let output = limited("sh".as_ref())
+            .args(["-c", "ulimit -v; echo \"$0\"", "two words"])
+            .output()
+            .unwrap();
+        let said = String::from_utf8_lossy(&output.stdout).into_owned();
+        let lines: Vec<&str> = said.lines().collect();
+        let [limit, argument] = lines[..] else {
+            panic!("{said}")
+        };
+        assert!(limit.parse::<u64>().unwrap() <= MOST_GIB << 20, "{limit}");
+        assert_eq!(argument, "two words");
     }
 
     #[test]

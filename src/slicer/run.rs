@@ -1,4 +1,4 @@
-//! A run of a slicer in a folder of its own, with a limit of time.
+//! A run of a slicer in a folder of its own, with limits of time and memory.
 
 use std::fs::{self, File};
 use std::io;
@@ -8,7 +8,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
 use super::error::SlicerError;
-use super::program::{Slicer, quiet};
+use super::program::{MOST_GIB, Slicer, limited};
 use super::settings::SliceSettings;
 use crate::base::watch::Watch;
 
@@ -16,6 +16,8 @@ use crate::base::watch::Watch;
 const LIMIT: Duration = Duration::from_secs(300);
 /// Time between two looks at a run.
 const LOOK: Duration = Duration::from_millis(20);
+/// What the slicer says if it gets no more memory.
+const NO_MEMORY: &str = "bad_alloc";
 /// What the slicer says of a layer without lines, at exit code 0.
 const EMPTY_LAYER: &str = "mpty layer";
 
@@ -53,7 +55,7 @@ impl Slicer {
         };
         let said = File::create(&log).map_err(SlicerError::Folder)?;
         let also = said.try_clone().map_err(SlicerError::Folder)?;
-        let started = quiet(self.command().as_ref())
+        let started = limited(self.command().as_ref())
             .args(["--export-gcode", "--dont-arrange", "--loglevel", "1"])
             .args(over)
             .args([Path::new("--load"), ini.as_path()])
@@ -78,13 +80,8 @@ impl Slicer {
         }
         // The exit code says little: 0 may come without a file, and with empty layers.
         let words = fs::read_to_string(&log).unwrap_or_default();
-        if let Some(line) = words.lines().find(|line| line.contains(EMPTY_LAYER)) {
-            let said = line.trim().to_owned();
-            return Err(SlicerError::EmptyLayer {
-                version,
-                plate,
-                said,
-            });
+        if let Some(fault) = fault_in(&words, &version, &plate) {
+            return Err(fault);
         }
         File::open(&toolpaths).map_err(|_| SlicerError::NoToolpaths {
             version,
@@ -92,6 +89,24 @@ impl Slicer {
             said: last_line(&words),
         })
     }
+}
+
+/// Returns the fault that a slicer names, whatever files it wrote; `None` if it names none.
+fn fault_in(words: &str, version: &str, plate: &str) -> Option<SlicerError> {
+    let (version, plate) = (version.to_owned(), plate.to_owned());
+    if let Some(line) = words.lines().find(|line| line.contains(EMPTY_LAYER)) {
+        let said = line.trim().to_owned();
+        return Some(SlicerError::EmptyLayer {
+            version,
+            plate,
+            said,
+        });
+    }
+    words.contains(NO_MEMORY).then_some(SlicerError::Large {
+        version,
+        plate,
+        limit_gib: MOST_GIB,
+    })
 }
 
 /// Returns the last line that a program said.
@@ -165,6 +180,18 @@ mod tests {
     }
 
     #[test]
+    fn empty_layers_and_a_lack_of_memory_are_faults() {
+        let fault = |words: &str| fault_in(words, "PrusaSlicer 2.5.0", "plate.3mf");
+        assert!(fault("Slicing\nDone").is_none());
+        let empty = fault("Slicing\n Empty layer at 2.3 mm\n");
+        assert!(
+            matches!(empty, Some(SlicerError::EmptyLayer { said, .. }) if said.starts_with("Empty"))
+        );
+        let large = fault("terminate called after throwing 'std::bad_alloc'").unwrap();
+        assert!(large.to_string().contains("more than 8 GiB"), "{large}");
+    }
+
+    #[test]
     fn what_a_slicer_said_last_is_told() {
         assert_eq!(last_line("one\n two \n\n"), "two");
         assert_eq!(last_line("\n"), "it said nothing");
@@ -172,7 +199,7 @@ mod tests {
 
     #[test]
     fn a_stopped_watch_ends_a_program_at_once() {
-        let child = quiet("sleep".as_ref()).arg("60").spawn().unwrap();
+        let child = limited("sleep".as_ref()).arg("60").spawn().unwrap();
         let watch = Watch::silent();
         watch.cancel();
         let since = Instant::now();

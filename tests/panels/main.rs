@@ -36,6 +36,8 @@ fn request(joints: JointStyle) -> PanelRequest {
         brackets: BracketKind {
             hole_mm: 3.4,
             head_mm: 5.7,
+            thread_mm: 2.5,
+            flange_mm: 4.0,
         },
     }
 }
@@ -99,7 +101,7 @@ fn cuboctahedron() -> Vec<Vector> {
 }
 
 fn csg(panel: &Panel) -> Csg {
-    Csg::of_mesh(&panel.body().unwrap()).unwrap()
+    Csg::of_mesh(&panel.body()).unwrap()
 }
 
 fn volume_mm3(body: &Csg) -> f64 {
@@ -144,7 +146,7 @@ fn hold_in_space(body: &Polyhedron, set: &PanelSet, name: &str) -> [usize; 2] {
             );
             for step in 1..=4 {
                 let away = panel.frame.axis() * (0.5 * SHEET_MM * f64::from(step));
-                let moved = panel.body().unwrap().map_vertices(|p| p + away);
+                let moved = panel.body().map_vertices(|p| p + away);
                 let overlap = overlap_mm3(&Csg::of_mesh(&moved).unwrap(), fixed);
                 assert!(
                     overlap < MOST_ON_THE_WAY_MM3,
@@ -226,6 +228,75 @@ fn with_brackets_all_edges_are_plain_and_both_panels_have_their_holes() {
     });
     assert_eq!(places[0].len(), 4);
     assert_eq!(places[0], places[1]);
+}
+
+/// Returns the volume of a bracket, mm³: its section times its width, less four holes.
+fn bracket_mm3(request: &PanelRequest, angle_rad: f64) -> f64 {
+    let kind = &request.brackets;
+    let (length, thick) = (request.away_mm() + kind.head_mm, kind.flange_mm);
+    let half = 0.5 * angle_rad;
+    // Each flange is a rectangle less the triangle at the inner corner.
+    let flange = length * thick - 0.5 * thick * thick / half.tan();
+    let relief = 0.5 * 0.5 * 0.5 * angle_rad.sin();
+    let hole = 16.0 * (0.5 * kind.thread_mm).powi(2) * (std::f64::consts::TAU / 32.0).sin();
+    (2.0 * flange - relief) * kind.width_mm() - 4.0 * hole * thick
+}
+
+#[test]
+fn brackets_fit_the_inside_and_their_screws_go_through_the_holes_of_both_panels() {
+    let bodies = [
+        ("cube", cube()),
+        ("tetrahedron", tetrahedron()),
+        ("octahedron", octahedron()),
+        ("dodecahedron", dodecahedron()),
+    ];
+    for (name, normals) in bodies {
+        let body = regular(&normals);
+        let order = request(JointStyle::Brackets);
+        let set = PanelSet::of(&body, &order).unwrap();
+        let panels: Vec<Csg> = set.panels.iter().map(csg).collect();
+        let inside = Csg::of_mesh(&body.mesh().unwrap()).unwrap();
+        let brackets = set.brackets(&order).unwrap();
+        let places = set.edges.iter().map(|edge| match &edge.joint {
+            EdgeJoint::Brackets(places) => places.len(),
+            EdgeJoint::Fingers(_) => 0,
+        });
+        assert_eq!(brackets.len(), places.sum::<usize>(), "{name}");
+        let solids: Vec<Csg> = brackets
+            .iter()
+            .map(|bracket| Csg::of_mesh(&bracket.body).unwrap())
+            .collect();
+        for (index, bracket) in brackets.iter().enumerate() {
+            let edge = &set.edges[bracket.edge];
+            let volume = volume_mm3(&solids[index]);
+            let expected = bracket_mm3(&order, edge.angle_rad);
+            assert!(
+                (volume - expected).abs() < 1e-6 * expected,
+                "{name}: {volume} {expected}"
+            );
+            let outside = volume_mm3(&solids[index].subtract(&inside).unwrap());
+            assert!(outside < MOST_OVERLAP_MM3, "{name}: {outside}");
+            for panel in &panels {
+                let overlap = overlap_mm3(&solids[index], panel);
+                assert!(overlap < MOST_OVERLAP_MM3, "{name}: {overlap}");
+            }
+            for other in &solids[index + 1..] {
+                let overlap = overlap_mm3(&solids[index], other);
+                assert!(overlap < MOST_OVERLAP_MM3, "{name}: {overlap}");
+            }
+            for (panel, screws) in edge.panels.iter().zip(&bracket.screws) {
+                let panel = &set.panels[*panel];
+                for screw in screws {
+                    let apart = panel
+                        .holes
+                        .iter()
+                        .map(|hole| (panel.at(hole.at_mm, 1.0) - screw).norm());
+                    let nearest = apart.fold(f64::INFINITY, f64::min);
+                    assert!(nearest < 1e-9, "{name}: {nearest}");
+                }
+            }
+        }
+    }
 }
 
 #[test]

@@ -1,8 +1,10 @@
 //! Panels on sheets: each once, inside the margins, and far enough apart.
 
-use equipoise::panels::{JointStyle, NestError, NestRequest, NestedSheet, PanelSet, Stock, nest};
+use equipoise::panels::{
+    JointStyle, LineOrder, NestError, NestRequest, NestedSheet, PanelSet, SheetLines, Stock, nest,
+};
 
-use super::{dodecahedron, regular, request};
+use super::{cube, dodecahedron, octahedron, regular, request, tetrahedron};
 
 fn stock(length: f64, width: f64) -> Stock {
     Stock {
@@ -159,4 +161,99 @@ fn panels_of_a_dodecahedron_lie_on_one_sheet() {
     );
     assert_eq!(sheets.len(), 1);
     assert!(share > 0.55, "{share}");
+}
+
+fn lines_of(set: &PanelSet, kerf_mm: f64) -> (Vec<NestedSheet>, Vec<SheetLines>) {
+    let panels: Vec<Vec<[f64; 2]>> = set
+        .panels
+        .iter()
+        .map(|panel| panel.outline.corners().to_vec())
+        .collect();
+    let sheets = nest(&panels, &nest_request(vec![stock(900.0, 600.0)])).unwrap();
+    let order = LineOrder {
+        kerf_mm,
+        text_mm: 12.0,
+    };
+    let lines = sheets
+        .iter()
+        .map(|sheet| SheetLines::of(set, sheet, &order).unwrap());
+    let lines = lines.collect();
+    (sheets, lines)
+}
+
+/// Returns the distance of a point from a ring, mm: more than zero inside.
+fn inside_mm(ring: &[[f64; 2]], at: [f64; 2]) -> f64 {
+    let next = ring.iter().cycle().skip(1);
+    let mut is_inside = false;
+    let mut least = f64::INFINITY;
+    for (a, b) in ring.iter().zip(next) {
+        if (a[1] > at[1]) != (b[1] > at[1]) {
+            let x = a[0] + (at[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0]);
+            is_inside ^= at[0] < x;
+        }
+        least = least.min(apart_mm([*a, *b], [at, at.map(|v| v + 1e-9)]));
+    }
+    if is_inside { least } else { -least }
+}
+
+#[test]
+fn panels_are_cut_larger_by_half_the_kerf_and_their_holes_smaller() {
+    let set = PanelSet::of(&regular(&cube()), &request(JointStyle::Brackets)).unwrap();
+    let [(_, exact), (_, wide)] = [0.0, 0.2].map(|kerf_mm| lines_of(&set, kerf_mm));
+    // Squares of 190 mm with round corners of half the kerf.
+    let [exact, wide] = [&exact[0], &wide[0]];
+    assert_eq!((exact.outlines.len(), exact.holes.len()), (6, 96));
+    for (path, larger) in exact.outlines.iter().zip(&wide.outlines) {
+        assert!((path.area_mm2() - 190.0 * 190.0).abs() < 1e-6);
+        let [low, high] = larger.bounds_mm();
+        let sides = [high[0] - low[0], high[1] - low[1]];
+        assert!(
+            sides.iter().all(|side| (side - 190.2).abs() < 1e-3),
+            "{sides:?}"
+        );
+    }
+    let diameters = |lines: &SheetLines| -> Vec<f64> {
+        lines.holes.iter().map(|hole| hole.diameter_mm).collect()
+    };
+    assert!(diameters(exact).iter().all(|mm| (mm - 3.4).abs() < 1e-9));
+    assert!(diameters(wide).iter().all(|mm| (mm - 3.2).abs() < 1e-9));
+    let cut_mm = 6.0 * 4.0 * 190.0 + 96.0 * std::f64::consts::PI * 3.4;
+    assert!(
+        (exact.cut_mm() - cut_mm).abs() < 1e-6,
+        "{} {cut_mm}",
+        exact.cut_mm()
+    );
+    let too_wide = LineOrder {
+        kerf_mm: 3.4,
+        text_mm: 12.0,
+    };
+    let (sheets, _) = lines_of(&set, 0.0);
+    assert!(SheetLines::of(&set, &sheets[0], &too_wide).is_err());
+}
+
+#[test]
+fn numbers_are_engraved_on_the_panels_and_clear_of_joints_and_holes() {
+    for joints in [JointStyle::Auto, JointStyle::Brackets] {
+        for normals in [cube(), tetrahedron(), octahedron(), dodecahedron()] {
+            let set = PanelSet::of(&regular(&normals), &request(joints)).unwrap();
+            let (sheets, lines) = lines_of(&set, 0.1);
+            for (sheet, lines) in sheets.iter().zip(&lines) {
+                assert!(lines.engraved_mm() > 0.0);
+                for at in lines.strokes.iter().flatten() {
+                    let inside = lines
+                        .outlines
+                        .iter()
+                        .map(|path| inside_mm(path.corners(), *at));
+                    let inside = inside.fold(f64::NEG_INFINITY, f64::max);
+                    assert!(inside > 1.0, "{at:?}: {inside}");
+                    for hole in &lines.holes {
+                        let [x, y] = [at[0] - hole.at_mm[0], at[1] - hole.at_mm[1]];
+                        assert!(x.hypot(y) > 0.5 * hole.diameter_mm + 1.0);
+                    }
+                }
+                // Each stroke lies on the panel of its own placement.
+                assert_eq!(lines.outlines.len(), sheet.placements.len());
+            }
+        }
+    }
 }

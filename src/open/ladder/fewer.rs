@@ -20,15 +20,12 @@ impl<'a> Ladder<'a> {
         let Some(fewer) = self.draft_fewer_parts(&usual)? else {
             return Ok(Joined::alone(self.finish(usual)?));
         };
-        let is_as_clean = are_clean(&fewer.bossed.plan, &fewer.request)
-            || !are_clean(&usual.bossed.plan, &usual.request);
-        let is_hidden = fewer.seam_price()? <= usual.seam_price()?.max(self.policy.dear_seam_ratio);
+        let is_as_good = self.is_as_good(&fewer, &usual)?;
         let loss_ratio = fewer.loss_ratio(&usual);
         if self.hides_more(&fewer, &usual)? {
             self.take_hidden(&fewer, &usual);
             return Ok(Joined::alone(self.finish(fewer)?));
         }
-        let is_as_good = is_as_clean && is_hidden;
         if is_as_good && loss_ratio <= self.policy.part_loss_ratio {
             self.request = fewer.request.clone();
             return Ok(Joined::alone(self.finish(fewer)?));
@@ -55,6 +52,15 @@ impl<'a> Ladder<'a> {
                 is_as_good,
             }),
         })
+    }
+
+    /// Returns whether the voids of a plan are as clean as those of another, and its seams as well
+    /// hidden.
+    pub(super) fn is_as_good(&self, fewer: &Way, usual: &Way) -> Result<bool, Error> {
+        let is_as_clean = are_clean(&fewer.bossed.plan, &fewer.request)
+            || !are_clean(&usual.bossed.plan, &usual.request);
+        let most = usual.seam_price()?.max(self.policy.dear_seam_ratio);
+        Ok(is_as_clean && fewer.seam_price()? <= most)
     }
 
     /// Returns whether a plan with fewer parts hides a seam that is seen in the other, at a loss
