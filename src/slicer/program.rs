@@ -63,7 +63,8 @@ pub(super) fn quiet(program: &OsStr) -> Command {
     command
 }
 
-/// Most memory that a slicer may ask for, GiB. The plate of an elephant of 128 mm was sliced in one.
+/// Most memory that a slicer may ask for, GiB. The plate of an elephant of 128 mm takes less than
+/// one.
 pub(super) const MOST_GIB: u64 = 8;
 
 /// Returns a command as [`quiet`] does, with a limit of memory where the system has a shell that
