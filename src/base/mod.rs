@@ -5,12 +5,14 @@
 //! * [`words`]: values that are written as single words.
 //! * [`toml_text`]: TOML with faults that name line, column and the nearest known name.
 //! * [`digest`]: SHA-256 of files.
+//! * `random`: random numbers from a seed, for searches.
 //! * [`verdict`]: an answer that may be no, with the reason.
 //! * [`sourced`]: values with their sources and their certainty.
 //! * [`watch`]: progress and cancellation of a run.
 
 pub mod digest;
 pub mod numbers;
+pub(crate) mod random;
 pub mod setting;
 pub mod sourced;
 pub mod toml_text;

@@ -8,7 +8,7 @@ use crate::{
     },
     geom::{Point, Vector},
     mesh::{Solid, TriMesh},
-    printer::Cleaning,
+    printer::{Cleaning, CleaningRule},
 };
 
 /// Returns a solid box.
@@ -72,6 +72,21 @@ pub(crate) fn ball(center: [f64; 3], radius: f64) -> Solid {
         triangles.push([bottom, last + next, last + side]);
     }
     Solid::new(TriMesh::new(vertices, triangles).unwrap()).unwrap()
+}
+
+/// Returns a bar with two balls of air, and a request in which all their walls must be in sight.
+pub(crate) fn two_balls() -> (Hollowed, PlanRequest) {
+    let bar = cuboid([0.0; 3], [60.0, 30.0, 30.0]);
+    let balls = [[18.0, 15.0, 15.0, 10.0], [42.0, 15.0, 15.0, 10.0]];
+    let request = PlanRequest {
+        cleaning: Cleaning {
+            rule: CleaningRule::InSight,
+            sight_ratio: 0.95,
+            ..Cleaning::MELT_OUT
+        },
+        ..request()
+    };
+    (with_balls(bar, &balls), request)
 }
 
 /// Returns a body with balls of air in it, each (x, y, z, radius).

@@ -5,12 +5,10 @@
 //! * `points` reads curves, a point a line; `lines` reads them as OBJ lines or PLY edges, too.
 //! * [`gcode`] reads what a print lays down; it writes nothing.
 //! * `drawing` holds drawings for cutters, which `dxf` and `cut_svg` write.
-//! * `ear_clip` cuts the polygons of OBJ and PLY into triangles.
 
 mod cut_svg;
 mod drawing;
 mod dxf;
-mod ear_clip;
 pub mod gcode;
 mod lines;
 mod obj;

@@ -1,8 +1,7 @@
 //! Reads Wavefront OBJ: the vertices and faces of all objects, with polygons cut into triangles.
 
-use super::ear_clip::ear_clip;
 use crate::geom::Point;
-use crate::mesh::TriMesh;
+use crate::mesh::{TriMesh, ear_clip};
 
 /// The reason that bytes are not an OBJ mesh, with the line.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

@@ -1,9 +1,8 @@
 //! Reads PLY, the Stanford triangle format: text and both binary forms, with polygons cut into
 //! triangles.
 
-use super::ear_clip::ear_clip;
 use crate::geom::Point;
-use crate::mesh::TriMesh;
+use crate::mesh::{TriMesh, ear_clip};
 
 /// The reason that bytes are not a PLY mesh, with the place.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

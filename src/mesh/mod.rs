@@ -8,7 +8,7 @@
 //!   ([`Crossings`], [`Broken`]), exact distances ([`MeshDistance`]), and points spread evenly over
 //!   a surface ([`spread_points`]). [`WindingNumbers`] tell inside from outside of any triangles.
 //! * **Operations:** booleans, plane cuts and simplification ([`Csg`]); `clip` cuts by a plane for
-//!   trials; `cut_planes` keeps cuts off vertices and faces.
+//!   trials; `cut_planes` keeps cuts off vertices and faces; `ear_clip` cuts polygons into triangles.
 //! * **Shapes:** [`primitives`] for tests and tools.
 
 mod axial;
@@ -20,6 +20,7 @@ mod csg;
 mod cut_planes;
 mod defects;
 mod distance;
+mod ear_clip;
 pub(crate) mod edges;
 mod facts;
 pub(crate) mod fans;
@@ -40,6 +41,7 @@ pub use csg::{ClipError, Csg};
 pub(crate) use cut_planes::{move_off_faces, move_off_vertices};
 pub use defects::{Defect, DefectKind, Defects};
 pub use distance::{MeshDistance, least_distance_mm};
+pub(crate) use ear_clip::ear_clip;
 pub use facts::MeshFacts;
 pub use foot::{BRIM_MM, GOOD_FOOT_MM2, foot_area_mm2};
 pub use sampling::{SurfacePoint, area_mm2, spread_points};

@@ -89,7 +89,9 @@ fn use_lines(sheet: &Checklist) -> Vec<String> {
         GoalKind::Yoyo => "Tie the string around the axle, wind it up and let it fall. It runs down and up without leaning.".to_owned(),
         GoalKind::Stand => "Set it on a table. It stands on its own, with nothing to hold it.".to_owned(),
         GoalKind::Float => "Set it on water, the right way up. It floats upright and comes back when it is pushed over.".to_owned(),
-        GoalKind::Balance => "Mount it on its shaft. It is balanced: drill nothing into it and stick nothing to it.".to_owned(),
+        GoalKind::Balance => {
+            "Mount it on its shaft. It is balanced: drill nothing into it and stick nothing to it.".to_owned()
+        }
     };
     vec![line]
 }

@@ -28,7 +28,10 @@ pub(super) fn print_step(sheet: &Checklist, pictures: &[Picture]) -> Markup {
                 li { strong { "Solid, 100 % infill: " } (solid(sheet)) }
                 li { strong { "Support: " } (support::of_all(sheet)) }
                 @if sheet.printer.process == Process::Fdm {
-                    li { strong { "Brim: " } "in the 3MF files, on the parts marked below. Add it if you load STL files. Cut it off flush." }
+                    li {
+                        strong { "Brim: " }
+                        "in the 3MF files, on the parts marked below. Add it if you load STL files. Cut it off flush."
+                    }
                 }
                 @if sheet.printer.build_volume_mm.is_none() {
                     li { strong { "Room: " } "the build volume of this printer is not known; check by hand that every part fits." }

@@ -1,4 +1,4 @@
-//! What must be at hand for the steps: tools, a scale, glue and the things of the test.
+//! The things to have at hand for the steps: tools, a scale, glue and those of the test.
 
 use super::fields::spread_ratio;
 use crate::goal::GoalKind;

@@ -89,7 +89,7 @@ pub struct PanelEdge {
     pub ends: [Point; 2],
     /// The inner angle between the panels, radians.
     pub angle_rad: f64,
-    /// How far the joint reaches into either panel from that line, mm.
+    /// The depth to which the joint reaches into either panel from that line, mm.
     pub depth_mm: f64,
     /// The joint.
     pub joint: EdgeJoint,

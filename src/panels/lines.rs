@@ -1,4 +1,4 @@
-//! What a laser does on a sheet: its paths about panels and through holes, and the names that it
+//! The lines of a sheet: the laser's paths about panels and through holes, and the names that it
 //! engraves.
 
 use std::f64::consts::TAU;
@@ -8,7 +8,8 @@ use super::edge::PanelEdge;
 use super::engraving::{engraved, width_mm};
 use super::nest::{NestedSheet, Placement};
 use super::outline::Outline;
-use super::panel::{Hole, Panel};
+use super::panel::{Hole, Panel, flat};
+use super::rings::along;
 use super::set::PanelSet;
 
 /// Height of a neighbour's number over that of the panel's own.
@@ -130,30 +131,22 @@ fn neighbour(set: &PanelSet, panel: usize, edge: &PanelEdge, text_mm: f64) -> Ve
     let height_mm = NEIGHBOUR_RATIO * text_mm;
     let [from, to] = ends(&set.panels[panel], edge, is_first);
     let length = (to[0] - from[0]).hypot(to[1] - from[1]);
-    let way = [(to[0] - from[0]) / length, (to[1] - from[1]) / length];
     let low = [
         0.5 * (length - width_mm(&text, height_mm)),
         edge.depth_mm + FREE_RATIO * height_mm,
     ];
-    let place = |[x, y]: [f64; 2]| {
-        [
-            from[0] + x * way[0] - y * way[1],
-            from[1] + x * way[1] + y * way[0],
-        ]
+    let place = |stroke: Vec<[f64; 2]>| {
+        let points = stroke.into_iter().map(|at| along([from, to], at));
+        points.collect()
     };
     let strokes = engraved(&text, low, height_mm).into_iter();
-    strokes
-        .map(|stroke| stroke.into_iter().map(place).collect())
-        .collect()
+    strokes.map(place).collect()
 }
 
 /// Returns the ends of an edge in a panel's frame, counterclockwise about the panel.
 fn ends(panel: &Panel, edge: &PanelEdge, is_first: bool) -> [[f64; 2]; 2] {
-    let flat = edge.ends.map(|end| {
-        let local = panel.frame.to_local(&end);
-        [local.x, local.y]
-    });
-    if is_first { flat } else { [flat[1], flat[0]] }
+    let [start, end] = edge.ends.map(|end| flat(&panel.frame, &end));
+    if is_first { [start, end] } else { [end, start] }
 }
 
 /// Returns the distance from the joint of an edge to the panel's middle, mm.

@@ -6,6 +6,7 @@
 //! that uses the least length of the sheet. Several orders are tried, the same on every run.
 
 use super::rings::{area_mm2, bounds, crossings, depth_mm, grown, no_fit_polygon, turned};
+use crate::base::random::Random;
 use crate::geom::hull::convex_hull;
 
 /// A corner counts as outside of a no-fit polygon up to this depth, mm. It is far below what a
@@ -164,18 +165,11 @@ fn orders(items: &[Item]) -> Vec<Vec<usize>> {
     };
     let by_area = sorted(&|item| item.area_mm2);
     let mut orders = vec![by_area.clone(), sorted(&|item| item.length_mm)];
-    let mut state = 1u64;
-    let mut random = |below: usize| {
-        // A linear congruence of full period; the high bits are even enough for exchanges.
-        state = state
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
-        (state >> 33) as usize % below
-    };
+    let mut random = Random::new(1);
     while items.len() > 1 && orders.len() < ORDERS {
         let mut order = by_area.clone();
         for _ in 0..items.len().div_ceil(2) {
-            let at = random(items.len() - 1);
+            let at = random.below(items.len() - 1);
             order.swap(at, at + 1);
         }
         orders.push(order);

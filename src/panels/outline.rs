@@ -1,5 +1,8 @@
 //! Closed lines in the plane of a sheet.
 
+use super::rings;
+use crate::geom::hull::turn;
+
 /// A closed line of straight pieces, mm. It goes counterclockwise round material, and clockwise
 /// round a hole: the material is on its left.
 #[derive(Debug, Clone, PartialEq)]
@@ -46,8 +49,7 @@ impl Outline {
 
     /// Returns the area inside, mm²; less than zero for a hole.
     pub fn area_mm2(&self) -> f64 {
-        let doubled = self.edges().map(|[a, b]| a[0] * b[1] - a[1] * b[0]);
-        0.5 * doubled.sum::<f64>()
+        rings::area_mm2(&self.corners)
     }
 
     /// Returns its length, mm.
@@ -59,27 +61,18 @@ impl Outline {
 
     /// Returns its edges, from corner to corner.
     pub fn edges(&self) -> impl Iterator<Item = [[f64; 2]; 2]> + '_ {
-        let next = self.corners.iter().cycle().skip(1);
-        self.corners.iter().zip(next).map(|(a, b)| [*a, *b])
+        rings::edges(&self.corners)
     }
 
     /// Returns its low and its high corner, mm.
     pub fn bounds_mm(&self) -> [[f64; 2]; 2] {
-        let start = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
-        self.corners.iter().fold(start, |[low, high], at| {
-            [
-                [low[0].min(at[0]), low[1].min(at[1])],
-                [high[0].max(at[0]), high[1].max(at[1])],
-            ]
-        })
+        rings::bounds(&self.corners)
     }
 
     /// Returns a place where it crosses itself; `None` if it does not.
     pub fn crossing(&self) -> Option<[f64; 2]> {
         let edges: Vec<[[f64; 2]; 2]> = self.edges().collect();
-        let side = |[a, b]: [[f64; 2]; 2], p: [f64; 2]| {
-            (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0])
-        };
+        let side = |[a, b]: [[f64; 2]; 2], p: [f64; 2]| turn(a, b, p);
         let cross = |a: [[f64; 2]; 2], b: [[f64; 2]; 2]| {
             side(a, b[0]) * side(a, b[1]) < 0.0 && side(b, a[0]) * side(b, a[1]) < 0.0
         };

@@ -2,7 +2,7 @@
 
 use super::Outline;
 use crate::geom::{Frame, Point};
-use crate::mesh::TriMesh;
+use crate::mesh::{TriMesh, ear_clip};
 
 /// A round hole through a panel.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -49,14 +49,21 @@ impl Panel {
     }
 }
 
+/// Returns a point in a panel's frame, without its height, mm.
+pub(super) fn flat(frame: &Frame, point: &Point) -> [f64; 2] {
+    let local = frame.to_local(point);
+    [local.x, local.y]
+}
+
 /// Returns the body between two copies of a counterclockwise ring. `place` gives the place of a
 /// corner at a depth of 0, where the ring is seen from outside, and of 1.
 pub(super) fn prism(corners: &[[f64; 2]], place: impl Fn([f64; 2], f64) -> Point) -> TriMesh {
     let count = corners.len() as u32;
     let on = |depth: f64| corners.iter().map(move |at| (*at, depth));
     let points = on(0.0).chain(on(1.0)).map(|(at, depth)| place(at, depth));
+    let points: Vec<Point> = points.collect();
     let mut triangles = Vec::new();
-    for [a, b, c] in fill(corners) {
+    for [a, b, c] in ear_clip(&points, &(0..count).collect::<Vec<u32>>()) {
         triangles.push([a, b, c]);
         triangles.push([count + a, count + c, count + b]);
     }
@@ -65,42 +72,5 @@ pub(super) fn prism(corners: &[[f64; 2]], place: impl Fn([f64; 2], f64) -> Point
         triangles.push([from, count + from, count + to]);
         triangles.push([from, count + to, to]);
     }
-    TriMesh::from_parts(points.collect(), triangles)
-}
-
-/// Returns triangles that fill an outline, counterclockwise, by cutting off one ear after another.
-/// If it crosses itself, some of it may stay empty.
-fn fill(corners: &[[f64; 2]]) -> Vec<[u32; 3]> {
-    let mut left: Vec<u32> = (0..corners.len() as u32).collect();
-    let mut triangles = Vec::new();
-    while left.len() > 2 {
-        let count = left.len();
-        let ear = (0..count).find(|&k| {
-            let triangle = [k + count - 1, k, k + 1].map(|i| left[i % count]);
-            is_ear(corners, &left, triangle)
-        });
-        let Some(ear) = ear else { break };
-        triangles.push([ear + count - 1, ear, ear + 1].map(|i| left[i % count]));
-        left.remove(ear);
-    }
-    triangles
-}
-
-fn is_ear(corners: &[[f64; 2]], left: &[u32], triangle: [u32; 3]) -> bool {
-    let [a, b, c] = triangle.map(|i| corners[i as usize]);
-    let is_inside = |p: [f64; 2]| {
-        [[a, b], [b, c], [c, a]]
-            .iter()
-            .all(|&[a, b]| turn(a, b, p) >= 0.0)
-    };
-    turn(a, b, c) > 0.0
-        && left
-            .iter()
-            .filter(|i| !triangle.contains(i))
-            .all(|&i| !is_inside(corners[i as usize]))
-}
-
-/// Returns twice the area of a triangle, mm²; more than zero if it goes counterclockwise.
-fn turn(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
-    (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+    TriMesh::from_parts(points, triangles)
 }

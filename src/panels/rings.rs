@@ -1,9 +1,20 @@
-//! Convex rings in the plane, as nesting needs them. Each is a list of corners, counterclockwise.
+//! Places, edges and convex rings in the plane. A ring is a list of corners, counterclockwise.
 
 /// Returns a point turned about the origin, counterclockwise.
 pub(super) fn turned([x, y]: [f64; 2], by_rad: f64) -> [f64; 2] {
     let (sin, cos) = by_rad.sin_cos();
     [x * cos - y * sin, x * sin + y * cos]
+}
+
+/// Returns the place at x along an edge and at y to its left, mm.
+pub(super) fn along([from, to]: [[f64; 2]; 2], [x, y]: [f64; 2]) -> [f64; 2] {
+    let way = [to[0] - from[0], to[1] - from[1]];
+    let length = way[0].hypot(way[1]);
+    let way = way.map(|mm| mm / length);
+    [
+        from[0] + x * way[0] - y * way[1],
+        from[1] + x * way[1] + y * way[0],
+    ]
 }
 
 /// Returns the least and the greatest coordinates of a ring, mm.
@@ -23,7 +34,7 @@ pub(super) fn edges(ring: &[[f64; 2]]) -> impl Iterator<Item = [[f64; 2]; 2]> + 
     ring.iter().zip(next).map(|(a, b)| [*a, *b])
 }
 
-/// Returns the area of a counterclockwise ring, mm².
+/// Returns the area of a ring, mm²; less than zero if it goes clockwise.
 pub(super) fn area_mm2(ring: &[[f64; 2]]) -> f64 {
     0.5 * edges(ring)
         .map(|[a, b]| a[0] * b[1] - a[1] * b[0])

@@ -5,7 +5,8 @@ use std::f64::consts::PI;
 use super::Outline;
 use super::edge::{EdgeJoint, JointStyle, PanelEdge, PanelError, PanelRequest};
 use super::fingers::{FingerJoint, FingerSide};
-use super::panel::{Hole, Panel};
+use super::panel::{Hole, Panel, flat};
+use super::rings::along;
 use crate::geom::{Frame, Plane, Point, Vector};
 use crate::polyhedra::{Edge, Polyhedron};
 
@@ -337,23 +338,6 @@ impl Layout<'_> {
         let out: Vector = (a + b) / (1.0 + a.dot(&b));
         inner + out * self.request.sheet_mm
     }
-}
-
-/// Returns a point in a panel's frame, without its height, mm.
-fn flat(frame: &Frame, point: &Point) -> [f64; 2] {
-    let local = frame.to_local(point);
-    [local.x, local.y]
-}
-
-/// Returns the place at x along an edge and at y to its left, mm.
-fn along([from, to]: [[f64; 2]; 2], [x, y]: [f64; 2]) -> [f64; 2] {
-    let way = [to[0] - from[0], to[1] - from[1]];
-    let length = way[0].hypot(way[1]);
-    let way = way.map(|mm| mm / length);
-    [
-        from[0] + x * way[0] - y * way[1],
-        from[1] + x * way[1] + y * way[0],
-    ]
 }
 
 /// Returns whether an outline goes counterclockwise and does not cross itself.

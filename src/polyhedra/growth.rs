@@ -5,8 +5,8 @@ use super::dealing::{deal_to_best, deal_to_idle};
 use super::limits::{Breach, Limits};
 use super::obstacles::Obstacles;
 use super::programme::{Row, maximise};
-use super::random::Random;
 use super::side::Side;
+use crate::base::random::Random;
 use crate::geom::{Aabb, Plane, Vector};
 
 /// Factor of the tilt after a round without gain.

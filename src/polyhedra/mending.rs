@@ -3,8 +3,8 @@
 use super::dropping::drop_cheapest;
 use super::growth::{Growth, Tilts};
 use super::limits::LimitKind;
-use super::random::Random;
 use super::side::Side;
+use crate::base::random::Random;
 use crate::geom::{Plane, Point};
 
 /// Depths of a bevel below the edge that it takes away, over the least width of a face.

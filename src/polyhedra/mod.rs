@@ -39,7 +39,6 @@ mod obstacles;
 mod plan;
 mod polyhedron;
 mod programme;
-mod random;
 mod search;
 mod separation;
 mod side;

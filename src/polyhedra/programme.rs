@@ -141,8 +141,8 @@ fn dot(a: &[f64; 3], x: &[f64; 3]) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::random::Random;
     use super::*;
+    use crate::base::random::Random;
 
     const CUBE: [[f64; 3]; 2] = [[-1.0; 3], [1.0; 3]];
 

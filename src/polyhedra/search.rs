@@ -5,8 +5,8 @@ use rayon::prelude::*;
 use super::dropping::{drop_cheapest, drop_idle};
 use super::growth::{Growth, Terms, Tilts};
 use super::mending::mend;
-use super::random::Random;
 use super::starts::{Deep, Normals, common_mm, directions, directions_with, first_sides, regular};
+use crate::base::random::Random;
 use crate::base::watch::{Cancelled, Watch};
 use crate::geom::{Plane, Vector};
 

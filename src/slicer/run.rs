@@ -16,7 +16,7 @@ use crate::base::watch::Watch;
 const LIMIT: Duration = Duration::from_secs(300);
 /// Time between two looks at a run.
 const LOOK: Duration = Duration::from_millis(20);
-/// What the slicer says if it gets no more memory.
+/// The word that the slicer says if it gets no more memory.
 const NO_MEMORY: &str = "bad_alloc";
 /// What the slicer says of a layer without lines, at exit code 0.
 const EMPTY_LAYER: &str = "mpty layer";

@@ -10,12 +10,16 @@ use super::limits::CONTACT_LIMIT_MM;
 use super::{Evidence, FigureName, Hardware, Judgement, Peg};
 use crate::geom::{Plane, Point, Vector};
 use crate::goal::GoalKind;
+use crate::mesh::foot_area_mm2;
 
 /// A stated opening may differ from the found one by this share, since the widest disc is found by
 /// steps.
 const OPENING_RATIO: f64 = 5e-3;
 /// The area of a joint may differ by this share from that of the faces in the files.
 const AREA_RATIO: f64 = 1e-3;
+/// The area of a foot may differ by this share, or of 1 mm² if it is less: it is the same section of
+/// the same file.
+const FOOT_RATIO: f64 = 1e-6;
 /// The mass of a rod may differ by this share from that of its volume.
 const MASS_RATIO: f64 = 1e-6;
 /// Points within this distance of a cut lie in it, and sizes within it are equal, mm.
@@ -57,6 +61,7 @@ pub(super) fn find_false_claims(
     claims.judge_pegs();
     claims.judge_marks();
     claims.judge_size();
+    claims.judge_feet();
     claims.judge_hardware();
     claims.judge_goal();
     claims.faults
@@ -246,6 +251,17 @@ impl Claims<'_> {
         for (axis, name) in ["x", "y", "z"].into_iter().enumerate() {
             let at = format!("finished_size_mm along {name}");
             self.compare(&at, &stated[axis], (high - low)[axis], NEAR_MM);
+        }
+    }
+
+    /// Judges the areas on which parts stand on the plate.
+    fn judge_feet(&mut self) {
+        let evidence = self.evidence;
+        for (row, part) in rows(self.sheet, "parts").iter().zip(&evidence.parts) {
+            let found_mm2 = foot_area_mm2(&part.mesh);
+            let at = format!("parts[{}].support.foot_mm2", part.id);
+            let stated = &row["support"]["foot_mm2"];
+            self.compare(&at, stated, found_mm2, FOOT_RATIO * found_mm2.max(1.0));
         }
     }
 

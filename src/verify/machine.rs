@@ -25,7 +25,7 @@ struct Faults(Vec<String>);
 /// are skipped.
 pub(super) fn find_false_numbers(sheet: &Value, evidence: &Evidence) -> Vec<String> {
     let mut faults = Faults::default();
-    faults.judge_printer(&sheet["printer"]);
+    faults.judge_printer(sheet);
     for (index, row) in sheet["grid"].as_array().into_iter().flatten().enumerate() {
         faults.judge_length(&format!("grid[{index}]"), row, sheet, evidence);
     }
@@ -46,7 +46,8 @@ impl Faults {
     }
 
     /// Compares the printer with the profile of its id, if that has the stated hash.
-    fn judge_printer(&mut self, stated: &Value) {
+    fn judge_printer(&mut self, sheet: &Value) {
+        let stated = &sheet["printer"];
         let profiles = Printer::all().unwrap_or_default();
         let known = profiles.iter().find(|profile| {
             stated["id"] == profile.id.as_str()
@@ -84,6 +85,14 @@ impl Faults {
             let stated = &stated["cleaning"]["reach_mm"];
             self.compare("printer.cleaning.reach_mm", stated, &[reach_mm]);
         }
+        let sides = sheet["finished_size_mm"].as_array().into_iter().flatten();
+        let longest_mm = sides.filter_map(Value::as_f64).fold(0.0, f64::max);
+        let right_mm = known.tolerance.at_mm(longest_mm);
+        self.compare(
+            "size_tolerance_mm",
+            &sheet["size_tolerance_mm"],
+            &[right_mm],
+        );
         if stated["name"] != known.name.as_str() {
             let name = &stated["name"];
             self.0

@@ -75,7 +75,7 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("cutter", &["base"]),
     // Outlines and joints are plane geometry, and a polyhedron gives panels their places. The sheet
     // is a thickness: what is cut from which one is for the rooms above.
-    ("panels", &["geom", "mesh", "polyhedra"]),
+    ("panels", &["base", "geom", "mesh", "polyhedra"]),
     (
         "cut",
         &[

@@ -6,7 +6,8 @@
 Slices every part with PrusaSlicer and adds up the filament of `;TYPE:Support material` in the G-code. Then turns the part so that
 each of the 26 directions to the faces, edges and corners of a cube, in the model's frame, points up, and slices it again. A pose
 counts if it keeps the rules of filament printing: no pin reaches as low as the rest of the part, and the first layer of part and
-support is large enough for the height. A part fails if it needs more than 1.1 times the support of the best of these.
+support is large enough for the height. A part fails if it needs more than 1.1 times the support of the best of these, or stands on
+less than 5 mm² itself.
 
 The largest cut face without pins down is sliced too, or the largest one up if all have pins: what a shop does without thinking.
 Parts are sliced without infill and solid layers, which changes nothing about support and saves most of the time. `--part ID` takes
@@ -35,8 +36,8 @@ NEXT_TO_NOTHING_G = 0.1
 # The first layer of part and support is at least a square as wide as the height over this, and never smaller than that, mm².
 SLENDERNESS = 5.0
 LEAST_BED_MM2 = 20.0
-# A part whose own first layer is smaller stands on a point, mm²: nobody prints it so.
-LEAST_FOOT_MM2 = 10.0
+# A part whose own first layer is smaller in its middle stands on a point, mm²: nobody prints it so.
+LEAST_FOOT_MM2 = 5.0
 # Vertices so near a pin's cylinder belong to it, mm.
 ON_PIN_MM = 1e-3
 # A plane of the cut and a face of the part are one if they are no further apart, mm.
@@ -105,6 +106,13 @@ def foot_mm2(mesh, height_mm):
     """Area of the part's own section in the middle of its first layer."""
     section = mesh.section([0, 0, 1], [0, 0, height_mm / 2])
     return 0.0 if section is None else section.to_2D()[0].area
+
+
+def on_plate(mesh):
+    """The same mesh with its lowest point at z = 0."""
+    mesh = mesh.copy()
+    mesh.apply_translation([0, 0, -mesh.bounds[0][2]])
+    return mesh
 
 
 def rests_on_pin(part, pins, up, room_mm):
@@ -182,13 +190,15 @@ def judge_part(kit, sheet, row, options):
     kept = [(grams, way) for grams, way in zip(of_cube, ways) if grams is not None]
     best, way = min(kept, key=lambda pose: pose[0]) if kept else (None, None)
     return {
-        "kit": Path(kit).name, "id": row["id"], "mass": row["mass_g"], "written": weigh(code)[0],
+        "kit": Path(kit).name, "id": row["id"], "mass": row["mass_g"], "written": weigh(code)[0], "foot": foot_mm2(on_plate(written), layer_mm),
         "estimate": (row.get("support") or {}).get("material_mm3", 0.0), "face": on_face.result(),
         "best": best, "way": None if way is None else np.sign(np.round(way, 2)).astype(int).tolist(), "kept": len(kept),
     }  # fmt: skip
 
 
 def fails(line):
+    if line["foot"] < LEAST_FOOT_MM2:
+        return True
     return line["best"] is not None and line["written"] > max(WORST_RATIO * line["best"], NEXT_TO_NOTHING_G)
 
 

@@ -32,7 +32,7 @@ const FIRST: &str = "What to make";
     override_usage = USAGE
 )]
 pub struct PrepareArgs {
-    /// What was answered to questions, as it would be typed.
+    /// The answers to questions, as they would be typed.
     #[arg(skip)]
     pub answered: Vec<String>,
     /// The model: an STL, OBJ, PLY or 3MF file that bounds a solid

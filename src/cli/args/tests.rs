@@ -19,6 +19,18 @@ fn request(line: &str) -> Request {
     }
 }
 
+#[test]
+fn the_typed_line_of_an_order_ends_with_the_answers() {
+    let Command::Prepare(mut args) = parse(PREPARE).unwrap().command else {
+        panic!("{PREPARE}")
+    };
+    args.answered = vec!["--size=90mm".to_owned()];
+    let typed = args.request().unwrap().typed;
+    assert_eq!(typed.last().map(String::as_str), Some("--size=90mm"));
+    let asked_nothing = request(PREPARE).typed;
+    assert_eq!(typed[..typed.len() - 1], asked_nothing);
+}
+
 const PREPARE: &str = "equipoise prepare models/elephant.obj --printer objet-connex350 --goal top";
 
 #[test]

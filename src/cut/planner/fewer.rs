@@ -47,27 +47,13 @@ pub(crate) fn fewer_clean_cuts(
 mod tests {
     use super::*;
     use crate::{
-        cut::{
-            PlanRequest,
-            planner::search::smallest_plans,
-            scenes::{cuboid, request, with_balls},
-        },
+        cut::{planner::search::smallest_plans, scenes::two_balls},
         geom::{Plane, Vector},
-        printer::{Cleaning, CleaningRule},
     };
 
     #[test]
     fn one_cut_that_shows_all_takes_the_place_of_two_and_opens_the_largest_area() {
-        let balls = [[18.0, 15.0, 15.0, 10.0], [42.0, 15.0, 15.0, 10.0]];
-        let body = with_balls(cuboid([0.0; 3], [60.0, 30.0, 30.0]), &balls);
-        let request = PlanRequest {
-            cleaning: Cleaning {
-                rule: CleaningRule::InSight,
-                sight_ratio: 0.95,
-                ..Cleaning::MELT_OUT
-            },
-            ..request()
-        };
+        let (body, request) = two_balls();
         let scene = Scene::new(&body, &request).unwrap();
         let found = smallest_plans(&scene).unwrap();
         let plane = |normal: Vector, offset_mm: f64| Plane { normal, offset_mm };

@@ -40,30 +40,12 @@ pub(crate) fn whole_parts(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{
-        cut::{
-            PlanRequest,
-            scenes::{cuboid, request, with_balls},
-        },
-        geom::Vector,
-        printer::{Cleaning, CleaningRule},
-    };
+    use crate::{cut::scenes::two_balls, geom::Vector};
 
     #[test]
     fn a_plan_that_leaves_most_of_a_void_unclean_is_not_taken_for_its_whole_parts() {
         // A cut across the bar opens one of two balls; a cut along it opens both.
-        let body = with_balls(
-            cuboid([0.0; 3], [60.0, 30.0, 30.0]),
-            &[[18.0, 15.0, 15.0, 10.0], [42.0, 15.0, 15.0, 10.0]],
-        );
-        let request = PlanRequest {
-            cleaning: Cleaning {
-                rule: CleaningRule::InSight,
-                sight_ratio: 0.95,
-                ..Cleaning::MELT_OUT
-            },
-            ..request()
-        };
+        let (body, request) = two_balls();
         let scene = Scene::new(&body, &request).unwrap();
         let across = |offset_mm: f64| {
             vec![Plane {

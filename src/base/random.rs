@@ -3,7 +3,7 @@
 /// A linear congruential generator (Knuth, "The Art of Computer Programming" 2, 3.3.4, table 1,
 /// line 26). Good enough to stir a search, and for nothing else.
 #[derive(Debug, Clone)]
-pub(super) struct Random(u64);
+pub(crate) struct Random(u64);
 
 impl Random {
     pub fn new(seed: u64) -> Self {

@@ -11,7 +11,7 @@ use crate::geom::{Plane, Point, Vector};
 /// 1975), so concave polygons come out right. Every corner stays a corner, even on a straight side:
 /// the neighbouring faces may use it. If the polygon crosses itself or has no area, what is left at
 /// some point becomes a fan. Linear time for convex polygons, quadratic for most, cubic at worst.
-pub(super) fn ear_clip(vertices: &[Point], face: &[u32]) -> Vec<[u32; 3]> {
+pub(crate) fn ear_clip(vertices: &[Point], face: &[u32]) -> Vec<[u32; 3]> {
     let mut ring = face.to_vec();
     let mut triangles = Vec::with_capacity(face.len().saturating_sub(2));
     if ring.len() > 3 {
