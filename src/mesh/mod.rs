@@ -8,7 +8,7 @@
 //!   ([`Crossings`], [`Broken`]), exact distances ([`MeshDistance`]), and points spread evenly over
 //!   a surface ([`spread_points`]). [`WindingNumbers`] tell inside from outside of any triangles.
 //! * **Operations:** booleans, plane cuts and simplification ([`Csg`]); `clip` cuts by a plane for
-//!   trials; `cut_planes` keeps cuts off vertices and faces; `ear_clip` cuts polygons into triangles.
+//!   trials; `cut_planes` keeps cuts off vertices and faces; `ear_clip` fills polygons.
 //! * **Shapes:** [`primitives`] for tests and tools.
 
 mod axial;

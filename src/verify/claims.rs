@@ -17,8 +17,8 @@ use crate::mesh::foot_area_mm2;
 const OPENING_RATIO: f64 = 5e-3;
 /// The area of a joint may differ by this share from that of the faces in the files.
 const AREA_RATIO: f64 = 1e-3;
-/// The area of a foot may differ by this share, or of 1 mm² if it is less: it is the same section of
-/// the same file.
+/// The area of a foot may differ by this share, or by this share of 1 mm² if it is less. It is the
+/// same section of the same file.
 const FOOT_RATIO: f64 = 1e-6;
 /// The mass of a rod may differ by this share from that of its volume.
 const MASS_RATIO: f64 = 1e-6;
