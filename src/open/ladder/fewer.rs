@@ -1,10 +1,9 @@
 //! Few parts: plans with fewer parts than the usual one, taken in its place or offered beside it.
 
 use super::Ladder;
-use super::joined::{Fewer, Joined, fault_of};
+use super::joined::{Fewer, Joined, fault_of, fault_of_draft};
 use crate::cut::PlanRequest;
 use crate::error::Error;
-use crate::open::plan::are_clean;
 use crate::open::refused::unless_refused;
 use crate::open::tendency::{lean, with_fewer_parts};
 use crate::open::way::Way;
@@ -57,10 +56,7 @@ impl<'a> Ladder<'a> {
     /// Returns whether the voids of a plan are as clean as those of another, and its seams as well
     /// hidden.
     pub(super) fn is_as_good(&self, fewer: &Way, usual: &Way) -> Result<bool, Error> {
-        let is_as_clean = are_clean(&fewer.bossed.plan, &fewer.request)
-            || !are_clean(&usual.bossed.plan, &usual.request);
-        let most = usual.seam_price()?.max(self.policy.dear_seam_ratio);
-        Ok(is_as_clean && fewer.seam_price()? <= most)
+        Ok(fault_of_draft(fewer, usual, &self.policy)?.is_none())
     }
 
     /// Returns whether a plan with fewer parts hides a seam that is seen in the other, at a loss
@@ -105,6 +101,7 @@ impl<'a> Ladder<'a> {
         let is_cheap = fewer.is_as_good && few.loss_ratio(&usual) <= self.policy.part_loss_ratio;
         let hides_more = self.hides_more(&few, &usual)?;
         if (is_cheap || hides_more) && few.count_unaligned()? <= usual.count_unaligned()? {
+            self.notes.retain(|note| !is_offer_of_fewer(note));
             if hides_more {
                 self.take_hidden(&few, &usual);
             } else {

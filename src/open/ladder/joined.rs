@@ -38,6 +38,16 @@ pub(super) fn fault_of(
     if loose > usual.count_unaligned()? {
         return Ok(Some(FewerFault::Loose(loose)));
     }
+    fault_of_draft(few, usual, policy)
+}
+
+/// Returns the first fault of such a plan before it has its pins: voids that are less clean, or
+/// seams that are less hidden. `None` if it has none.
+pub(super) fn fault_of_draft(
+    few: &Way,
+    usual: &Way,
+    policy: &Policy,
+) -> Result<Option<FewerFault>, Error> {
     let is_clean = |way: &Way| are_clean(&way.bossed.plan, &way.request);
     if is_clean(usual) && !is_clean(few) {
         return Ok(Some(FewerFault::Unclean));

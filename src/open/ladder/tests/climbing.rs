@@ -144,6 +144,7 @@ fn of_two_plans_with_their_pins_the_one_with_fewer_parts_is_taken_if_it_costs_no
     assert!(none.is_empty(), "{none:?}");
     let (dear, offers) = weigh(0.0, 1.0);
     assert_eq!(dear, parts(&usual));
+    let dear_offers = offers.clone();
     let [
         Remark::FewerParts {
             parts: [few, many], ..
@@ -155,6 +156,16 @@ fn of_two_plans_with_their_pins_the_one_with_fewer_parts_is_taken_if_it_costs_no
     assert_eq!((few, many), (2, dear));
     let (cheap, offers) = weigh(1.0, 1.0);
     assert!(cheap == 2 && offers.is_empty());
+    // What was offered before is offered no more when a plan with fewer parts is taken.
+    let mut ladder = ladder.clone();
+    ladder.policy.part_loss_ratio = 1.0;
+    ladder.notes = dear_offers;
+    let fewer = Fewer {
+        draft,
+        is_as_good: true,
+    };
+    ladder.weigh_fewer_parts((usual, walls), fewer).unwrap();
+    assert!(ladder.notes.is_empty(), "{:?}", ladder.notes);
 }
 
 #[test]
