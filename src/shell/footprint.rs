@@ -1,6 +1,7 @@
 //! The shadow of a convex piece on the x-y plane, and the stretch of a row that it covers.
 
 use crate::geom::Point;
+use crate::geom::hull::strict_hull;
 
 /// Largest number of corners of a footprint. A hull with more is replaced by its bounding
 /// rectangle, which is larger, never smaller.
@@ -18,7 +19,7 @@ pub(super) struct Footprint {
 impl Footprint {
     /// Returns the shadow of the convex hull of `points`, widened by `margin_mm` on all sides.
     pub fn of_points(points: &[Point], margin_mm: f64) -> Self {
-        let mut hull = convex_hull(points.iter().map(|p| [p.x, p.y]).collect());
+        let mut hull = strict_hull(points.iter().map(|p| [p.x, p.y]).collect());
         if hull.len() > MAX_CORNERS {
             hull = bounding_rectangle(&hull);
         }
@@ -90,41 +91,6 @@ fn edge_on_strip(from: [f64; 2], to: [f64; 2], [below, above]: [f64; 2]) -> Opti
         lower[0] + slope * (above - lower[1])
     };
     Some([start, end])
-}
-
-/// Returns the convex hull, counter-clockwise (Andrew, "Another efficient algorithm for convex
-/// hulls in two dimensions", Inf. Process. Lett. 9, 1979).
-fn convex_hull(mut points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
-    points.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
-    points.dedup();
-    if points.len() < 3 {
-        return points;
-    }
-    let mut hull = half_hull(points.iter());
-    hull.pop();
-    hull.extend(half_hull(points.iter().rev()));
-    hull.pop();
-    hull
-}
-
-/// Returns one chain of the hull over points in sweep order.
-fn half_hull<'a>(points: impl Iterator<Item = &'a [f64; 2]>) -> Vec<[f64; 2]> {
-    let mut chain: Vec<[f64; 2]> = Vec::new();
-    for &point in points {
-        while let [.., a, b] = chain[..] {
-            if turn(a, b, point) > 0.0 {
-                break;
-            }
-            chain.pop();
-        }
-        chain.push(point);
-    }
-    chain
-}
-
-/// Returns twice the signed area of the triangle a, b, c: positive if it turns left.
-fn turn(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
-    (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 }
 
 /// Returns the corners of the bounding rectangle.
