@@ -84,11 +84,11 @@ pub mod extend {
     pub use crate::{curve, skeleton, telescope};
 }
 
-/// Objects larger than the printer: the polyhedra of a laser-cut base, and the machines, sheets and
-/// fasteners that it is made with.
+/// Objects larger than the printer: the polyhedra of a laser-cut base and their panels. With them
+/// go the machines, sheets and fasteners that it is made with.
 pub mod large {
     #[doc(inline)]
-    pub use crate::{cutter, polyhedra};
+    pub use crate::{cutter, cutting, panels, polyhedra};
 }
 
 /// Checklists, job sheets, drawings and coupons.
@@ -111,6 +111,8 @@ pub mod coupon;
 pub mod curve;
 #[doc(hidden)]
 pub mod cutter;
+#[doc(hidden)]
+pub mod cutting;
 #[doc(hidden)]
 pub mod draw;
 #[doc(hidden)]
@@ -139,6 +141,7 @@ pub mod mesh;
 pub mod open;
 #[doc(hidden)]
 pub mod page;
+#[doc(hidden)]
 pub mod panels;
 #[doc(hidden)]
 pub mod polyhedra;

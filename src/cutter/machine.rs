@@ -8,6 +8,9 @@ use super::stock::StockSheet;
 use crate::base::sourced::{Sourced, Sure};
 use crate::base::words::choice;
 
+/// Least distance of two outlines on a sheet, mm.
+const LEAST_SPACING_MM: f64 = 3.0;
+
 choice! {
     /// The way in which a drawing tells cuts from engravings.
     Dialect, "drawing dialect" {
@@ -198,16 +201,40 @@ impl Cutter {
     pub fn rooms_mm(&self, sheet: &StockSheet) -> Vec<[f64; 2]> {
         let margin = self.numbers.get(&CutterNumber::MarginMm);
         let margin_mm = margin.map_or(0.0, |margin| margin.value);
-        let bed = self.bed_mm.value;
         let room = |size: [f64; 2]| {
-            let fitted = |[x, y]: [f64; 2]| [x.min(bed[0]), y.min(bed[1])];
-            let [lying, turned] = [fitted(size), fitted([size[1], size[0]])];
-            let is_larger = lying[0] * lying[1] >= turned[0] * turned[1];
-            let room = if is_larger { lying } else { turned };
-            room.map(|side| (side - 2.0 * margin_mm).max(0.0))
+            let on_bed = self.on_bed_mm(size);
+            on_bed.map(|side| (side - 2.0 * margin_mm).max(0.0))
         };
         let sizes = sheet.sizes.iter();
         sizes.map(|stock| room(stock.size_mm.value)).collect()
+    }
+
+    /// Returns what of a sheet with these sides lies on the bed, mm: as it is, or turned if that is
+    /// larger.
+    pub fn on_bed_mm(&self, sheet_mm: [f64; 2]) -> [f64; 2] {
+        let bed = self.bed_mm.value;
+        let fitted = |[x, y]: [f64; 2]| [x.min(bed[0]), y.min(bed[1])];
+        let [lying, turned] = [fitted(sheet_mm), fitted([sheet_mm[1], sheet_mm[0]])];
+        let is_larger = lying[0] * lying[1] >= turned[0] * turned[1];
+        if is_larger { lying } else { turned }
+    }
+
+    /// Returns the least distance of two outlines on a sheet, mm, where the cut has this width: the
+    /// strip between them stays in one piece.
+    pub fn spacing_mm(&self, kerf_mm: f64) -> f64 {
+        let least = self.numbers.get(&CutterNumber::MinGapMm);
+        let least_mm = least.map_or(0.0, |gap| gap.value);
+        LEAST_SPACING_MM.max(least_mm + 2.0 * kerf_mm)
+    }
+
+    /// Returns the part of a cut's width, mm, by which drawings are offset: none of it if the
+    /// shop's software does that.
+    pub fn offset_mm(&self, kerf_mm: f64) -> f64 {
+        if self.compensates_kerf.value {
+            0.0
+        } else {
+            kerf_mm
+        }
     }
 }
 

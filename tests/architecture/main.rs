@@ -76,6 +76,8 @@ const ARROWS: &[(&str, &[&str])] = &[
     // Outlines and joints are plane geometry, and a polyhedron gives panels their places. The sheet
     // is a thickness: what is cut from which one is for the rooms above.
     ("panels", &["base", "geom", "mesh", "polyhedra"]),
+    // Panels become drawings for one cutter and one sheet. Which panels they are, it does not ask.
+    ("cutting", &["cutter", "io", "panels"]),
     (
         "cut",
         &[
@@ -212,6 +214,7 @@ const ARROWS: &[(&str, &[&str])] = &[
             "coupon",
             "curve",
             "cutter",
+            "cutting",
             "draw",
             "error",
             "geom",

@@ -12,59 +12,17 @@ Exit code 0: all of it holds; 1: else, with a line for each fault.
 
 import json
 import math
-import re
 import sys
-import xml.etree.ElementTree as tree
 from pathlib import Path
 
-import ezdxf
 import numpy as np
 import trimesh
 from shapely.geometry import Polygon
 
-CUTS, ENGRAVING = ("CUT_INNER", "CUT_OUTER"), "ENGRAVE"
-NEAR_MM = 2e-4
+from cut_drawings import NEAR_MM, read_both
+
 # Drawings are rounded to a ten-thousandth, over some hundred mm² of faces that touch.
 TOUCH_MM3, PRESSED_MM3 = 0.02, 0.1
-SVG = "{http://www.w3.org/2000/svg}"
-
-
-def lines_of_dxf(path, faults):
-    """The lines of a DXF as (layer, is closed, points), and its units."""
-    drawing = ezdxf.readfile(path)
-    audit = drawing.audit()
-    faults += [f"audit: {entry.message}" for entry in [*audit.errors, *audit.fixes]]
-    if drawing.units != 4:
-        faults.append(f"units are {drawing.units}, not mm")
-    lines = []
-    for entity in drawing.modelspace():
-        if entity.dxftype() != "LWPOLYLINE":
-            faults.append(f"an entity is a {entity.dxftype()}")
-            continue
-        points = [(x, y) for x, y, *_, bulge in entity.get_points() if not bulge or faults.append("a bulge")]
-        lines.append((entity.dxf.layer, bool(entity.closed), points))
-    return lines
-
-
-def lines_of_svg(path, faults):
-    """The lines of an SVG in the frame of the DXF."""
-    root = tree.parse(path).getroot()
-    width, height = (float(re.fullmatch(r"([\d.]+)mm", root.get(side)).group(1)) for side in ("width", "height"))
-    if [float(number) for number in root.get("viewBox").split()] != [0, 0, width, height]:
-        faults.append("the view box scales the drawing")
-    lines = []
-    for group in root:
-        for shape in group:
-            if group.get("transform") or shape.get("transform"):
-                faults.append("a transform")
-            pairs = [pair.split(",") for pair in shape.get("points").split()]
-            points = [(float(x), height - float(y)) for x, y in pairs]
-            lines.append((group.get("id"), shape.tag == f"{SVG}polygon", points))
-    return lines
-
-
-def area(points):
-    return 0.5 * sum(a[0] * b[1] - a[1] * b[0] for a, b in zip(points, points[1:] + points[:1]))
 
 
 def size(points):
@@ -122,24 +80,8 @@ def check_joints(panels, sizes, faults):
 def judge(folder):
     faults = []
     sizes = json.loads((folder / "coupon.json").read_text())
-    dxf, svg = lines_of_dxf(folder / "coupon.dxf", faults), lines_of_svg(folder / "coupon.svg", faults)
-    for layer, is_closed, points in dxf:
-        if is_closed != (layer in CUTS) or layer not in (*CUTS, ENGRAVING):
-            faults.append(f"a line on {layer} is {'closed' if is_closed else 'open'}")
-        if is_closed and len(points) < 3 or len(points) < 2:
-            faults.append("a line has no length")
-    rounded = [(layer, tuple((round(x, 3), round(y, 3)) for x, y in points)) for layer, _, points in dxf]
-    if len(set(rounded)) != len(rounded):
-        faults.append("a line is drawn twice")
-    if len(dxf) != len(svg):
-        faults.append(f"the DXF has {len(dxf)} lines and the SVG {len(svg)}")
-    for (layer, closed, a), (other, same, b) in zip(dxf, svg):
-        apart = max((abs(p - q) for one, two in zip(a, b) for p, q in zip(one, two)), default=0)
-        if (layer, closed, len(a)) != (other, same, len(b)) or apart > NEAR_MM:
-            faults.append(f"a line on {layer} differs between both files")
-    cuts = [points for layer, _, points in dxf if layer == "CUT_OUTER"]
-    if any(area(points) <= 0 for points in cuts):
-        faults.append("an outline goes clockwise")
+    lines, _ = read_both(folder / "coupon.dxf", folder / "coupon.svg", faults)
+    cuts = [points for layer, _, points in lines if layer == "CUT_OUTER"]
     squares = [points for points in cuts if all(abs(side - sizes["side_mm"]) < NEAR_MM for side in size(points))]
     if len(squares) != sizes["squares"]:
         faults.append(f"{len(squares)} squares, not {sizes['squares']}")

@@ -9,6 +9,7 @@
 #[path = "../common/mod.rs"]
 mod common;
 mod nests;
+mod sheets;
 
 use equipoise::base::verdict::Verdict;
 use equipoise::base::watch::Watch;

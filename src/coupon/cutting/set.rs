@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::cutter::{CannotCut, Cutter, CutterNumber, StockSheet};
+use crate::cutter::{CannotCut, Cutter, StockSheet};
 use crate::panels::BeamError;
 
 /// Number of squares in the row. A calliper reads the row to 0.05 mm, and a kerf to 0.005 mm.
@@ -133,8 +133,6 @@ impl CutCouponSet {
                 press_mm,
             })
         });
-        let least_gap = cutter.numbers.get(&CutterNumber::MinGapMm);
-        let least_gap_mm = least_gap.map_or(0.0, |gap| gap.value);
         let rooms = cutter.rooms_mm(sheet).into_iter();
         let room_mm = rooms.reduce(|a, b| if b[0] * b[1] > a[0] * a[1] { b } else { a });
         Ok(Self {
@@ -146,16 +144,12 @@ impl CutCouponSet {
             thickness_mm,
             kerf_mm: kerf.kerf_mm,
             kerf_source: kerf.provenance,
-            offset_kerf_mm: if cutter.compensates_kerf.value {
-                0.0
-            } else {
-                kerf.kerf_mm
-            },
+            offset_kerf_mm: cutter.offset_mm(kerf.kerf_mm),
             squares: SQUARES,
             side_mm: SIDE_MM,
             slots: (-SLOTS..=SLOTS).map(slot).collect(),
             joints: joints.collect(),
-            gap_mm: 3.0_f64.max(least_gap_mm + 2.0 * kerf.kerf_mm),
+            gap_mm: cutter.spacing_mm(kerf.kerf_mm),
             room_mm: room_mm.unwrap_or(cutter.bed_mm.value),
         })
     }
