@@ -102,6 +102,7 @@ fn assert_filled(density_g_cm3: f64) {
 }
 
 #[test]
+#[ignore = "long: 20 s; run with -- --ignored"]
 fn voids_are_filled_with_something_heavier_than_the_print() {
     assert_filled(5.0);
 }

@@ -69,6 +69,7 @@ fn the_sheet_of_a_yoyo_works_in_a_browser_without_a_network() {
 }
 
 #[test]
+#[ignore = "long: 40 s, and two other sheets are looked at; run with -- --ignored"]
 fn the_sheet_of_a_stand_works_in_a_browser_without_a_network() {
     assert_works("stand", 4);
 }

@@ -63,6 +63,7 @@ fn the_job_of_a_yoyo_makes_the_same_kit_again() {
 }
 
 #[test]
+#[ignore = "long: 20 s; run with -- --ignored"]
 fn a_checklist_with_false_numbers_about_its_hardware_is_found_out() {
     let folder = tempfile::tempdir().unwrap();
     let kit = folder.path().join("kit");

@@ -238,6 +238,7 @@ fn assert_disc_in_faces(plan: &BasePlan, index: usize) {
 }
 
 #[test]
+#[ignore = "long: 12 s; run with -- --ignored"]
 fn two_balls_on_a_neck_get_two_polyhedra_and_a_tube() {
     let ball = |x: f64| primitives::ball(&Point::new(x, 0.0, 0.0), 60.0, 3);
     let neck = primitives::cylinder(46.0, 100.0, 48);

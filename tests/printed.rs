@@ -291,6 +291,7 @@ fn another_filament_is_named() {
 }
 
 #[test]
+#[ignore = "long: 10 s; run with -- --ignored"]
 fn a_low_flow_is_named_and_not_taken_for_sparse_infill() {
     let Some(bench) = bench() else { return };
     let options = "--dont-arrange --extrusion-multiplier 0.85";
