@@ -1,6 +1,9 @@
 //! A convex body bounded by planes: its corners, its faces and their measures.
 
+use std::collections::BTreeMap;
+
 use crate::geom::{Aabb, Plane, Point, Vector};
+use crate::mesh::TriMesh;
 
 /// Corners nearer to a plane than this share of the body's size count as on it.
 ///
@@ -220,6 +223,26 @@ impl Convex {
         edges
     }
 
+    /// Returns the closed surface as triangles; every face, those on the box too, is a fan about
+    /// its first corner.
+    pub fn mesh(&self) -> TriMesh {
+        let mut index_of = BTreeMap::new();
+        let mut corners = Vec::new();
+        let mut triangles = Vec::new();
+        for face in &self.faces {
+            let ring = face.corners.iter().map(|&corner| {
+                *index_of.entry(corner).or_insert_with(|| {
+                    corners.push(self.at(corner));
+                    corners.len() as u32 - 1
+                })
+            });
+            let ring: Vec<u32> = ring.collect();
+            let pairs = ring[1..].windows(2);
+            triangles.extend(pairs.map(|pair| [ring[0], pair[0], pair[1]]));
+        }
+        TriMesh::from_parts(corners, triangles)
+    }
+
     /// Returns the corner of an index that an outline names.
     pub fn at(&self, corner: u32) -> Point {
         self.corners[corner as usize]
@@ -318,6 +341,7 @@ fn push_new(kept: &mut Vec<u32>, corner: u32) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::mesh::Solid;
 
     fn plane(normal: [f64; 3], offset_mm: f64) -> Plane {
         let normal = Vector::from(normal).normalize();
@@ -351,6 +375,16 @@ mod tests {
         assert_eq!(edges.len(), 12);
         assert!(edges.iter().all(|e| (e.length_mm() - edge).abs() < 1e-12));
         assert!(body.outlines(8).iter().all(|outline| outline.len() == 3));
+    }
+
+    #[test]
+    fn the_surface_is_closed_on_the_box_too() {
+        for count in [2, 8] {
+            let body = Convex::of_planes(&octahedron(1.0)[..count], &around(2.0)).unwrap();
+            let solid = Solid::new(body.mesh()).unwrap();
+            let volume_mm3 = solid.mesh().signed_volume_mm3();
+            assert!((volume_mm3 - body.volume_mm3()).abs() < 1e-12);
+        }
     }
 
     #[test]

@@ -76,6 +76,22 @@ const ARROWS: &[(&str, &[&str])] = &[
     // Outlines and joints are plane geometry, and a polyhedron gives panels their places. The sheet
     // is a thickness: what is cut from which one is for the rooms above.
     ("panels", &["base", "geom", "mesh", "polyhedra"]),
+    // The shell around a base is cut by its faces, hollowed as voids are and screwed to its panels.
+    // Parts are turned for the printer's room by the directions of poses; a room is three lengths.
+    (
+        "cladding",
+        &[
+            "base",
+            "cutter",
+            "geom",
+            "mesh",
+            "panels",
+            "polyhedra",
+            "poses",
+            "shell",
+            "voids",
+        ],
+    ),
     (
         "cut",
         &[
@@ -209,6 +225,7 @@ const ARROWS: &[(&str, &[&str])] = &[
         &[
             "advice",
             "ballast",
+            "cladding",
             "coupon",
             "curve",
             "cutter",
