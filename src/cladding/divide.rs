@@ -236,6 +236,9 @@ fn contacts(parts: &[Part], part: usize) -> Vec<Contact> {
 pub(super) fn name_holdings(parts: &mut [Part]) {
     let mut is_held: Vec<bool> = parts.iter().map(Part::is_on_panel).collect();
     let loose: Vec<usize> = (0..parts.len()).filter(|&part| !is_held[part]).collect();
+    loose
+        .iter()
+        .for_each(|&part| parts[part].holding = Holding::Nothing);
     let all: Vec<Vec<Contact>> = loose.iter().map(|&part| contacts(parts, part)).collect();
     loop {
         let waiting = loose.iter().zip(&all).filter(|(part, _)| !is_held[**part]);

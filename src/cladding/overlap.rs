@@ -9,6 +9,8 @@ const ON_PLANE_MM: f64 = 1e-7;
 const UPRIGHT_COSINE: f64 = 1e-9;
 /// Depth up to which surfaces that touch count as in contact, mm.
 const TOUCH_MM: f64 = 1e-6;
+/// Width of a shadow above which it is wide, as a share of all.
+const WIDE_RATIO: f64 = 0.03;
 
 /// A triangle seen along a direction: its corners in the plane across, and its height over it.
 struct Shadow {
@@ -90,22 +92,44 @@ pub(super) fn convex_mm2(ring: &[[f64; 2]]) -> f64 {
         .sum::<f64>()
 }
 
-/// Calls `see` with every pair of shadows whose ranges along the first coordinate meet.
-fn visit_pairs(first: &mut [Shadow], second: &mut [Shadow], mut see: impl FnMut(&Shadow, &Shadow)) {
-    for shadows in [&mut *first, &mut *second] {
-        shadows.sort_by(|a, b| a.low[0].total_cmp(&b.low[0]));
+/// Calls `see` with every pair of shadows whose boxes meet.
+fn visit_pairs(first: Vec<Shadow>, second: Vec<Shadow>, mut see: impl FnMut(&Shadow, &Shadow)) {
+    let second = near(second, &first);
+    let first = near(first, &second);
+    let [low, high] = range(&second, 0);
+    let width = |shadow: &Shadow| shadow.high[0] - shadow.low[0];
+    // A few wide shadows would make every search wide.
+    let is_wide = |shadow: &Shadow| width(shadow) > WIDE_RATIO * (high - low);
+    let (wide, narrow): (Vec<_>, Vec<_>) = second.into_iter().partition(is_wide);
+    for mut others in [wide, narrow] {
+        others.sort_by(|a, b| a.low[0].total_cmp(&b.low[0]));
+        let reach = others.iter().map(width).fold(0.0, f64::max);
+        for shadow in &first {
+            let start = others.partition_point(|other| other.low[0] < shadow.low[0] - reach);
+            let near = others[start..].iter();
+            let near = near.take_while(|other| other.low[0] <= shadow.high[0]);
+            near.for_each(|other| see(shadow, other));
+        }
     }
-    let widest = |shadows: &[Shadow]| {
-        let widths = shadows.iter().map(|shadow| shadow.high[0] - shadow.low[0]);
-        widths.fold(0.0, f64::max)
-    };
-    let reach = widest(second);
-    for shadow in &*first {
-        let start = second.partition_point(|other| other.low[0] < shadow.low[0] - reach);
-        let near = second[start..].iter();
-        let near = near.take_while(|other| other.low[0] <= shadow.high[0]);
-        near.for_each(|other| see(shadow, other));
-    }
+}
+
+/// Returns the least and the greatest place of shadows along a coordinate.
+fn range(shadows: &[Shadow], along: usize) -> [f64; 2] {
+    let ends = shadows
+        .iter()
+        .map(|shadow| [shadow.low[along], shadow.high[along]]);
+    ends.fold([f64::INFINITY, f64::NEG_INFINITY], |all, [low, high]| {
+        [all[0].min(low), all[1].max(high)]
+    })
+}
+
+/// Returns the shadows that meet the box around all others.
+fn near(mut shadows: Vec<Shadow>, others: &[Shadow]) -> Vec<Shadow> {
+    let bounds = [0, 1].map(|k| range(others, k));
+    shadows.retain(|shadow| {
+        (0..2).all(|k| shadow.low[k] < bounds[k][1] && shadow.high[k] > bounds[k][0])
+    });
+    shadows
 }
 
 /// Returns the area in which a body on its way along a unit direction meets another one, mm²; 0 if
@@ -124,27 +148,23 @@ pub fn barred_mm2(moving: &TriMesh, fixed: &TriMesh, way: &Vector) -> f64 {
             .collect()
     };
     let mut barred_mm2 = 0.0;
-    visit_pairs(
-        &mut facing(moving, 1.0),
-        &mut facing(fixed, -1.0),
-        |ahead, back| {
-            let ring = ahead.shared(back);
-            if ring.len() > 2 {
-                let middle =
-                    [0, 1].map(|k| ring.iter().map(|at| at[k]).sum::<f64>() / ring.len() as f64);
-                if back.height_at(middle) >= ahead.height_at(middle) - TOUCH_MM {
-                    barred_mm2 += convex_mm2(&ring);
-                }
+    visit_pairs(facing(moving, 1.0), facing(fixed, -1.0), |ahead, back| {
+        let ring = ahead.shared(back);
+        if ring.len() > 2 {
+            let middle =
+                [0, 1].map(|k| ring.iter().map(|at| at[k]).sum::<f64>() / ring.len() as f64);
+            if back.height_at(middle) >= ahead.height_at(middle) - TOUCH_MM {
+                barred_mm2 += convex_mm2(&ring);
             }
-        },
-    );
+        }
+    });
     barred_mm2
 }
 
 /// Returns the area in which two bodies touch in a plane, mm²: the first one below it, the second
 /// one above.
 pub fn contact_mm2(below: &TriMesh, above: &TriMesh, plane: &Plane) -> f64 {
-    let mut shadows = [(below, 1.0), (above, -1.0)].map(|(mesh, sign)| {
+    let [first, second] = [(below, 1.0), (above, -1.0)].map(|(mesh, sign)| {
         let flat = flat_triangles(mesh, plane, sign);
         let (u, w) = plane.basis();
         let frame = [u, w, plane.normal];
@@ -154,7 +174,6 @@ pub fn contact_mm2(below: &TriMesh, above: &TriMesh, plane: &Plane) -> f64 {
         shadows.collect::<Vec<_>>()
     });
     let mut contact_mm2 = 0.0;
-    let [first, second] = &mut shadows;
     visit_pairs(first, second, |a, b| {
         contact_mm2 += convex_mm2(&a.shared(b))
     });
@@ -177,52 +196,4 @@ fn flat_triangles(mesh: &TriMesh, plane: &Plane, sign: f64) -> Vec<[Point; 3]> {
         is_near && sign * plane.normal.dot(&(b - a).cross(&(c - a))) > 0.0
     };
     mesh.iter_corners().filter(is_flat).collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::mesh::primitives::{ball, cuboid};
-
-    fn block(low: [f64; 3], high: [f64; 3]) -> TriMesh {
-        cuboid(&low.into(), &high.into())
-    }
-
-    #[test]
-    fn a_block_is_barred_by_what_hangs_over_it_and_not_by_what_lies_below_or_beside() {
-        let moving = block([0.0; 3], [4.0, 4.0, 1.0]);
-        let over = block([3.0, 1.0, 5.0], [9.0, 3.0, 6.0]);
-        let up = Vector::z();
-        assert!((barred_mm2(&moving, &over, &up) - 2.0).abs() < 1e-12);
-        assert_eq!(barred_mm2(&over, &moving, &up), 0.0);
-        assert!((barred_mm2(&over, &moving, &-up) - 2.0).abs() < 1e-12);
-        let beside = block([4.0, 0.0, -3.0], [6.0, 4.0, 9.0]);
-        assert_eq!(barred_mm2(&moving, &beside, &up), 0.0);
-        // Face on face: it cannot move at all.
-        let on_it = block([0.0, 0.0, 1.0], [4.0, 4.0, 2.0]);
-        assert!((barred_mm2(&moving, &on_it, &up) - 16.0).abs() < 1e-12);
-    }
-
-    #[test]
-    fn a_round_body_is_barred_by_its_whole_shadow() {
-        let round = ball(&Point::origin(), 2.0, 3);
-        let roof = block([-9.0, -9.0, 7.0], [9.0, 9.0, 8.0]);
-        let way = Vector::new(0.1, -0.2, 1.0).normalize();
-        let barred = barred_mm2(&round, &roof, &way);
-        let disc = std::f64::consts::PI * 4.0;
-        assert!(barred < disc && barred > 0.97 * disc, "{barred}");
-    }
-
-    #[test]
-    fn bodies_touch_in_what_their_faces_share() {
-        let lower = block([0.0; 3], [4.0, 4.0, 1.0]);
-        let upper = block([1.0, 2.0, 1.0], [6.0, 6.0, 2.0]);
-        let plane = Plane {
-            normal: Vector::z(),
-            offset_mm: 1.0,
-        };
-        assert!((contact_mm2(&lower, &upper, &plane) - 6.0).abs() < 1e-12);
-        assert_eq!(contact_mm2(&upper, &lower, &plane), 0.0);
-        assert!((face_mm2(&lower, &plane) - 16.0).abs() < 1e-12);
-    }
 }

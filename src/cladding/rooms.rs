@@ -336,34 +336,3 @@ fn cut(part: &Part, plane: &Plane) -> Result<Vec<Part>, CladdingError> {
     }
     Ok(pieces)
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_width_of_a_ring_is_its_least_over_all_directions() {
-        let ring = [[0.0, 0.0], [30.0, 0.0], [34.0, 3.0], [4.0, 3.0]];
-        assert!((width_mm(&ring) - 3.0).abs() < 1e-12);
-    }
-
-    #[test]
-    fn a_piece_fills_as_many_rooms_as_boxes_need() {
-        let room = Room {
-            size_mm: [100.0, 80.0, 60.0],
-            wall_mm: 3.0,
-        };
-        let cutter = Cutter {
-            room: &room,
-            up: Vector::z(),
-        };
-        let rooms = |size: [f64; 3]| {
-            let block = crate::mesh::primitives::cuboid(&Point::origin(), &size.into());
-            cutter.rooms_of(&cutter.shape(&block))
-        };
-        assert_eq!(rooms([99.0, 79.0, 59.0]), 1);
-        assert_eq!(rooms([59.0, 79.0, 99.0]), 1);
-        assert_eq!(rooms([190.0, 150.0, 59.0]), 4);
-        assert_eq!(rooms([190.0, 150.0, 70.0]), 6);
-    }
-}

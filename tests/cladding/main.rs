@@ -10,6 +10,7 @@
 mod common;
 mod models;
 mod scenes;
+mod ways;
 
 use equipoise::base::watch::Watch;
 use equipoise::cladding::{
@@ -64,7 +65,7 @@ fn cells_hold_every_point_outside_once_and_stay_within_themselves_along_their_no
     let ground = ball_ground();
     for faces in [
         cube([80.0, 70.0, 60.0]),
-        octahedron(80.0),
+        octahedron(60.0),
         dodecahedron(90.0),
     ] {
         let base = base(&ground, 10.0, &faces);
@@ -96,7 +97,7 @@ fn the_parts_of_a_box_and_a_ball_add_up_and_each_bears_on_its_whole_face() {
     let scenes = [
         (box_ground(), cube([85.0, 75.0, 65.0])),
         (ball_ground(), cube([80.0, 70.0, 60.0])),
-        (ball_ground(), octahedron(80.0)),
+        (ball_ground(), octahedron(60.0)),
         (ball_ground(), dodecahedron(90.0)),
     ];
     for (ground, faces) in scenes {
