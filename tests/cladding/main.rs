@@ -19,7 +19,7 @@ use equipoise::cladding::{
 };
 use equipoise::cutter::Fastener;
 use equipoise::geom::{Point, Vector};
-use equipoise::mesh::{TriMesh, primitives};
+use equipoise::mesh::{Solid, TriMesh, primitives};
 use equipoise::polyhedra::Ground;
 
 use scenes::{
@@ -84,6 +84,7 @@ fn cells_hold_every_point_outside_once_and_stay_within_themselves_along_their_no
         let error = (cells_mm3 + grown(&scene).signed_volume_mm3() - whole_mm3) / whole_mm3;
         assert!(error.abs() < 1e-12, "{error}");
         for cell in &cells {
+            assert!(Solid::new(cell.region.body(&room.aabb()).unwrap()).is_ok());
             let way = base.faces()[cell.face].plane.normal;
             for corner in cell.region.body(&room.aabb()).unwrap().vertices() {
                 assert!(cell.region.height_mm(&(corner + way * 1e3)) < 1e-9);
