@@ -84,11 +84,11 @@ pub mod extend {
     pub use crate::{curve, skeleton, telescope};
 }
 
-/// Objects larger than the printer: the polyhedra of a laser-cut base and their panels. With them
-/// go the machines, sheets and fasteners that it is made with.
+/// Objects larger than the printer: the polyhedra of a laser-cut base, their panels, and the printed
+/// parts around them. With them come the machines, sheets and fasteners.
 pub mod large {
     #[doc(inline)]
-    pub use crate::{cutter, cutting, panels, polyhedra};
+    pub use crate::{cladding, cutter, cutting, panels, polyhedra};
 }
 
 /// Checklists, job sheets, drawings and coupons.
@@ -102,6 +102,8 @@ pub mod report {
 pub mod advice;
 #[doc(hidden)]
 pub mod ballast;
+#[doc(hidden)]
+pub mod cladding;
 #[cfg(feature = "cli")]
 #[doc(hidden)]
 pub mod cli;

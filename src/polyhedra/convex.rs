@@ -1,6 +1,9 @@
 //! A convex body bounded by planes: its corners, its faces and their measures.
 
+use std::collections::BTreeMap;
+
 use crate::geom::{Aabb, Plane, Point, Vector};
+use crate::mesh::TriMesh;
 
 /// Corners nearer to a plane than this share of the body's size count as on it.
 ///
@@ -218,6 +221,26 @@ impl Convex {
             }
         }
         edges
+    }
+
+    /// Returns the closed surface as triangles; every face, those on the box too, is a fan about
+    /// its first corner.
+    pub fn mesh(&self) -> TriMesh {
+        let mut index_of = BTreeMap::new();
+        let mut corners = Vec::new();
+        let mut triangles = Vec::new();
+        for face in &self.faces {
+            let ring = face.corners.iter().map(|&corner| {
+                *index_of.entry(corner).or_insert_with(|| {
+                    corners.push(self.at(corner));
+                    corners.len() as u32 - 1
+                })
+            });
+            let ring: Vec<u32> = ring.collect();
+            let pairs = ring[1..].windows(2);
+            triangles.extend(pairs.map(|pair| [ring[0], pair[0], pair[1]]));
+        }
+        TriMesh::from_parts(corners, triangles)
     }
 
     /// Returns the corner of an index that an outline names.

@@ -20,7 +20,7 @@ const FOOT_MM: f64 = 0.3;
 /// Returns directions spread evenly over the sphere, on a Fibonacci spiral: González, "Measurement
 /// of areas on a sphere using Fibonacci and latitude–longitude lattices", Mathematical Geosciences
 /// 42, 2010.
-pub(super) fn spread() -> Vec<Vector> {
+pub(crate) fn spread() -> Vec<Vector> {
     let turn = PI * (3.0 - 5f64.sqrt());
     let direction = |index: usize| {
         let z = 1.0 - (2.0 * index as f64 + 1.0) / SPREAD as f64;
@@ -32,7 +32,7 @@ pub(super) fn spread() -> Vec<Vector> {
 }
 
 /// Returns the 26 directions toward the faces, edges and corners of a cube in the model's axes.
-pub(super) fn of_cube() -> Vec<Vector> {
+pub(crate) fn of_cube() -> Vec<Vector> {
     let steps = [-1.0, 0.0, 1.0];
     let all = steps.into_iter().flat_map(|x| {
         steps

@@ -22,5 +22,6 @@ mod tests;
 pub use choice::{PoseRules, Want, rank_poses};
 pub use columns::Columns;
 pub use cups::{Cup, LEAST_CUP_MM3, cup_volume_mm3, find_cups};
+pub(crate) use directions::{of_cube, spread};
 pub use shape::{Peg, Shape, Side};
 pub use support::{Support, SupportRule, find_overhangs};

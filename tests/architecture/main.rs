@@ -78,6 +78,22 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("panels", &["base", "geom", "mesh", "polyhedra"]),
     // Panels become drawings for one cutter and one sheet. Which panels they are, it does not ask.
     ("cutting", &["cutter", "io", "panels"]),
+    // The shell around a base is cut by its faces, hollowed as voids are and screwed to its panels.
+    // Parts are turned for the printer's room by the directions of poses; a room is three lengths.
+    (
+        "cladding",
+        &[
+            "base",
+            "cutter",
+            "geom",
+            "mesh",
+            "panels",
+            "polyhedra",
+            "poses",
+            "shell",
+            "voids",
+        ],
+    ),
     (
         "cut",
         &[
@@ -211,6 +227,7 @@ const ARROWS: &[(&str, &[&str])] = &[
         &[
             "advice",
             "ballast",
+            "cladding",
             "coupon",
             "curve",
             "cutter",

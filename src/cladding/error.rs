@@ -1,0 +1,67 @@
+//! Errors in making the parts of a shell.
+
+use crate::base::watch::Cancelled;
+use crate::mesh::{ClipError, Defects};
+use crate::voids::VoidError;
+
+/// The reason that a base gets no shell.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum CladdingError {
+    /// A length is negative, or not finite.
+    #[error("{name} is {value_mm} mm; give a positive length")]
+    NotPositive {
+        /// Name of the length.
+        name: &'static str,
+        /// The value given, mm.
+        value_mm: f64,
+    },
+    /// The gap over the panels reaches the surface of the model.
+    #[error(
+        "the gap of {gap_mm} mm over the panels leaves no shell: the surface is only \
+         {distance_mm} mm away"
+    )]
+    Gap {
+        /// The gap, mm.
+        gap_mm: f64,
+        /// The distance of the base from the surface, mm.
+        distance_mm: f64,
+    },
+    /// The printer's room is too small for any part.
+    #[error("the printer's room of {room_mm:.0} mm is narrower than {least_mm:.0} mm, four walls")]
+    Room {
+        /// The shortest side of the room, mm.
+        room_mm: f64,
+        /// The least side, mm.
+        least_mm: f64,
+    },
+    /// No cut makes a part fit.
+    #[error("no cut makes the part over face {face} fit the printer's room")]
+    NoCut {
+        /// The index of the face.
+        face: usize,
+    },
+    /// Units that bar each other's ways.
+    #[error("no order takes the units apart: {} bar each other", list(.units))]
+    Cycle {
+        /// The indices of the units.
+        units: Vec<usize>,
+    },
+    /// The boolean engine failed.
+    #[error("cutting the shell failed")]
+    Clip(#[from] ClipError),
+    /// A part bounds no solid.
+    #[error("a part of the shell is not a solid")]
+    Defects(#[from] Defects),
+    /// Hollowing failed.
+    #[error("hollowing a part of the shell failed")]
+    Void(#[from] VoidError),
+    /// The caller stopped the run.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+}
+
+fn list(units: &[usize]) -> String {
+    let names: Vec<String> = units.iter().map(usize::to_string).collect();
+    names.join(", ")
+}

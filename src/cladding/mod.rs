@@ -1,0 +1,42 @@
+//! The shell of an object on a base: printed parts that leave along the normals of the panels.
+//!
+//! * [`cells()`] gives each face of the base its part of the space outside, by bisectors.
+//! * [`Scene::divide`] cuts the model by the cells into [`Part`]s. A piece that reaches no panel
+//!   grows on a neighbour as a [`Crumb`], or is pinned to a part, as its [`Holding`] says.
+//! * [`barred_mm2`] tells if a body's way is free, from the triangles alone.
+//!
+//! * [`Scene::fit`] cuts parts for the printer's room by planes along the way of their cell, and
+//!   [`Lie`] says how they lie in it.
+//! * [`Scene::cup`] hollows a part from its panel's side.
+//! * [`Scene::screws`] finds the places of screws, and [`PartScrews`] has their bosses, bores and
+//!   holes.
+//! * [`Scene::assembly`] gathers panels and parts in [`Unit`]s, and orders them.
+//! * [`Scene::clad`] does all of it.
+//!
+//! All lengths are in mm, angles in radians.
+
+mod cells;
+mod cups;
+mod divide;
+mod error;
+mod lie;
+mod overlap;
+mod part;
+mod region;
+mod rooms;
+mod screws;
+mod shell;
+mod units;
+
+pub use cells::{Cell, cells};
+pub use cups::{Cup, CupRequest, ShellStyle};
+pub use divide::Scene;
+pub use error::CladdingError;
+pub use lie::Lie;
+pub use overlap::{barred_mm2, contact_mm2, face_mm2};
+pub use part::{Crumb, Holding, Part};
+pub use region::{Bound, BoundKind, Region};
+pub use rooms::Room;
+pub use screws::{PartScrews, Screw, ScrewKit, ScrewRequest};
+pub use shell::{CladShell, ShellRequest};
+pub use units::{Assembly, Unit};

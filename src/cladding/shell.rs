@@ -1,0 +1,135 @@
+//! The whole shell of a base, from the model to cups with bores and the order of assembly.
+
+use rayon::prelude::*;
+
+use super::cups::{Cup, CupRequest, ShellStyle};
+use super::divide::Scene;
+use super::error::CladdingError;
+use super::part::Part;
+use super::rooms::Room;
+use super::screws::{PartScrews, ScrewKit, ScrewRequest};
+use super::units::Assembly;
+use crate::base::watch::Watch;
+use crate::geom::Vector;
+use crate::mesh::Csg;
+use crate::panels::PanelSet;
+
+/// The order for a shell.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ShellRequest<'a> {
+    /// The wall of the parts, mm.
+    pub wall_mm: f64,
+    /// The style of the parts.
+    pub style: ShellStyle,
+    /// The largest piece without a panel that may grow on a part of another cell, mm³.
+    pub crumb_mm3: f64,
+    /// The printer's room, mm; `None` for any size.
+    pub room_mm: Option<[f64; 3]>,
+    /// The screws and inserts; `None` for parts that are glued.
+    pub kit: Option<&'a ScrewKit>,
+    /// The direction up of the object as it stands. The unit at the bottom closes it.
+    pub up: Vector,
+}
+
+/// The shell of a base.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CladShell {
+    /// The parts, solid.
+    pub parts: Vec<Part>,
+    /// The same parts as they are printed, in their order: hollow, with bores.
+    pub cups: Vec<Cup>,
+    /// The screws.
+    pub screws: Vec<PartScrews>,
+    /// The volume of all bores, mm³.
+    pub bores_mm3: f64,
+    /// The panels with the holes for the screws.
+    pub panels: PanelSet,
+    /// The units and their order.
+    pub assembly: Assembly,
+}
+
+impl Scene<'_> {
+    /// Makes the shell around the panels of the base.
+    ///
+    /// # Errors
+    /// As those of [`Scene::divide`], [`Scene::fit`], [`Scene::cup`] and [`Scene::assembly`].
+    pub fn clad(
+        &self,
+        panels: &PanelSet,
+        request: &ShellRequest,
+        watch: &Watch,
+    ) -> Result<CladShell, CladdingError> {
+        let wall_mm = request.wall_mm;
+        if !(wall_mm > 0.0 && wall_mm.is_finite()) {
+            return Err(CladdingError::NotPositive {
+                name: "the wall",
+                value_mm: wall_mm,
+            });
+        }
+        let mut parts = self.divide(request.crumb_mm3, watch)?;
+        if let Some(size_mm) = request.room_mm {
+            parts = self.fit(parts, &Room { size_mm, wall_mm }, watch)?;
+        }
+        let screws = request.kit.map_or_else(Vec::new, |kit| {
+            let order = ScrewRequest {
+                panels,
+                kit,
+                wall_mm,
+            };
+            self.screws(&parts, &order)
+        });
+        let cups = (0..parts.len()).into_par_iter().map(|index| {
+            let own = screws.iter().find(|screws| screws.part == index);
+            self.finished(&parts[index], own, request, watch)
+        });
+        let cups: Vec<(Cup, f64)> = cups.collect::<Result<_, CladdingError>>()?;
+        let (cups, bores): (Vec<Cup>, Vec<f64>) = cups.into_iter().unzip();
+        let mut panels = panels.clone();
+        if let Some(kit) = request.kit {
+            for screws in &screws {
+                panels.panels[screws.panel].holes.extend(screws.holes(kit));
+            }
+        }
+        let closing = self.bottom_face(&request.up).unwrap_or_default();
+        let assembly = self.assembly(&parts, closing)?;
+        Ok(CladShell {
+            bores_mm3: bores.iter().sum(),
+            parts,
+            cups,
+            screws,
+            panels,
+            assembly,
+        })
+    }
+
+    /// Hollows a part and bores it for its screws; returns it with the volume of its bores, mm³.
+    fn finished(
+        &self,
+        part: &Part,
+        screws: Option<&PartScrews>,
+        request: &ShellRequest,
+        watch: &Watch,
+    ) -> Result<(Cup, f64), CladdingError> {
+        let own = screws.zip(request.kit);
+        let mut cup = match request.style {
+            ShellStyle::Solid => Cup::solid(part),
+            ShellStyle::Cups => {
+                let below_mm = 3.0 * request.wall_mm;
+                let keeps = own.map_or_else(Vec::new, |(screws, kit)| screws.keeps(kit, below_mm));
+                let order = CupRequest {
+                    wall_mm: request.wall_mm,
+                    keeps: &keeps,
+                };
+                self.cup(part, &order, watch)?
+            }
+        };
+        let whole_mm3 = cup.body.signed_volume_mm3();
+        for bore in own.map_or_else(Vec::new, |(screws, kit)| screws.bores(kit)) {
+            watch.check()?;
+            let bored = Csg::of_mesh(&cup.body)?.subtract(&Csg::of_mesh(&bore)?)?;
+            cup.body = bored.to_mesh()?;
+        }
+        let bores_mm3 = whole_mm3 - cup.body.signed_volume_mm3();
+        Ok((cup, bores_mm3))
+    }
+}

@@ -1,0 +1,182 @@
+//! Units: what leaves as one piece, in which direction and in which order.
+
+use rayon::prelude::*;
+
+use super::divide::Scene;
+use super::error::CladdingError;
+use super::overlap::barred_mm2;
+use super::part::{Holding, Part};
+use crate::geom::Vector;
+
+/// Area below which a way is free, mm²: what rounding leaves along seams.
+const FREE_MM2: f64 = 1e-3;
+
+/// A panel with its parts, or a part that is pinned to another unit: it moves as one piece.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Unit {
+    /// The index of the face along whose normal it leaves.
+    pub face: usize,
+    /// True if it holds the panel of that face.
+    pub has_panel: bool,
+    /// The indices of its parts; each comes after the one that carries it.
+    pub parts: Vec<usize>,
+    /// The direction in which it leaves, a unit vector.
+    pub way: Vector,
+    /// The indices of the units that must leave before it.
+    pub after: Vec<usize>,
+}
+
+/// Units and the order in which they are joined.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Assembly {
+    /// The units.
+    pub units: Vec<Unit>,
+    /// The indices of the units in the order in which they are joined. To take the object apart,
+    /// they leave in the reverse order.
+    pub order: Vec<usize>,
+    /// The index of the closing unit: the last one with a panel.
+    pub closing: Option<usize>,
+}
+
+impl Scene<'_> {
+    /// Returns the face that looks down most along a direction.
+    pub fn bottom_face(&self, up: &Vector) -> Option<usize> {
+        let faces = self.base.faces().iter().enumerate();
+        let faces = faces.filter(|(_, face)| face.area_mm2 > 0.0);
+        let steep = faces.map(|(index, face)| (up.dot(&face.plane.normal), index));
+        let lowest = steep.reduce(|a, b| if b.0 < a.0 { b } else { a });
+        lowest.map(|(_, index)| index)
+    }
+
+    /// Gathers parts in units and orders them; the unit of `closing` comes last of those with a
+    /// panel, after the higher ones.
+    ///
+    /// A part that is pinned to one of its own cell goes with it. A part that is pinned to one of
+    /// another cell is a unit of its own: it leaves along its own way, before the other.
+    ///
+    /// # Errors
+    /// The units bar each other's ways in a circle: the error names them.
+    pub fn assembly(&self, parts: &[Part], closing: usize) -> Result<Assembly, CladdingError> {
+        let units = self.gather(parts);
+        let unit_of = |part: usize| units.iter().position(|unit| unit.parts.contains(&part));
+        let closing = units
+            .iter()
+            .position(|unit| unit.has_panel && unit.face == closing);
+        let after: Vec<Vec<usize>> = (0..units.len())
+            .into_par_iter()
+            .map(|unit| {
+                let others = (0..units.len()).filter(|&other| other != unit);
+                let must_wait = |other: &usize| {
+                    let carried = units[*other].parts.iter().any(|&part| {
+                        let carrier = match parts[part].holding {
+                            Holding::Pinned { to, .. } => unit_of(to),
+                            _ => None,
+                        };
+                        carrier == Some(unit)
+                    });
+                    carried || is_barred(parts, &units[unit], &units[*other])
+                };
+                others.filter(must_wait).collect()
+            })
+            .collect();
+        let units: Vec<Unit> = units
+            .into_iter()
+            .zip(after)
+            .map(|(unit, after)| Unit { after, ..unit })
+            .collect();
+        let order = self.order(&units, closing)?;
+        Ok(Assembly {
+            units,
+            order,
+            closing,
+        })
+    }
+
+    /// Returns the units, those with panels first, without their order.
+    fn gather(&self, parts: &[Part]) -> Vec<Unit> {
+        let new = |face: usize, has_panel: bool, parts: Vec<usize>| Unit {
+            face,
+            has_panel,
+            parts,
+            way: self.normal(face),
+            after: Vec::new(),
+        };
+        let faces = self.base.faces().iter().enumerate();
+        let faces = faces.filter(|(_, face)| face.area_mm2 > 0.0);
+        let mut units: Vec<Unit> = faces
+            .map(|(face, _)| {
+                let own = (0..parts.len())
+                    .filter(|&part| parts[part].face == face && parts[part].is_on_panel());
+                new(face, true, own.collect())
+            })
+            .collect();
+        let mut waiting: Vec<usize> = (0..parts.len())
+            .filter(|&part| !parts[part].is_on_panel())
+            .collect();
+        // Carriers come first: every pass finds at least one more unit.
+        while !waiting.is_empty() {
+            let count = waiting.len();
+            waiting.retain(|&part| {
+                let Holding::Pinned { to, .. } = parts[part].holding else {
+                    units.push(new(parts[part].face, false, vec![part]));
+                    return false;
+                };
+                let carrier = units.iter_mut().find(|unit| unit.parts.contains(&to));
+                match carrier {
+                    Some(unit) if unit.face == parts[part].face => unit.parts.push(part),
+                    Some(_) => units.push(new(parts[part].face, false, vec![part])),
+                    None => return true,
+                }
+                false
+            });
+            if waiting.len() == count {
+                break;
+            }
+        }
+        units
+    }
+
+    /// Returns the order in which units are joined: the reverse of that in which they leave.
+    ///
+    /// The closing unit leaves as early as it can, and then the lower ones first.
+    fn order(&self, units: &[Unit], closing: Option<usize>) -> Result<Vec<usize>, CladdingError> {
+        let mut before_closing = vec![false; units.len()];
+        let mut open: Vec<usize> = closing.into_iter().collect();
+        while let Some(unit) = open.pop() {
+            if !std::mem::replace(&mut before_closing[unit], true) {
+                open.extend(&units[unit].after);
+            }
+        }
+        let height_mm = |unit: usize| self.base.faces()[units[unit].face].centroid.z;
+        let mut has_left = vec![false; units.len()];
+        let mut order = Vec::with_capacity(units.len());
+        while order.len() < units.len() {
+            let is_ready = |unit: &usize| {
+                !has_left[*unit] && units[*unit].after.iter().all(|&other| has_left[other])
+            };
+            let ready = (0..units.len()).filter(is_ready);
+            let next = ready.min_by(|&a, &b| {
+                let first = before_closing[b].cmp(&before_closing[a]);
+                first.then(height_mm(a).total_cmp(&height_mm(b)))
+            });
+            let Some(next) = next else {
+                let units = (0..units.len()).filter(|&unit| !has_left[unit]).collect();
+                return Err(CladdingError::Cycle { units });
+            };
+            has_left[next] = true;
+            order.push(next);
+        }
+        order.reverse();
+        Ok(order)
+    }
+}
+
+/// Returns true if a unit on its way meets a part of another one.
+fn is_barred(parts: &[Part], unit: &Unit, other: &Unit) -> bool {
+    unit.parts.iter().any(|&moving| {
+        other
+            .parts
+            .iter()
+            .any(|&fixed| barred_mm2(&parts[moving].body, &parts[fixed].body, &unit.way) > FREE_MM2)
+    })
+}
