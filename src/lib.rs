@@ -84,8 +84,8 @@ pub mod extend {
     pub use crate::{curve, skeleton, telescope};
 }
 
-/// Objects larger than the printer: the polyhedra of a laser-cut base, their panels, and the printed
-/// parts around them. With them come the machines, sheets and fasteners.
+/// Objects larger than the printer: the polyhedra of a laser-cut base, their panels, and the
+/// printed parts around them. With them come the machines, sheets and fasteners.
 pub mod large {
     #[doc(inline)]
     pub use crate::{cladding, cutter, cutting, panels, polyhedra};
