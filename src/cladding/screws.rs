@@ -7,7 +7,6 @@ use crate::cutter::{Fastener, FastenerShape};
 use crate::geom::{Frame, Plane, Point, hull};
 use crate::mesh::{TriMesh, primitives};
 use crate::panels::{EdgeJoint, Hole, Panel, PanelEdge, PanelSet};
-use crate::polyhedra::largest_common_disc;
 use crate::shell::Keep;
 
 /// The least number of screws that hold a part, where its face has room.
@@ -149,8 +148,6 @@ pub struct PartScrews {
     pub panel: usize,
     /// The screws; fewer than three if the face has no room for more.
     pub screws: Vec<Screw>,
-    /// The radius of the largest disc in the part's face, mm.
-    pub disc_mm: f64,
 }
 
 impl PartScrews {
@@ -224,7 +221,6 @@ impl Scene<'_> {
                 request,
             };
             let ring = face.ring();
-            let disc = largest_common_disc(&[&ring]);
             let edges = request.panels.edges.iter();
             let edges = edges.filter(|edge| edge.panels.contains(&panel));
             let inner = edges.fold(ring, |ring, edge| face.clear_of(&ring, edge));
@@ -232,7 +228,6 @@ impl Scene<'_> {
                 part: index,
                 panel,
                 screws: face.spread(&inner),
-                disc_mm: disc.map_or(0.0, |disc| disc.radius_mm),
             });
         }
         found

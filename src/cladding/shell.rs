@@ -90,8 +90,7 @@ impl Scene<'_> {
                 panels.panels[screws.panel].holes.extend(screws.holes(kit));
             }
         }
-        let closing = self.bottom_face(&request.up).unwrap_or_default();
-        let assembly = self.assembly(&parts, closing)?;
+        let assembly = self.assembly(&parts, &request.up)?;
         Ok(CladShell {
             bores_mm3: bores.iter().sum(),
             parts,

@@ -48,20 +48,21 @@ impl Scene<'_> {
         lowest.map(|(_, index)| index)
     }
 
-    /// Gathers parts in units and orders them; the unit of `closing` comes last of those with a
-    /// panel, after the higher ones.
+    /// Gathers parts in units and orders them. `up` is the direction up of the object: the unit at
+    /// the bottom comes last of those with a panel, after the higher ones.
     ///
     /// A part that is pinned to one of its own cell goes with it. A part that is pinned to one of
     /// another cell is a unit of its own: it leaves along its own way, before the other.
     ///
     /// # Errors
     /// The units bar each other's ways in a circle: the error names them.
-    pub fn assembly(&self, parts: &[Part], closing: usize) -> Result<Assembly, CladdingError> {
+    pub fn assembly(&self, parts: &[Part], up: &Vector) -> Result<Assembly, CladdingError> {
         let units = self.gather(parts);
+        let bottom = self.bottom_face(up);
         let unit_of = |part: usize| units.iter().position(|unit| unit.parts.contains(&part));
         let closing = units
             .iter()
-            .position(|unit| unit.has_panel && unit.face == closing);
+            .position(|unit| unit.has_panel && Some(unit.face) == bottom);
         let after: Vec<Vec<usize>> = (0..units.len())
             .into_par_iter()
             .map(|unit| {
@@ -84,7 +85,11 @@ impl Scene<'_> {
             .zip(after)
             .map(|(unit, after)| Unit { after, ..unit })
             .collect();
-        let order = self.order(&units, closing)?;
+        let heights_mm: Vec<f64> = units
+            .iter()
+            .map(|unit| up.dot(&self.base.faces()[unit.face].centroid.coords))
+            .collect();
+        let order = order(&units, &heights_mm, closing)?;
         Ok(Assembly {
             units,
             order,
@@ -135,40 +140,43 @@ impl Scene<'_> {
         }
         units
     }
+}
 
-    /// Returns the order in which units are joined: the reverse of that in which they leave.
-    ///
-    /// The closing unit leaves as early as it can, and then the lower ones first.
-    fn order(&self, units: &[Unit], closing: Option<usize>) -> Result<Vec<usize>, CladdingError> {
-        let mut before_closing = vec![false; units.len()];
-        let mut open: Vec<usize> = closing.into_iter().collect();
-        while let Some(unit) = open.pop() {
-            if !std::mem::replace(&mut before_closing[unit], true) {
-                open.extend(&units[unit].after);
-            }
+/// Returns the order in which units are joined: the reverse of that in which they leave.
+///
+/// The closing unit leaves as early as it can, and then the lower ones first.
+fn order(
+    units: &[Unit],
+    heights_mm: &[f64],
+    closing: Option<usize>,
+) -> Result<Vec<usize>, CladdingError> {
+    let mut before_closing = vec![false; units.len()];
+    let mut open: Vec<usize> = closing.into_iter().collect();
+    while let Some(unit) = open.pop() {
+        if !std::mem::replace(&mut before_closing[unit], true) {
+            open.extend(&units[unit].after);
         }
-        let height_mm = |unit: usize| self.base.faces()[units[unit].face].centroid.z;
-        let mut has_left = vec![false; units.len()];
-        let mut order = Vec::with_capacity(units.len());
-        while order.len() < units.len() {
-            let is_ready = |unit: &usize| {
-                !has_left[*unit] && units[*unit].after.iter().all(|&other| has_left[other])
-            };
-            let ready = (0..units.len()).filter(is_ready);
-            let next = ready.min_by(|&a, &b| {
-                let first = before_closing[b].cmp(&before_closing[a]);
-                first.then(height_mm(a).total_cmp(&height_mm(b)))
-            });
-            let Some(next) = next else {
-                let units = (0..units.len()).filter(|&unit| !has_left[unit]).collect();
-                return Err(CladdingError::Cycle { units });
-            };
-            has_left[next] = true;
-            order.push(next);
-        }
-        order.reverse();
-        Ok(order)
     }
+    let mut has_left = vec![false; units.len()];
+    let mut order = Vec::with_capacity(units.len());
+    while order.len() < units.len() {
+        let is_ready = |unit: &usize| {
+            !has_left[*unit] && units[*unit].after.iter().all(|&other| has_left[other])
+        };
+        let ready = (0..units.len()).filter(is_ready);
+        let next = ready.min_by(|&a, &b| {
+            let first = before_closing[b].cmp(&before_closing[a]);
+            first.then(heights_mm[a].total_cmp(&heights_mm[b]))
+        });
+        let Some(next) = next else {
+            let units = (0..units.len()).filter(|&unit| !has_left[unit]).collect();
+            return Err(CladdingError::Cycle { units });
+        };
+        has_left[next] = true;
+        order.push(next);
+    }
+    order.reverse();
+    Ok(order)
 }
 
 /// Returns true if a unit on its way meets a part of another one.

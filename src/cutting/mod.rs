@@ -1,4 +1,4 @@
-//! What a laser cutter gets: panels on sheets, the paths of the beam, and how much is cut.
+//! Sheets for a laser cutter: panels on them, the paths of the beam, and how much is cut.
 //!
 //! * [`SheetOrder`] names the cutter, the sheet and what offcuts there are.
 //! * [`cut_sheets`] lays the panels of a base on sheets, as [`CutSheet`]s.

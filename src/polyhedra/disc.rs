@@ -4,7 +4,7 @@ use super::programme::{Row, maximise};
 
 /// A disc in the coordinates of a plane, mm.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Disc {
+pub(super) struct Disc {
     pub center: [f64; 2],
     pub radius_mm: f64,
 }
@@ -13,7 +13,7 @@ pub(crate) struct Disc {
 /// they share no point.
 ///
 /// Exact up to rounding: a linear programme in the centre and the radius.
-pub(crate) fn largest_common_disc(outlines: &[&[[f64; 2]]]) -> Option<Disc> {
+pub(super) fn largest_common_disc(outlines: &[&[[f64; 2]]]) -> Option<Disc> {
     let corners = || outlines.iter().copied().flatten();
     let first = *corners().next()?;
     let reach = |p: &[f64; 2]| (p[0] - first[0]).abs().max((p[1] - first[1]).abs());

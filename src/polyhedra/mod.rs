@@ -50,7 +50,6 @@ pub use base_plan::{BasePlan, Child, Split};
 pub use connection::{Connection, ConnectorRequest, Joint};
 pub(crate) use convex::Convex;
 pub use convex::Edge;
-pub(crate) use disc::largest_common_disc;
 pub use ground::Ground;
 pub use inscribe::{
     FACES, LEAST_FACES, MOST_FACES, NoRoom, Request, RequestError, grow_polyhedron,

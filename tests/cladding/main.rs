@@ -321,6 +321,7 @@ fn a_shell_is_taken_apart_in_its_order_without_a_collision() {
         let closing = &shell.assembly.units[shell.assembly.closing.unwrap()];
         let lowest = scene.bottom_face(&Vector::z()).unwrap();
         assert_eq!((closing.face, closing.has_panel), (lowest, true));
+        hold_order_by_height(&scene, &shell.parts, name);
         let worst_mm3 = take_apart(&shell);
         println!(
             "{name}: {} units of {} parts, overlap on the way {worst_mm3:.1e} mm³",
@@ -333,6 +334,47 @@ fn a_shell_is_taken_apart_in_its_order_without_a_collision() {
         let lost_mm3 = solid.sum::<f64>() - printed.sum::<f64>() - shell.bores_mm3;
         assert!(lost_mm3.abs() < 1e-3, "{lost_mm3}");
     }
+}
+
+/// Holds that the unit at the bottom closes an object, whichever way it stands. Where all ways are
+/// free, the higher units are joined first.
+fn hold_order_by_height(scene: &Scene, parts: &[Part], name: &str) {
+    for up in [Vector::z(), -Vector::z(), Vector::x(), -Vector::y()] {
+        let assembly = scene.assembly(parts, &up).unwrap();
+        let height_mm = |unit: &usize| {
+            let face = &scene.base.faces()[assembly.units[*unit].face];
+            up.dot(&face.centroid.coords)
+        };
+        let closing = assembly.closing.unwrap();
+        assert_eq!(Some(assembly.units[closing].face), scene.bottom_face(&up));
+        if assembly.units.iter().all(|unit| unit.after.is_empty()) {
+            let open: Vec<f64> = assembly.order.iter().map(height_mm).collect();
+            assert!(open.is_sorted_by(|a, b| a >= b), "{name}, {up}: {open:?}");
+            assert_eq!(assembly.order.last(), Some(&closing));
+        }
+    }
+}
+
+#[test]
+fn one_thread_and_two_make_the_same_shell() {
+    let ground = hooked_ball();
+    let base = base(&ground, 10.0, &cube([80.0, 70.0, 60.0]));
+    let scene = Scene::new(&ground, &base, GAP_MM).unwrap();
+    let (panels, kit) = (panels(&base), kit());
+    let request = ShellRequest {
+        wall_mm: WALL_MM,
+        style: ShellStyle::Solid,
+        crumb_mm3: 100.0,
+        room_mm: Some([250.0, 210.0, 210.0]),
+        kit: Some(&kit),
+        up: Vector::z(),
+    };
+    let [one, two] = [1, 2].map(|threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
+        let pool = pool.build().unwrap();
+        pool.install(|| scene.clad(&panels, &request, &Watch::silent()).unwrap())
+    });
+    assert_eq!(one, two);
 }
 
 #[test]
