@@ -1,7 +1,7 @@
 //! Whole parts: a void ends before a part below the least, so that no chip is cut off for it.
 
 use super::Ladder;
-use crate::cut::find_ends_in_small_parts;
+use crate::cut::{SolidEnd, find_ends_in_small_parts};
 use crate::error::Error;
 use crate::open::refused::unless_refused;
 use crate::open::way::Way;
@@ -19,39 +19,50 @@ impl<'a> Ladder<'a> {
         if !(self.joins_parts && self.is_free()) {
             return Ok((usual, walls));
         }
-        let joined = unless_refused(self.without_small_parts(&usual))?.flatten();
-        let Some((few, few_walls)) = joined else {
-            return Ok((usual, walls));
-        };
         let count = |way: &Way| way.bossed.plan.count_parts();
-        let is_cheap = few.loss_ratio(&usual) <= self.policy.part_loss_ratio;
-        let is_whole = count(&few) < count(&usual) && count(&few) > 1;
-        let is_better = is_cheap
-            && is_whole
-            && self.is_as_good(&few, &usual)?
-            && few.count_unaligned()? <= usual.count_unaligned()?;
-        Ok(if is_better {
-            (few, few_walls)
-        } else {
-            (usual, walls)
-        })
+        let (mut solid, mut last) = (Vec::new(), usual.clone());
+        // Another void may reach into the part in place of the one that ends before it.
+        for _ in 0..self.policy.max_ends {
+            let joined = unless_refused(self.without_small_parts(&last, &mut solid))?.flatten();
+            let Some((few, few_walls)) = joined else {
+                break;
+            };
+            if count(&few) < count(&usual) {
+                let is_better = count(&few) > 1
+                    && few.loss_ratio(&usual) <= self.policy.part_loss_ratio
+                    && self.is_as_good(&few, &usual)?
+                    && few.count_unaligned()? <= usual.count_unaligned()?;
+                return Ok(if is_better {
+                    (few, few_walls)
+                } else {
+                    (usual, walls)
+                });
+            }
+            last = few;
+        }
+        Ok((usual, walls))
     }
 
-    /// Plans again with the ends of voids in small parts kept solid; `None` if there are none, or if
-    /// the goal is lost with them.
-    fn without_small_parts(&self, usual: &Way<'a>) -> Result<Option<(Way<'a>, Way<'a>)>, Error> {
+    /// Plans again with the ends of voids in small parts kept solid too; `None` if there are none,
+    /// or if the goal is lost with them.
+    fn without_small_parts(
+        &self,
+        last: &Way<'a>,
+        solid: &mut Vec<SolidEnd>,
+    ) -> Result<Option<(Way<'a>, Way<'a>)>, Error> {
         let margin_mm = self.policy.ends_margin_openings * self.request.min_opening_mm;
-        let (voids, plan) = (&usual.bossed.voids, &usual.bossed.plan);
-        let ends = find_ends_in_small_parts(&voids.hollowed, plan, &usual.request, margin_mm)?;
+        let (voids, plan) = (&last.bossed.voids, &last.bossed.plan);
+        let ends = find_ends_in_small_parts(&voids.hollowed, plan, &last.request, margin_mm)?;
         if ends.is_empty() {
             return Ok(None);
         }
-        let Some(ground) = self.ground.without(&ends, &KeptCause::SmallPart)? else {
+        solid.extend(ends);
+        let Some(ground) = self.ground.without(solid, &KeptCause::SmallPart)? else {
             return Ok(None);
         };
-        let drafted = self.plan_in_walls(&ground, &usual.request, usual.rung, &|_| false)?;
+        let drafted = self.plan_in_walls(&ground, &last.request, last.rung, &|_| false)?;
         let walls = self.finish(drafted)?;
-        let with_bosses = self.add_bosses(walls.clone(), usual.rung)?;
+        let with_bosses = self.add_bosses(walls.clone(), last.rung)?;
         Ok(Some((with_bosses, walls)))
     }
 }
