@@ -191,6 +191,13 @@ pub fn certificate(sheet: &Checklist) -> Vec<String> {
         ),
     ];
     words.extend(is_top.then(|| other_heights(proof)));
+    words.extend(proof.proof.as_ref().map(|first| {
+        format!(
+            "If only the wall stayed solid, no hollowing could have a {} {better} than {}. Anyone can check this without the solver: `verify` does, from the numbers in checklist.json.",
+            proof.figure.name(),
+            quantity(first.bound, unit)
+        )
+    }));
     words.extend(proof.written_value.map(|written| {
         let share = share_of_best(proof, written);
         format!(

@@ -190,6 +190,7 @@ fn certificate(speed: f64) -> Certificate {
         gap_ratio: 1e-9,
         kept_solid_mm3: 0.0,
         value_before_cleaning: Some(speed),
+        proof: None,
         cleaning_rounds: vec![],
         bosses_mm3: 0.0,
         over_heights: Some(HeightProof {

@@ -18,6 +18,7 @@ mod reading;
 // The facts about a whole body.
 mod ballast;
 mod body;
+mod bound;
 mod figures;
 mod hardware;
 mod loads;
@@ -95,6 +96,7 @@ pub use reading::{find_model, read_kit, read_promise};
 // The promises.
 pub use crate::printer::{Cleaning, CleaningRule};
 pub use ballast::{BallastOrder, FillOrder};
+pub use bound::{BoundPoint, BoundProof, KeptPlace, PromisedBound};
 pub use fingerprint::{Fingerprint, Likeness};
 pub use hardware::{Hardware, HardwareKind};
 pub use plates::{PlateSpot, PromisedPlate};

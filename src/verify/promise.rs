@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use super::{
-    BallastOrder, Density, FillOrder, Fingerprint, Hardware, Pose, PrinterLimits, PromisedPlate,
-    RotorOrder, WaterOrder,
+    BallastOrder, Density, FillOrder, Fingerprint, Hardware, Pose, PrinterLimits, PromisedBound,
+    PromisedPlate, RotorOrder, WaterOrder,
 };
 use crate::geom::{Frame, Point, Vector};
 use crate::goal::GoalKind;
@@ -31,6 +31,9 @@ pub struct Promise {
     pub goal: Aim,
     /// The figure promised to the buyer, if the goal has one.
     pub promise: Option<PromisedFigure>,
+    /// The bound of the certificate; `None` in kits without one.
+    #[serde(default)]
+    pub certificate: Option<PromisedBound>,
     /// The wall that was ordered.
     pub wall: WallOrder,
     /// The parts, in the order of the checklist.
