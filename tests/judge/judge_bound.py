@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Proves the bound of a kit again: how good can any hollowing with this wall be? Python, numpy and scipy, nothing of the program.
 
-    python3 tests/judge/judge_bound.py [--cell 1.0] KIT [KIT ...]
+    python3 tests/judge/judge_bound.py [--cells 600000] KIT [KIT ...]
 
 checklist.json carries a point of the dual (certificate.proof). With the moments m = (1, x, y, z, xy, yz, xz, xx, yy, zz) of a body in
 the goal's frame, every goal is a ratio (n·s + |Js|)/(e·s), or the largest of the Js, under constraints As = b. A point (y, λ) and a
@@ -28,7 +28,7 @@ LIMIT_RATIO = 0.01
 # Small figures are held against these, in degrees and mm.
 SCALES = {"topples_deg": 5.0, "metacentric_height_mm": 5.0, "center_height_mm": 5.0}
 MORE_IS_BETTER = ("topples_deg", "metacentric_height_mm", "mass_g")
-SAMPLE_MM = 0.3
+SAMPLE_MM = 0.2
 GRAVITY_MM_S2 = 9806.65
 ONE, X, Y, Z, XY, YZ, XZ, XX, YY, ZZ = range(10)
 
@@ -292,7 +292,7 @@ class Proof:
         return self.goal.figure_of(most - good * abs(most))
 
 
-def judge(kit, cell):
+def judge(kit, cells):
     """True if the bound holds; None without a proof."""
     sheet = json.loads((kit / "checklist.json").read_text())
     proof = sheet["certificate"].get("proof")
@@ -308,6 +308,7 @@ def judge(kit, cell):
     for rod in sheet.get("hardware", []):
         local = dict(rod, **{end: in_frame(np.array(rod[end], float), origin, axes) for end in ("from_mm", "to_mm")})
         solid = solid + ten_of(*rod_moments(local)) * rod["density_g_cm3"] / 1000 / density
+    cell = (solid[0] / cells) ** (1 / 3)
     goal = Goal(sheet, outer, density)
     found = Proof(goal, solid, Core(corners, proof, origin, axes, cell)).bound()
     sense = 1 if goal.figure in MORE_IS_BETTER else -1
@@ -319,10 +320,10 @@ def judge(kit, cell):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--cell", type=float, default=1.0, help="size of the grid's cells, mm")
+    parser.add_argument("--cells", type=int, default=600_000, help="number of the grid's cells in the body")
     parser.add_argument("kits", nargs="+", type=Path)
     options = parser.parse_args()
-    results = [judge(kit, options.cell) for kit in options.kits]
+    results = [judge(kit, options.cells) for kit in options.kits]
     sys.exit(1 if False in results else 2 if None in results else 0)
 
 

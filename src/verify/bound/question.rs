@@ -7,8 +7,8 @@ use crate::mass::Moments;
 
 /// Rounds of Newton's method; it needs about five, and comes from one side.
 const ROUNDS: usize = 40;
-/// Change of a ratio at which it ends, as a part of it.
-const END_RATIO: f64 = 1e-10;
+/// Change of a ratio at which it ends, as a part of it. The cells are far coarser.
+const END_RATIO: f64 = 1e-7;
 /// Excess of the weights over their set that rounding may cause.
 const WEIGHT_SLACK: f64 = 1e-9;
 

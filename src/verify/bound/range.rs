@@ -18,8 +18,8 @@ const FIRST_STEP: f64 = 1e-3;
 const STEP_GROWTH: f64 = 4.0;
 /// Largest step down: a proof that loses half of its ratio proves nothing.
 const LARGEST_STEP: f64 = 0.5;
-/// Halvings of the last step.
-const HALVINGS: usize = 6;
+/// Halvings of the last step: what is left of it is a sixteenth.
+const HALVINGS: usize = 4;
 
 /// A point of the proof at its height.
 struct Post {
