@@ -87,14 +87,17 @@ fn bought(sheet: &Checklist) -> Markup {
 fn card(sheet: &Checklist, part: &PartRow, pictures: &[Picture]) -> Markup {
     let is_part = |picture: &&Picture| part.picture.as_ref() == Some(&picture.file);
     let below = below::picture_file(&part.id);
-    let is_below = |picture: &&Picture| picture.file == below;
+    let below = pictures.iter().find(|picture| picture.file == below);
     html! {
         div class="part" {
             div class="shots" {
                 @if let Some(picture) = pictures.iter().find(is_part) { (picture.image()) }
-                @if let Some(picture) = pictures.iter().find(is_below) { (picture.image()) }
+                @if let Some(picture) = below { (picture.image()) }
             }
-            div { (orders(sheet, part)) }
+            div {
+                (orders(sheet, part))
+                @if let Some(picture) = below { p class="small" { (picture.caption) } }
+            }
         }
     }
 }
@@ -235,6 +238,7 @@ pub fn cup_warning(sheet: &Checklist) -> Option<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::draw::Drawn;
     use crate::sheet::SupportRow;
     use crate::testing::sample;
 
@@ -299,6 +303,24 @@ mod tests {
                 .unwrap()
                 .contains("Do not start without the brim")
         );
+    }
+
+    #[test]
+    fn a_picture_from_below_says_what_its_red_means() {
+        let sheet = sample().0;
+        let said = |file: String| {
+            let picture = Picture {
+                file,
+                role: Role::Below,
+                caption: below::CAPTION.to_owned(),
+                alt: String::new(),
+                drawn: Drawn::Png(Vec::new()),
+            };
+            print_step(&sheet, &[picture]).into_string()
+        };
+        let page = said(below::picture_file("P01"));
+        assert_eq!(page.matches("Red: where support touches").count(), 1);
+        assert!(!said(String::new()).contains("Red:"));
     }
 
     #[test]
