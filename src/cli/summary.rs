@@ -408,6 +408,7 @@ mod tests {
         may_ask: false,
         is_coloured: false,
         is_output_coloured: false,
+        output_columns: None,
     };
 
     fn row(phase: &str, figures: &[(&str, f64)]) -> LogRow {
