@@ -160,6 +160,15 @@ fn the_page_says_what_to_do_in_order() {
 }
 
 #[test]
+fn an_axis_off_the_natural_up_is_told_on_the_job_sheet() {
+    let (mut sheet, evidence) = sample();
+    let said = "76° off the model's natural up";
+    assert!(!whole_page(&sheet, &evidence).contains(said));
+    sheet.goal.off_natural_deg = Some(76.2);
+    assert!(whole_page(&sheet, &evidence).contains(said));
+}
+
+#[test]
 fn a_failed_check_is_the_first_thing_on_the_page() {
     let (mut sheet, _) = sample();
     sheet.checks[0].pass = false;
