@@ -63,4 +63,4 @@ pub use telescope::{TelescopePage, telescope_job};
 pub use telescope_album::{CutJoint, ShownPart, TelescopeView, draw_telescope};
 pub use telescope_proof::telescope_certificate;
 pub use view::View;
-pub use words::{promise, shortfall, spins_on};
+pub use words::{bought, pieces, promise, shortfall, spins_on};

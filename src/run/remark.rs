@@ -181,11 +181,9 @@ impl fmt::Display for Remark {
                 let figure = *figure;
                 let [then, now] = values.map(|value| Reached { figure, value });
                 let fewer = format_count(*fewer, "part");
-                write!(
-                    f,
-                    "{fewer} in place of {parts}: as planned it {then}, and this plan {now}"
-                )?;
-                fault.map_or(Ok(()), |fault| write!(f, "; but {fault}"))
+                write!(f, "with {fewer} in place of {parts} it {then}")?;
+                fault.map_or(Ok(()), |fault| write!(f, ", but {fault}"))?;
+                write!(f, "; this kit, as planned, {now}")
             }
             Self::Seams {
                 loss_ratio,
@@ -369,7 +367,8 @@ impl fmt::Display for AxisChoice {
             Self::NearNatural { natural, nearby } => write!(
                 f,
                 "`{}` was taken, {:.0}° off the natural up (`{}`), which does not allow the goal: \
-                 it is the nearest of the axes tried that come within twice the best; there it {}",
+                 it is the nearest of the axes tried that come within twice the best; before cuts \
+                 and pins it {} there",
                 Setting::new(Key::Up, nearby.request.up),
                 nearby.off_deg,
                 natural.setting(),
@@ -404,15 +403,15 @@ mod tests {
         };
         let words = remark.to_string();
         assert!(
-            words.starts_with("4 parts in place of 5: as planned it "),
+            words.starts_with("with 4 parts in place of 5 it stands until tilted by 9.6°, but "),
             "{words}"
         );
         assert!(
-            words.contains("9.6°") && words.contains("this plan "),
+            words.contains("neither pins nor a jig align 1 joint of it; this kit"),
             "{words}"
         );
         assert!(
-            words.ends_with("; but neither pins nor a jig align 1 joint of it"),
+            words.ends_with("this kit, as planned, stands until tilted by 11.0°"),
             "{words}"
         );
     }

@@ -119,6 +119,7 @@ fn checklist(evidence: &Evidence, found: &Judgement) -> Checklist {
             turns_on: Vec::new(),
             spins_on: found.spin,
             choice: None,
+            off_natural_deg: None,
         },
         promise: Some(PromisedFigure {
             figure: FigureName::CriticalSpeedRpm,
