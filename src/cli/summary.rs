@@ -390,7 +390,8 @@ mod tests {
     use std::collections::BTreeMap;
 
     use super::*;
-    use crate::verify::{CheckKind, Limit};
+    use crate::testing::sample;
+    use crate::verify::{CheckKind, Hardware, HardwareKind, Limit};
 
     const PLAIN: Manner = Manner {
         quiet: false,
@@ -438,6 +439,42 @@ mod tests {
             "step    passes  bound\nfirst   3\nsecond  12      5.000000e-1\n"
         );
         assert_eq!(steps(&[]), "");
+    }
+
+    #[test]
+    fn an_offer_of_another_plan_ends_with_the_command_that_draws_it() {
+        let mut sheet = sample().0;
+        sheet.offers = vec!["with 2 parts in place of 4 it stands".to_owned()];
+        let typed = ["equipoise", "prepare", "a.stl", "--goal=stand"].map(str::to_owned);
+        assert_eq!(
+            offer(&sheet, &typed).unwrap(),
+            "with 2 parts in place of 4 it stands. \
+             To see other plans and choose one: equipoise cuts a.stl --goal=stand"
+        );
+        let short = shortfall_words(&sheet, &typed).unwrap_or_default();
+        assert!(!short.contains("equipoise"), "said once: {short}");
+    }
+
+    #[test]
+    fn what_is_not_printed_lies_on_no_plate() {
+        let mut sheet = sample().0;
+        sheet.files.insert("plate.3mf".to_owned(), String::new());
+        sheet.hardware.push(Hardware {
+            id: "H1".to_owned(),
+            kind: HardwareKind::Tip,
+            from_mm: [0.0, 0.0, 12.0],
+            to_mm: [0.0; 3],
+            diameter_mm: 3.0,
+            hole_mm: 0.0,
+            round_end: true,
+            density_g_cm3: 7.85,
+            mass_g: 0.6,
+            depth_mm: 6.0,
+            socket_mm: 3.4,
+        });
+        let said = parts(&sheet);
+        assert!(said.contains("1 glue joint"), "{said}");
+        assert!(said.ends_with("; not printed: tip"), "{said}");
     }
 
     #[test]

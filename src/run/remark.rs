@@ -392,6 +392,7 @@ impl fmt::Display for AxisChoice {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::goal::GoalKind;
 
     #[test]
     fn an_offer_of_fewer_parts_compares_both_plans() {
@@ -438,6 +439,31 @@ mod tests {
         let words =
             "joint P01–P02: bosses around pins would make 61 % of the voids solid: it has none";
         assert_eq!(remark.to_string(), words);
+    }
+
+    #[test]
+    fn the_figure_of_an_axis_off_the_natural_up_is_said_to_be_that_before_cuts() {
+        let natural = NaturalUp {
+            up: Up::Y,
+            reasons: Vec::new(),
+            next: None,
+            is_clear: true,
+        };
+        let nearby = Box::new(NearbyAxis {
+            request: Request {
+                up: Up::Z,
+                ..Request::new(GoalKind::Top)
+            },
+            reached: Reached {
+                figure: Figure::CriticalSpeedRpm,
+                value: 196.0,
+            },
+            off_deg: 76.2,
+        });
+        let words = AxisChoice::NearNatural { natural, nearby }.to_string();
+        let figure = "before cuts and pins it spins upright from 196 rpm there";
+        assert!(words.ends_with(figure), "{words}");
+        assert!(words.contains("76° off the natural up"), "{words}");
     }
 
     #[test]
