@@ -3,6 +3,7 @@
 mod album;
 mod apart;
 mod below;
+mod bound;
 mod broken;
 mod certificate;
 mod cleaning;
