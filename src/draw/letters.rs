@@ -1,7 +1,7 @@
 //! The room that words take, without a font at hand.
 
-/// Widths of letters in heights of the words, and the letters of each: those of DejaVu Sans, which
-/// is wider than other common fonts, rounded up.
+/// Widths of letters in heights of the words, and the letters of each. They are those of DejaVu
+/// Sans, rounded up: it is wider than other common fonts.
 const WIDTHS: [(f64, &str); 6] = [
     (0.28, "ijl'"),
     (0.34, " .,:;|I/\u{a0}"),

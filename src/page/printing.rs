@@ -81,7 +81,9 @@ fn bought(sheet: &Checklist) -> Markup {
         @if !sheet.hardware.is_empty() {
             p { "Not printed, to have at hand:" }
             ul class="ticks" {
-                @for piece in &sheet.hardware { li { strong { (piece.id) } ", " (word(&piece.kind)) ": " (bar(piece)) } }
+                @for piece in &sheet.hardware {
+                    li { strong { (piece.id) } ", " (word(&piece.kind)) ": " (bar(piece)) }
+                }
             }
         }
     }

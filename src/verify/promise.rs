@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use super::{
-    BallastOrder, Density, FillOrder, Fingerprint, Hardware, Pose, PrinterLimits, PromisedBound,
+    BallastOrder, BoundProof, Density, FillOrder, Fingerprint, Hardware, Pose, PrinterLimits,
     PromisedPlate, RotorOrder, WaterOrder,
 };
 use crate::geom::{Frame, Point, Vector};
@@ -71,6 +71,16 @@ pub struct Promise {
     /// The SHA-256 of every other file of the kit, by path relative to its folder.
     #[serde(default)]
     pub files: BTreeMap<String, String>,
+}
+
+/// The part of the checklist's certificate that the judge reads.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+pub struct PromisedBound {
+    /// The figure that is bounded.
+    pub figure: FigureName,
+    /// The proof; `None` in kits without one.
+    #[serde(default)]
+    pub proof: Option<BoundProof>,
 }
 
 /// The goal, as placed on the model.

@@ -107,8 +107,8 @@ impl Hull {
         })
     }
 
-    /// Returns the body upright at this waterline above its lowest point, mm; `None` if it displaces
-    /// nothing there.
+    /// Returns the body upright at this waterline above its lowest point, mm; `None` if it
+    /// displaces nothing there.
     pub(super) fn at_waterline(&self, waterline_mm: f64) -> Option<Level> {
         let level = self.lowest_mm + waterline_mm;
         let buoyancy = self.buoyancy(&Vector::z(), level);

@@ -8,7 +8,6 @@ use crate::goal::{Objective, compute_figures};
 use crate::hollow;
 use crate::run::HeightProof;
 use crate::sheet::{Certificate, Course, LogRow, PassRow, SpeedRow};
-use crate::shell::Keep;
 use crate::verify::{BoundPoint, BoundProof, FigureName, KeptPlace};
 
 /// Returns the certificate in the units of the sheet.
@@ -51,11 +50,11 @@ fn is_plain(facts: &Facts, proof: &hollow::Proof) -> bool {
 /// Returns the proof of the bound in the units of the sheet.
 fn bound_proof(facts: &Facts, proof: &hollow::Proof) -> BoundProof {
     let placed = facts.placed;
-    let kept = |keep: &Keep| KeptPlace {
+    let keeps = placed.placement.keeps.iter().map(|keep| KeptPlace {
         from_mm: keep.from.into(),
         to_mm: keep.to.into(),
         radius_mm: keep.radius_mm,
-    };
+    });
     let point = |point: &hollow::ProofPoint| BoundPoint {
         height_mm: point.height_mm,
         weights: point.weights.clone(),
@@ -64,7 +63,7 @@ fn bound_proof(facts: &Facts, proof: &hollow::Proof) -> BoundProof {
     BoundProof {
         bound: in_sheet_unit(placed, proof.figure, proof.bound),
         wall_mm: placed.shop.wall.wall_mm,
-        keeps: placed.placement.keeps.iter().map(kept).collect(),
+        keeps: keeps.collect(),
         points: proof.points.iter().map(point).collect(),
         ends: proof.ends.clone(),
         edges: proof.edges.iter().map(|&([x, y], d)| [x, y, d]).collect(),

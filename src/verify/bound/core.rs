@@ -1,8 +1,8 @@
 //! The inside that may be emptied, as cells with their volumes.
 
-use super::{BoundProof, KeptPlace};
 use crate::geom::{Bvh, Frame, Point};
 use crate::mass::Moments;
+use crate::verify::{BoundProof, KeptPlace};
 
 /// The inside of a body beyond its wall and its kept places, in the goal frame.
 pub(super) struct Core {

@@ -2,12 +2,11 @@
 
 use std::f64::consts::{FRAC_1_SQRT_2, SQRT_2};
 
-use super::BoundProof;
 use crate::base::units::STANDARD_GRAVITY_MM_S2;
 use crate::goal::GoalKind;
 use crate::mass::Moments;
 use crate::verify::water::Level;
-use crate::verify::{FigureName, Setting, Support};
+use crate::verify::{BoundProof, FigureName, Setting, Support};
 
 /// Ten coefficients over the moments (1, x, y, z, xy, yz, xz, x², y², z²).
 pub(super) type Ten = [f64; 10];

@@ -2,8 +2,8 @@
 //!
 //! The checklist has a point of the dual, which anybody can check. From it and the goal the judge
 //! builds a quadric. The body that is emptied where the quadric is positive is the least of all
-//! along it, so one integral over the inside decides (see [`crate::guide::theory`]). The judge takes
-//! that integral by its own rule, over the model as it was written, and knows nothing of a solver.
+//! along it. So one integral over the inside decides (see [`crate::guide::theory`]). The judge
+//! takes it by its own rule, over the model as it was written, and knows nothing of a solver.
 
 mod core;
 mod ground;
@@ -12,13 +12,11 @@ mod range;
 #[cfg(test)]
 mod tests;
 
-use serde::{Deserialize, Serialize};
-
 use self::core::Core;
 use self::ground::Ground;
-use self::question::Question;
+use self::question::{Question, base};
 use super::limits::{BOUND_LIMIT_RATIO, BOUND_SCALE_DEG, BOUND_SCALE_MM};
-use super::{Check, CheckKind, Evidence, FigureName, Limit, Setting};
+use super::{BoundProof, Check, CheckKind, Evidence, FigureName, Limit, Setting};
 use crate::base::watch::{Cancelled, Watch};
 use crate::mass::moments_of_mesh;
 use crate::verify::body::Body;
@@ -28,62 +26,6 @@ use crate::verify::body::Body;
 const LEVELS: [u32; 2] = [6, 8];
 /// The same for the estimate of the error.
 const COARSE_LEVELS: [u32; 2] = [5, 7];
-
-/// The part of the checklist's certificate that the judge reads.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
-pub struct PromisedBound {
-    /// The figure that is bounded.
-    pub figure: FigureName,
-    /// The proof; `None` in kits without one.
-    #[serde(default)]
-    pub proof: Option<BoundProof>,
-}
-
-/// The claim that no hollowing of the model with this wall is better, and its proof.
-///
-/// Lengths are in mm and the goal's frame, but for the kept places.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct BoundProof {
-    /// The value that no hollowing can beat, in the unit of the certificate's figure.
-    pub bound: f64,
-    /// The wall, mm.
-    pub wall_mm: f64,
-    /// The other places that stay solid.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub keeps: Vec<KeptPlace>,
-    /// The points of the dual: one, or for a top one for each of several heights.
-    pub points: Vec<BoundPoint>,
-    /// Tops: the multipliers that prove the least and the greatest height of the centre.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub ends: Option<[Vec<f64>; 2]>,
-    /// Toppling angle: the edges of the support that the weights are for. Each is an inward unit
-    /// normal and the offset along it, mm.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub edges: Vec<[f64; 3]>,
-}
-
-/// A place that stays solid besides the wall: the points near a segment, model frame.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct KeptPlace {
-    /// One end of the segment, mm.
-    pub from_mm: [f64; 3],
-    /// The other end, mm.
-    pub to_mm: [f64; 3],
-    /// The distance from it, mm.
-    pub radius_mm: f64,
-}
-
-/// A point of the dual.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct BoundPoint {
-    /// Tops: the height at which the tensor is linear, mm.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub height_mm: Option<f64>,
-    /// The weights of the convex part of the goal.
-    pub weights: Vec<f64>,
-    /// A multiplier for each constraint.
-    pub multipliers: Vec<f64>,
-}
 
 /// The bound as the judge finds it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -117,7 +59,7 @@ pub(super) fn measure_bound(
             core: &core,
             proof,
         };
-        values.push(question.bound());
+        values.push(bound(&question));
     }
     Ok(Some(BoundFacts {
         value: values[0],
@@ -125,6 +67,20 @@ pub(super) fn measure_bound(
             .zip(values[1])
             .map_or(f64::NAN, |(fine, coarse)| (fine - coarse).abs()),
     }))
+}
+
+/// Returns the value that no hollowing can beat, in the figure's unit; `None` if the proof proves
+/// nothing.
+fn bound(question: &Question) -> Option<f64> {
+    let (ground, proof) = (question.ground, question.proof);
+    let ratio = match proof.points.as_slice() {
+        [point] if point.height_mm.is_none() => {
+            let form = ground.form(proof, 0.0)?;
+            question.ratio(&base(&form, point)?, &form.denominator)?
+        }
+        _ => range::bound(question)?,
+    };
+    ground.figure_of(ratio)
 }
 
 fn claim(evidence: &Evidence) -> Option<(FigureName, &BoundProof)> {

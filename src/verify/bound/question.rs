@@ -2,8 +2,8 @@
 
 use super::core::Core;
 use super::ground::{Form, Ground, Ten, Weights};
-use super::{BoundPoint, BoundProof, range};
 use crate::mass::Moments;
+use crate::verify::{BoundPoint, BoundProof};
 
 /// Rounds of Newton's method; it needs about five, and comes from one side.
 const ROUNDS: usize = 40;
@@ -27,24 +27,10 @@ pub(super) struct Base {
 }
 
 impl Question<'_> {
-    /// Returns the value that no hollowing can beat, in the figure's unit; `None` if the proof
-    /// proves nothing.
-    pub fn bound(&self) -> Option<f64> {
-        let ratio = match self.proof.points.as_slice() {
-            [point] if point.height_mm.is_none() => {
-                let form = self.ground.form(self.proof, 0.0)?;
-                let base = base(&form, point)?;
-                self.ratio(&base, &form.denominator)?
-            }
-            _ => range::bound(self)?,
-        };
-        self.ground.figure_of(ratio)
-    }
-
     /// Returns the greatest ratio below which no hollowing is, by one point.
     ///
-    /// Along the ratio the least value is concave and falls. So Newton's method overshoots once, and
-    /// then comes nearer from above.
+    /// Along the ratio the least value is concave and falls. So Newton's method overshoots once,
+    /// and then comes nearer from above.
     pub fn ratio(&self, base: &Base, denominator: &Ten) -> Option<f64> {
         if *denominator == [0.0; 10] {
             return Some(self.least(&base.quadric).0 - base.least);

@@ -1,15 +1,15 @@
 //! The proof for a top: at every height of its centre no hollowing is better.
 //!
 //! The tensor about the centre is linear in the moments only where the height of the centre is
-//! known. Let ℓ be the height at which it is made linear, and h that of a body: its true numerator
-//! is smaller by κ s₁ (h − ℓ)². So a point at ℓ with a margin of δ s₁ over a ratio proves the ratio
+//! known. It is made linear at a height ℓ. If the centre of a body is at h, its true numerator is
+//! smaller by κ s₁ (h − ℓ)². So a point at ℓ with a margin of δ s₁ over a ratio proves the ratio
 //! for all h within √(δ/κ) of ℓ. The points of a proof reach from the least height to the greatest.
 
 use rayon::prelude::*;
 
 use super::ground::{height_form, mass};
 use super::question::{Base, Question, base, minus};
-use super::{BoundPoint, BoundProof};
+use crate::verify::{BoundPoint, BoundProof};
 
 /// Height below which a top needs no spin, as a part of the greatest height.
 const LEAST_HEIGHT_RATIO: f64 = 1e-4;

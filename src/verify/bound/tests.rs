@@ -9,7 +9,7 @@ use crate::goal::GoalKind;
 use crate::mass::Moments;
 use crate::mesh::TriMesh;
 use crate::verify::test_meshes::{ball, block};
-use crate::verify::{Aim, Hull, Support, WaterOrder};
+use crate::verify::{Aim, BoundPoint, Hull, KeptPlace, Support, WaterOrder};
 
 const SIZE_MM: [f64; 3] = [30.0, 20.0, 40.0];
 const WALL_MM: f64 = 2.0;
@@ -63,12 +63,11 @@ fn bound(kind: GoalKind, figure: FigureName, outer: &TriMesh, proof: &BoundProof
     let solid = moments_of_mesh(outer).in_frame(&frame);
     let ground = Ground::new(&setting, figure, &solid);
     let core = Core::of(&Bvh::new(outer.iter_corners()), proof, &frame, LEVELS);
-    Question {
+    super::bound(&Question {
         ground: &ground,
         core: &core,
         proof,
-    }
-    .bound()
+    })
 }
 
 /// Returns the least height of the tower's centre: the void is all that lies above it.
