@@ -88,10 +88,29 @@ fn a_size_that_is_none_is_asked_for_again() {
     answer(&mut terminal, "Which printer?", "mk4");
     answer(&mut terminal, "How large?", "tall");
     terminal.exp_string("is not a length").unwrap();
+    // The field is empty again: the next answer is not appended to the wrong one.
+    answer(&mut terminal, "How large?", "80mm");
+    terminal.exp_string("Which side is down?").unwrap();
+    terminal.exp_string("]").unwrap();
     terminal.send_control('c').unwrap();
     terminal.exp_string("stopped; nothing was written").unwrap();
     assert_eq!(end(&mut terminal).1, Some(130));
     assert_eq!(names(folder.path()), Vec::<String>::new());
+}
+
+#[test]
+fn letters_that_no_printer_has_are_told_how_to_make_one() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut terminal = start(folder.path(), &format!("prepare {ELLIPSOID} --goal stand"));
+    terminal.exp_string("Which printer?").unwrap();
+    terminal.exp_string("]").unwrap();
+    terminal.send("qqqq").unwrap();
+    terminal.flush().unwrap();
+    terminal
+        .exp_string("another: equipoise printers new")
+        .unwrap();
+    terminal.send_control('c').unwrap();
+    assert_eq!(end(&mut terminal).1, Some(130));
 }
 
 #[test]

@@ -98,6 +98,15 @@ pub fn nearest_name<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) ->
         .map(|(_, name)| name)
 }
 
+/// Returns the one name in `known` that contains `word`; `None` if none does, or several do.
+pub fn only_name_with<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    let word = word.to_lowercase();
+    let mut names = known
+        .into_iter()
+        .filter(|name| !word.is_empty() && name.contains(&word));
+    names.next().filter(|_| names.next().is_none())
+}
+
 /// Returns the edit distance: the least number of letters to insert, delete or change to turn `a`
 /// into `b`.
 fn edit_distance(a: &str, b: &str) -> usize {
@@ -145,6 +154,14 @@ mod tests {
         assert_eq!(nearest_name("objet", known), Some("objet-connex350"));
         assert_eq!(nearest_name("ultimaker", known), None);
         assert_eq!(nearest_name("", known), None);
+    }
+
+    #[test]
+    fn a_part_of_a_name_stands_for_the_only_name_that_has_it() {
+        let known = ["objet-connex350", "formlabs-form4", "prusa-mk4"];
+        assert_eq!(only_name_with("MK4", known), Some("prusa-mk4"));
+        assert_eq!(only_name_with("o", known), None);
+        assert_eq!(only_name_with("", known), None);
     }
 
     #[test]

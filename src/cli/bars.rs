@@ -246,6 +246,7 @@ mod tests {
         may_ask: false,
         is_coloured: false,
         is_output_coloured: false,
+        output_columns: None,
     };
 
     fn at_share(whole_ratio: f64) -> Progress {

@@ -31,6 +31,7 @@ mod toolpaths;
 mod values;
 pub mod verify;
 pub mod voice;
+mod wrap;
 
 use std::error::Error;
 

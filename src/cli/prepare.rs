@@ -14,6 +14,7 @@ use super::signals::Stop;
 use super::summary::{broken, details, ten_lines};
 use super::values::show_box;
 use super::voice::Voice;
+use super::wrap::wrapped;
 use crate::advice::Remedy;
 use crate::base::units::{Length, show_mm};
 use crate::base::watch::Watch;
@@ -75,7 +76,12 @@ pub fn prepare(
     }
     match outcome? {
         Outcome::Prepared(prepared) => {
-            print_prepared(&prepared, &request, voice, out)?;
+            let ending = Ending {
+                request: &request,
+                voice,
+                stop,
+            };
+            ending.print(&prepared, out)?;
             Ok(if prepared.passes() {
                 Exit::Kept
             } else {
@@ -154,48 +160,60 @@ fn unit_hint(job: &Job) -> Option<String> {
     Some(format!("warning: {}", with_flags(&hint)))
 }
 
-fn print_prepared(
-    prepared: &Prepared,
-    request: &Request,
+/// The end of a run whose kit is written.
+struct Ending<'a> {
+    request: &'a Request,
     voice: Voice,
-    out: &mut dyn Write,
-) -> Result<(), PrepareError> {
-    let checklist = &prepared.checklist;
-    if voice.json {
-        return Ok(writeln!(
-            out,
-            "{}",
-            serde_json::to_string_pretty(checklist)?
-        )?);
-    }
-    if voice.manner.quiet {
-        if let Some(failure) = &prepared.failure {
-            let broken = broken(&checklist.checks, voice.manner);
-            say(&format!("{broken}{}", failure_text(failure))
-                .trim_end()
-                .replace('\u{a0}', " "));
+    stop: &'a Stop,
+}
+
+impl Ending<'_> {
+    /// Prints the result: a few lines, all of it, or JSON.
+    fn print(&self, prepared: &Prepared, out: &mut dyn Write) -> Result<(), PrepareError> {
+        let checklist = &prepared.checklist;
+        if self.voice.json {
+            let text = serde_json::to_string_pretty(checklist)?;
+            return Ok(writeln!(out, "{text}")?);
         }
-        return Ok(());
+        if self.voice.manner.quiet {
+            if let Some(failure) = &prepared.failure {
+                let broken = broken(&checklist.checks, self.voice.manner);
+                say(&format!("{broken}{}", failure_text(failure))
+                    .trim_end()
+                    .replace('\u{a0}', " "));
+            }
+            return Ok(());
+        }
+        self.print_lines(prepared, out)
     }
-    if let Some(choice) = &checklist.goal.choice {
-        writeln!(out, "{}", with_flags(choice))?;
+
+    fn print_lines(&self, prepared: &Prepared, out: &mut dyn Write) -> Result<(), PrepareError> {
+        let (checklist, manner) = (&prepared.checklist, self.voice.manner);
+        let fitted = |text: &str| wrapped(text, manner.output_columns);
+        if let Some(choice) = &checklist.goal.choice {
+            let choice = format!("{}\n", with_flags(choice));
+            write!(out, "{}", fitted(&choice))?;
+        }
+        let lines = ten_lines(checklist, self.request, manner);
+        write!(out, "{}", fitted(&lines))?;
+        // The slicer takes its time: what is known is shown before.
+        out.flush()?;
+        if let Some(line) = print_time(prepared, self.request, self.voice, self.stop) {
+            write!(out, "{}", fitted(&line))?;
+        }
+        if let Some(failure) = &prepared.failure {
+            let failure = failure_text(failure).replace('\u{a0}', " ");
+            write!(out, "{}", fitted(&failure))?;
+        }
+        for warning in &checklist.warnings {
+            let warning = format!("warning: {}\n", with_flags(warning));
+            write!(out, "{}", fitted(&warning))?;
+        }
+        if manner.verbose > 0 {
+            write!(out, "{}", details(checklist, manner))?;
+        }
+        Ok(())
     }
-    write!(out, "{}", ten_lines(checklist, request, voice.manner))?;
-    // The slicer takes its time: what is known is shown before.
-    out.flush()?;
-    if let Some(line) = print_time(prepared, request, voice) {
-        write!(out, "{line}")?;
-    }
-    if let Some(failure) = &prepared.failure {
-        write!(out, "{}", failure_text(failure).replace('\u{a0}', " "))?;
-    }
-    for warning in &checklist.warnings {
-        writeln!(out, "warning: {}", with_flags(warning))?;
-    }
-    if voice.manner.verbose > 0 {
-        write!(out, "{}", details(checklist, voice.manner))?;
-    }
-    Ok(())
 }
 
 /// Prints why a goal cannot be met, and what helps.
@@ -216,8 +234,8 @@ pub(super) fn print_impossible(
         say(format!("{}\n{}", impossible.reason, advice(impossible)).trim_end());
         return Ok(());
     }
-    writeln!(out, "{}", impossible.reason)?;
-    write!(out, "{}", advice(impossible))?;
+    let said = format!("{}\n{}", impossible.reason, advice(impossible));
+    write!(out, "{}", wrapped(&said, voice.manner.output_columns))?;
     if voice.manner.verbose > 0 {
         writeln!(
             out,

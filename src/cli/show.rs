@@ -121,7 +121,7 @@ fn table_line(row: &[String], widths: &[usize]) -> String {
 }
 
 /// Returns the number of characters that a terminal shows.
-fn width(text: &str) -> usize {
+pub(super) fn width(text: &str) -> usize {
     let plain = [RED, GREEN, PLAIN]
         .iter()
         .fold(text.to_owned(), |text, escape| text.replace(escape, ""));

@@ -11,7 +11,7 @@ use crate::base::numbers::{measured, measured_extent, quantity as figure};
 use crate::base::units::format_count;
 use crate::base::watch::Phase;
 use crate::goal::GoalKind;
-use crate::page::{promise, shortfall, spins_on};
+use crate::page::{bought, pieces, promise, shortfall, spins_on};
 use crate::sheet::{Checklist, Course, LogRow, PassRow, Taker};
 use crate::verify::{Check, SHEET_FILE};
 
@@ -38,7 +38,7 @@ pub fn ten_lines(checklist: &Checklist, request: &Request, manner: Manner) -> St
             .map(|row| (PRINT_TIME, print_time_words(row))),
         wall(checklist).map(|words| ("wall", words)),
         Some(("parts", parts(checklist))),
-        offer(checklist).map(|words| ("other plan", words)),
+        offer(checklist, &request.typed).map(|words| ("other plan", words)),
         Some(("verdict", summary(&checklist.checks, manner))),
         checklist
             .timing_s
@@ -58,14 +58,11 @@ pub fn ten_lines(checklist: &Checklist, request: &Request, manner: Manner) -> St
     table(&rows).replace('\u{a0}', " ") + &broken(&checklist.checks, manner)
 }
 
-/// Returns the offers of other plans; `None` if there is none.
-fn offer(checklist: &Checklist) -> Option<String> {
-    let offers: Vec<String> = checklist
-        .offers
-        .iter()
-        .map(|offer| with_flags(offer))
-        .collect();
-    (!offers.is_empty()).then(|| offers.join("; "))
+/// Returns the offers of other plans and how to choose one; `None` if there is none.
+fn offer(checklist: &Checklist, typed: &[String]) -> Option<String> {
+    let offers = checklist.offers.iter().map(|offer| with_flags(offer));
+    let offers: Vec<String> = offers.collect();
+    (!offers.is_empty()).then(|| format!("{}. {}", offers.join("; "), to_other_plans(typed)))
 }
 
 /// Returns what the object does, and for a top on what it spins.
@@ -106,7 +103,7 @@ fn bound_words(checklist: &Checklist) -> String {
     let best = measured(proof.bound, unit);
     let is_solid = proof.kept_solid_mm3 + proof.bosses_mm3 > 0.0;
     let of_what = if is_solid {
-        " for these cuts and pins"
+        " with these cuts and pins"
     } else {
         ""
     };
@@ -127,14 +124,16 @@ fn shortfall_words(checklist: &Checklist, typed: &[String]) -> Option<String> {
             .map_or(Vec::new(), |short| short.taken);
         taken.iter().any(|taken| taken.by == taker)
     };
-    let plans = has(Taker::Cleaning)
-        .then(|| format!(" Other plans with their figures: {}", other_plans(typed)));
+    // The line on other plans names the command, too.
+    let is_told = !has(Taker::Cleaning) || !checklist.offers.is_empty();
+    let plans = (!is_told).then(|| format!(" {}", to_other_plans(typed)));
     Some(words + &plans.unwrap_or_default())
 }
 
-/// Returns the command that writes other plans of the same job.
-fn other_plans(typed: &[String]) -> String {
-    again(typed, "cuts", "").unwrap_or_else(|| OTHER_PLANS.to_owned())
+/// Returns the command that draws other plans with their figures, in words.
+fn to_other_plans(typed: &[String]) -> String {
+    let command = again(typed, "cuts", "").unwrap_or_else(|| OTHER_PLANS.to_owned());
+    format!("To see other plans and choose one: {command}")
 }
 
 fn balance(checklist: &Checklist) -> Option<String> {
@@ -195,15 +194,7 @@ fn wall(checklist: &Checklist) -> Option<String> {
 }
 
 fn parts(checklist: &Checklist) -> String {
-    let pins = checklist.parts.iter().map(|part| part.pins.len()).sum();
-    let counts = [
-        format_count(checklist.parts.len(), "part"),
-        format_count(checklist.cuts.len(), "cut"),
-        format_count(pins, "pin"),
-        format_count(checklist.voids.len(), "void"),
-    ];
-    let tip = checklist.goal.spins_on.is_some_and(|spin| spin.has_tip);
-    let tip = if tip { " and a tip" } else { "" };
+    let bought = bought(checklist).map_or(String::new(), |words| format!("; {words}"));
     let plates = checklist.plate_files().count();
     let plates = if plates > 0 {
         format!(" on {}", format_count(plates, "plate"))
@@ -211,8 +202,8 @@ fn parts(checklist: &Checklist) -> String {
         String::new()
     };
     format!(
-        "{}{tip}{plates} for {}",
-        counts.join(", "),
+        "{}{plates} for {}{bought}",
+        pieces(checklist),
         checklist.printer.name
     )
 }
@@ -399,7 +390,8 @@ mod tests {
     use std::collections::BTreeMap;
 
     use super::*;
-    use crate::verify::{CheckKind, Limit};
+    use crate::testing::sample;
+    use crate::verify::{CheckKind, Hardware, HardwareKind, Limit};
 
     const PLAIN: Manner = Manner {
         quiet: false,
@@ -408,6 +400,7 @@ mod tests {
         may_ask: false,
         is_coloured: false,
         is_output_coloured: false,
+        output_columns: None,
     };
 
     fn row(phase: &str, figures: &[(&str, f64)]) -> LogRow {
@@ -446,6 +439,42 @@ mod tests {
             "step    passes  bound\nfirst   3\nsecond  12      5.000000e-1\n"
         );
         assert_eq!(steps(&[]), "");
+    }
+
+    #[test]
+    fn an_offer_of_another_plan_ends_with_the_command_that_draws_it() {
+        let mut sheet = sample().0;
+        sheet.offers = vec!["with 2 parts in place of 4 it stands".to_owned()];
+        let typed = ["equipoise", "prepare", "a.stl", "--goal=stand"].map(str::to_owned);
+        assert_eq!(
+            offer(&sheet, &typed).unwrap(),
+            "with 2 parts in place of 4 it stands. \
+             To see other plans and choose one: equipoise cuts a.stl --goal=stand"
+        );
+        let short = shortfall_words(&sheet, &typed).unwrap_or_default();
+        assert!(!short.contains("equipoise"), "said once: {short}");
+    }
+
+    #[test]
+    fn what_is_not_printed_lies_on_no_plate() {
+        let mut sheet = sample().0;
+        sheet.files.insert("plate.3mf".to_owned(), String::new());
+        sheet.hardware.push(Hardware {
+            id: "H1".to_owned(),
+            kind: HardwareKind::Tip,
+            from_mm: [0.0, 0.0, 12.0],
+            to_mm: [0.0; 3],
+            diameter_mm: 3.0,
+            hole_mm: 0.0,
+            round_end: true,
+            density_g_cm3: 7.85,
+            mass_g: 0.6,
+            depth_mm: 6.0,
+            socket_mm: 3.4,
+        });
+        let said = parts(&sheet);
+        assert!(said.contains("1 glue joint"), "{said}");
+        assert!(said.ends_with("; not printed: tip"), "{said}");
     }
 
     #[test]

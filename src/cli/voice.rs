@@ -2,6 +2,8 @@
 
 use std::io::IsTerminal;
 
+use terminal_size::{Width, terminal_size_of};
+
 /// The amount and the colours of the text; decided once, at the start.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Manner {
@@ -17,6 +19,8 @@ pub struct Manner {
     pub is_coloured: bool,
     /// True if the standard output may have colours.
     pub is_output_coloured: bool,
+    /// The width of the terminal that is the standard output; `None` if it is none.
+    pub output_columns: Option<usize>,
 }
 
 impl Manner {
@@ -40,6 +44,8 @@ impl Manner {
                 && std::io::stdout().is_terminal(),
             is_coloured: may && is_terminal,
             is_output_coloured,
+            output_columns: terminal_size_of(std::io::stdout())
+                .map(|(Width(columns), _)| usize::from(columns)),
         }
     }
 

@@ -4,10 +4,12 @@
 
 mod base64;
 mod callouts;
+mod dimension;
 mod error;
 mod hatch;
 mod inside;
 mod legend;
+mod letters;
 mod palette;
 mod plot;
 mod projection;

@@ -4,6 +4,7 @@
 use std::fmt::Write;
 
 use super::base64::base64;
+use super::letters::width_texts;
 use super::palette::{Color, INK, PAPER, hex};
 
 /// A place on a drawing: pixels to the right and down.
@@ -11,8 +12,8 @@ pub type Spot = [f64; 2];
 
 /// The XML namespace that a file needs; SVG inside a page needs none.
 const NAMESPACE: &str = " xmlns=\"http://www.w3.org/2000/svg\"";
-/// A line is upright if it goes sideways by less than this share of its height.
-const UPRIGHT_RATIO: f64 = 0.1;
+/// Width of the rim of paper around words, in their heights: it hides a thick line behind them.
+const RIM_RATIO: f64 = 0.25;
 
 /// The look of a line.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -108,6 +109,17 @@ pub enum Anchor {
     End,
 }
 
+impl Anchor {
+    /// Returns its word in SVG.
+    fn value(self) -> &'static str {
+        match self {
+            Self::Start => "start",
+            Self::Middle => "middle",
+            Self::End => "end",
+        }
+    }
+}
+
 /// A drawing of a fixed size in pixels.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Drawing {
@@ -182,65 +194,40 @@ impl Drawing {
     }
 
     /// Adds words with a rim of paper, so that they are legible on any colour.
-    pub fn text(&mut self, [x, y]: Spot, anchor: Anchor, words: &str) {
-        let anchor = match anchor {
-            Anchor::Start => "start",
-            Anchor::Middle => "middle",
-            Anchor::End => "end",
-        };
-        let (size, rim) = (self.text_px, self.text_px * 0.25);
+    ///
+    /// Words that would leave the drawing are moved inward. Words that are wider than it are made
+    /// smaller.
+    pub fn text(&mut self, at: Spot, anchor: Anchor, words: &str) {
+        let rim = self.text_px * RIM_RATIO;
+        let room = self.size_px()[0];
+        let size = self.text_px.min(room / width_texts(words).max(1.0));
+        let [x, y] = self.fit(at, anchor, [size * width_texts(words), size]);
         self.add(&format!(
-            "<text x=\"{}\" y=\"{}\" font-size=\"{size}\" font-family=\"sans-serif\" text-anchor=\"{anchor}\" dominant-baseline=\"central\" \
-             fill=\"{}\" stroke=\"{}\" stroke-width=\"{rim}\" stroke-linejoin=\"round\" paint-order=\"stroke\">{}</text>",
+            "<text x=\"{}\" y=\"{}\" font-size=\"{}\" font-family=\"sans-serif\" \
+             text-anchor=\"{}\" dominant-baseline=\"central\" \
+             fill=\"{}\" stroke=\"{}\" stroke-width=\"{rim}\" stroke-linejoin=\"round\" \
+             paint-order=\"stroke\">{}</text>",
             short(x),
             short(y),
+            short(size),
+            anchor.value(),
             hex(INK),
             hex(PAPER),
             escape(words)
         ));
     }
 
-    /// Adds a dimension between two spots, drawn `aside` of them: extension lines, a line with dots
-    /// at its ends, and its words.
-    pub fn dimension(&mut self, [a, b]: [Spot; 2], aside: Spot, words: &str) {
-        let moved = |[x, y]: Spot, times: f64| [x + times * aside[0], y + times * aside[1]];
-        let (from, to) = (moved(a, 1.0), moved(b, 1.0));
-        for (end, spot) in [(from, a), (to, b)] {
-            self.line(
-                [spot, [end[0] + 0.15 * aside[0], end[1] + 0.15 * aside[1]]],
-                Stroke::solid(INK, 0.8),
-            );
-        }
-        self.line([from, to], Stroke::THIN);
-        for end in [from, to] {
-            self.circle(end, 3.0, Paint::filled(INK, Stroke::NONE));
-        }
-        let length = aside[0].hypot(aside[1]).max(f64::MIN_POSITIVE);
-        if (from[0] - to[0]).abs() < UPRIGHT_RATIO * (from[1] - to[1]).abs() {
-            // There may be no room beside an upright line.
-            let top = if from[1] < to[1] { from } else { to };
-            return self.text([top[0], top[1] - self.text_px], Anchor::Middle, words);
-        }
-        let out = 1.0 + self.text_px / length;
-        let middle = [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])];
-        let anchor = match aside[0] / length {
-            lean if lean > 0.5 => Anchor::Start,
-            lean if lean < -0.5 => Anchor::End,
-            _ => Anchor::Middle,
+    /// Returns the spot nearest to `at` from which words of this width and height stay inside.
+    fn fit(&self, at: Spot, anchor: Anchor, words_px: [f64; 2]) -> Spot {
+        let [left, right] = match anchor {
+            Anchor::Start => [0.0, 1.0],
+            Anchor::Middle => [0.5, 0.5],
+            Anchor::End => [1.0, 0.0],
         };
-        self.text(moved(middle, out), anchor, words);
-    }
-
-    /// Adds a dashed line that is visible on dark colours too.
-    pub fn dashed_line(&mut self, ends: [Spot; 2]) {
-        self.line(ends, Stroke::solid(PAPER, 4.5));
-        self.line(
-            ends,
-            Stroke {
-                width: 2.0,
-                ..Stroke::DASHED
-            },
-        );
+        let [width, height] = self.size_px();
+        let x = [left * words_px[0], width - right * words_px[0]];
+        let y = [0.5 * words_px[1], height - 0.5 * words_px[1]];
+        [within(at[0], x), within(at[1], y)]
     }
 
     /// Returns drawings side by side, their upper edges on one line.
@@ -282,6 +269,11 @@ impl Drawing {
     }
 }
 
+/// Returns the value nearest to this one between two ends; the lower end if they are exchanged.
+fn within(value: f64, [low, high]: [f64; 2]) -> f64 {
+    value.min(high).max(low)
+}
+
 /// Returns a number to a hundredth, without trailing zeros.
 pub fn short(value: f64) -> String {
     let text = format!("{value:.2}");
@@ -320,6 +312,43 @@ mod tests {
         assert!(
             !drawing.inline("\"<").contains("<script")
                 && drawing.inline("\"<").contains("aria-label=\"&quot;&lt;\"")
+        );
+    }
+
+    /// Sums of lengths of some hundred pixels are exact to much less.
+    const ROUNDING: f64 = 1e-9;
+
+    #[test]
+    fn words_at_an_edge_stay_on_the_drawing() {
+        let words = "y 99.4 mm";
+        let long_px = 20.0 * width_texts(words);
+        for (anchor, before) in [
+            (Anchor::Start, 0.0),
+            (Anchor::Middle, 0.5 * long_px),
+            (Anchor::End, long_px),
+        ] {
+            for edge in [-50.0, 3.0, 200.0, 399.0, 450.0] {
+                let drawing = Drawing::new([400, 100], 20.0);
+                let [x, y] = drawing.fit([edge, edge], anchor, [long_px, 20.0]);
+                let left = x - before;
+                assert!(
+                    left >= -ROUNDING && left + long_px <= 400.0 + ROUNDING,
+                    "{anchor:?} {edge}: {x}"
+                );
+                assert!((10.0..=90.0).contains(&y), "{y}");
+                assert!(edge != 200.0 || x == 200.0, "{x}: there is room");
+            }
+        }
+    }
+
+    #[test]
+    fn words_wider_than_the_drawing_are_made_smaller() {
+        let mut drawing = Drawing::new([100, 40], 20.0);
+        drawing.text([90.0, 20.0], Anchor::Start, "a name that is far too long");
+        assert!(
+            !drawing.body.contains("font-size=\"20\""),
+            "{}",
+            drawing.body
         );
     }
 

@@ -56,6 +56,14 @@
 //! direction is a quadric that separates the goal from all reachable points. This proves that no
 //! hollowing meets the goal.
 //!
+//! A kit carries the dual point of its first solution, before anything was kept solid for cleaning
+//! ([`crate::verify::BoundProof`]). For any ratio it gives a quadric g, and the least of all
+//! hollowings along g is the body with { g·m > 0 } emptied. So the judge needs one integral over
+//! the inside, which it takes over its own cells, and no search. The ratio at which the integral
+//! meets its limit is its own bound. A top has a point at each of several heights of its centre;
+//! the margin of each reaches to the next. The judge finds the best ratio at which they leave no
+//! height out.
+//!
 //! # 6. Impossible goals
 //! Three facts make it cheap to find remedies ([`crate::advice`]):
 //!

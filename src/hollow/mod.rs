@@ -125,6 +125,7 @@
 //! | `top/`: `heights`, `valley`, `lever`, `search` | the search over heights |
 //! | `top/`: `posts`, `cover`, `frontier` | the proof over all heights |
 //! | `top/`: `course` | the data of the plots |
+//! | `proof` | the proof as numbers for a judge |
 //! | `papers/` (feature `papers`) | Spin-It's octree and the rays and voxels of Wu et al. |
 //!
 //! Those of the papers solve the same [`Problem`], behind one trait with this solver.
@@ -170,6 +171,7 @@ mod log;
 #[cfg(any(test, feature = "papers"))]
 pub mod papers;
 mod problem;
+mod proof;
 mod solution;
 mod status;
 mod top;
@@ -188,6 +190,7 @@ pub use papers::{
     Accuracy, ByOctree, ByQuadric, ByRays, ByVoxels, Found, Method, MethodError, Outcome, Rounding,
 };
 pub use problem::{Problem, Settings};
+pub use proof::{Proof, ProofPoint, prove};
 pub use solution::{Certificate, Figure, Solution};
 pub use status::{Obstacle, Status};
 pub use top::course::{TopCourse, top_course};
@@ -265,7 +268,7 @@ pub fn bound_over_heights(
     }
     rayon::scope(|_| {
         let work = Work::new(problem, settings, watch);
-        let ratio = top::prove_bound_near(&work, known.objective, &known.warm)?;
+        let ratio = top::prove_bound_near(&work, known.objective, &known.warm)?.bound;
         let moments = work.reach.scale.moments_to_units(&known.moments);
         let conversion = Conversion {
             work: &work,

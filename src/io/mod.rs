@@ -29,5 +29,5 @@ pub use lines::{LinesError, decode_curve};
 pub use obj::ObjError;
 pub use ply::PlyError;
 pub use points::{PointsError, decode_points};
-pub use read::{ContentError, ReadError, decode_model, read_bytes, read_model};
+pub use read::{ContentError, ReadError, decode_model, file_near, read_bytes, read_model};
 pub use stl::{StlError, WriteError};

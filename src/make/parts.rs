@@ -50,6 +50,7 @@ pub fn make(placed: &Placed, candidate: Candidate, watch: &Watch) -> Result<Made
     Ok(Made {
         load: resolver.solved().load.clone(),
         height_proof: resolver.height_proof(),
+        proof: resolver.solved().proof.clone(),
         course: resolver.course().clone(),
         solution,
         hollowed,

@@ -241,6 +241,7 @@ pub(super) fn solve(placed: &Placed) -> Solved {
         solution: placed.solve(&columns, goal.solid, None, &watch),
         columns,
         height_proof: None,
+        proof: None,
         course: TopCourse::default(),
         coarse: None,
     }

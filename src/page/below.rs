@@ -21,6 +21,9 @@ const SIZE_PX: [usize; 2] = [560, 380];
 /// and the sides.
 const TURN_AND_LIFT: [f64; 2] = [0.45, -0.75];
 
+/// The caption: the red is explained nowhere else.
+pub(super) const CAPTION: &str = "Picture from below. Red: where support touches.";
+
 /// Margin around a socket, whose roof is bridged, mm.
 const SOCKET_ROOM_MM: f64 = 0.01;
 
@@ -90,12 +93,11 @@ fn is_in(socket: &Peg, at: &Point) -> bool {
 }
 
 fn draft<'a>(id: &str, items: [Item<'a>; 2]) -> Draft<'a> {
-    let caption = format!("{id} from below; support touches what is red.");
     Draft {
         file: picture_file(id),
         role: Role::Below,
         alt: format!("Part {id} in its print pose, seen from below. What touches support is red."),
-        caption,
+        caption: CAPTION.to_owned(),
         shot: Shot {
             scene: Scene {
                 items: items.to_vec(),

@@ -3,6 +3,7 @@
 
 use maud::{Markup, html};
 
+use super::bound;
 use super::document::styled_document;
 use super::fields::sentence;
 use super::figure::{Role, figures};
@@ -38,6 +39,7 @@ pub fn certificate(inputs: &PageInputs) -> String {
             (proof::checks(&sheet.checks))
             (proof::proof(sheet, pictures))
             section { h2 { "Sections at the cuts" } (figures(pictures, Role::Cut)) }
+            (bound::numbers(sheet))
             (proof::parts(sheet))
             (proof::voids(sheet))
             (grid::table(&sheet.grid))

@@ -18,10 +18,11 @@ const ALL_IN_SIGHT_RATIO: f64 = 0.995;
 
 /// Returns the instruction to clean a void, with a box to tick.
 pub(super) fn clean_one(sheet: &Checklist, void: &VoidRow) -> Markup {
+    let is_in_several = void.parts.len() > 1;
     html! {
-        li {
+        li class=[is_in_several.then_some("boxed")] {
             strong { (void.id) }
-            @if !void.parts.is_empty() { " in " (void.parts.join(", ")) } ": "
+            @if let [part] = &void.parts[..] { " in " (part) } ": "
             @if void.opened_by.is_empty() { strong class="fail" { "opened by no cut. " } }
             @else {
                 (measured(void.opening_mm, "mm")) " wide and " (measured(void.depth_mm, "mm")) " deep, open at the cut face. "
@@ -31,6 +32,16 @@ pub(super) fn clean_one(sheet: &Checklist, void: &VoidRow) -> Markup {
             }
             (void.clean) (hidden_rest(sheet, void))
             (left_full(sheet, void))
+            (part_boxes(void))
+        }
+    }
+}
+
+/// Returns a box for each part of a void that lies in several; nothing if it lies in one.
+fn part_boxes(void: &VoidRow) -> Markup {
+    html! {
+        @if void.parts.len() > 1 {
+            br; "Clean in: " @for part in &void.parts { "☐\u{a0}" (part) " " }
         }
     }
 }
@@ -130,5 +141,23 @@ fn by_plan(sheet: &Checklist) -> &'static str {
         ", and where the plan keeps the inside solid"
     } else {
         ""
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::sample;
+
+    #[test]
+    fn a_void_in_several_parts_has_a_box_for_each() {
+        let sheet = sample().0;
+        let mut void = sheet.voids[0].clone();
+        void.parts = ["P01", "P02", "P03"].map(str::to_owned).to_vec();
+        let page = clean_one(&sheet, &void).into_string();
+        assert_eq!(page.matches('☐').count(), 3, "{page}");
+        void.parts.truncate(1);
+        let page = clean_one(&sheet, &void).into_string();
+        assert!(page.contains("in P01: ") && !page.contains('☐'), "{page}");
     }
 }

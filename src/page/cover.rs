@@ -79,7 +79,7 @@ fn facts(sheet: &Checklist) -> Markup {
         ),
         ("Material", html! { (sheet.material.name) }),
         ("Mass", mass(sheet)),
-        ("Kit", html! { (pieces(sheet)) }),
+        ("Kit", kit(sheet)),
         ("You need", html! { (you_need(sheet)) }),
     ];
     html! {
@@ -88,10 +88,21 @@ fn facts(sheet: &Checklist) -> Markup {
             @if let Some(time) = &sheet.print_time {
                 tr { th scope="row" { "Print time" } td { (time.words()) " (" (time.slicer) " with its default speeds)" } }
             }
+            @if let Some(off_deg) = sheet.goal.off_natural_deg {
+                tr { th scope="row" { "Axis" } td { (words::axis_off(off_deg)) } }
+            }
             @if let Some(foot) = words::spins_on(sheet) {
                 tr { th scope="row" { "Spins on" } td { (foot) } }
             }
         }
+    }
+}
+
+/// Returns what is printed, and what is bought.
+fn kit(sheet: &Checklist) -> Markup {
+    html! {
+        (words::pieces(sheet))
+        @if let Some(bought) = words::bought(sheet) { "; " (bought) }
     }
 }
 
@@ -114,20 +125,6 @@ fn mass(sheet: &Checklist) -> Markup {
         @if !sheet.ballast.is_empty() { ", with " (format_count(sheet.ballast.len(), "piece")) " of ballast" }
         " (solid it would be " (measured(sheet.solid.mass_g, "g")) ")"
     }
-}
-
-/// Words what the kit consists of.
-fn pieces(sheet: &Checklist) -> String {
-    let pins = sheet.parts.iter().map(|part| part.pins.len()).sum();
-    let counts = [
-        (sheet.parts.len(), "part"),
-        (sheet.joints.len(), "glue joint"),
-        (pins, "pin"),
-        (sheet.voids.len(), "void"),
-    ];
-    let counts = counts.into_iter().filter(|(count, _)| *count > 0);
-    let words = counts.map(|(count, word)| format_count(count, word));
-    words.collect::<Vec<_>>().join(", ")
 }
 
 /// Returns links to the steps, for a screen.

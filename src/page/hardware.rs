@@ -6,6 +6,7 @@ use super::fields::{blank, half_name};
 use super::figure::{Picture, Role, figures};
 use crate::base::numbers::{measured, quantity};
 use crate::geom::Point;
+use crate::goal::STEEL_G_CM3;
 use crate::sheet::{Checklist, Half, TurnRow};
 use crate::verify::{Hardware, HardwareKind};
 
@@ -51,7 +52,7 @@ fn description(sheet: &Checklist, piece: &Hardware) -> String {
         piece.socket_mm,
     ]
     .map(|mm| measured(mm, "mm"));
-    let rod = bar(piece);
+    let rod = format!("{}: {}", word(&piece.kind), bar(piece));
     match piece.kind {
         HardwareKind::Axle => format!(
             "{rod}: glued {depth} deep into the {socket} socket of each half, with {} between the halves; a shim of that thickness holds \
@@ -64,7 +65,7 @@ fn description(sheet: &Checklist, piece: &Hardware) -> String {
             quantity(piece.diameter_mm, "mm")
         ),
         HardwareKind::Tip => format!(
-            "{rod}, its lower end rounded to a half ball: glued {depth} deep into the {socket} socket at the contact; {out} stand out, \
+            "{rod}. File its lower end to a half ball. Glue it {depth} deep into the {socket} socket at the contact; {out} stand out, \
              and its end is the contact point."
         ),
         HardwareKind::Stem | HardwareKind::Dowel(_) => {
@@ -73,17 +74,40 @@ fn description(sheet: &Checklist, piece: &Hardware) -> String {
     }
 }
 
-/// Describes a piece as it is bought or cut.
+/// What is counted as a ring on an axle.
+const RING: &str = "nuts, washers or a bearing for the axle";
+
+/// Describes a piece as it is bought and cut, with its mass.
 pub(super) fn bar(piece: &Hardware) -> String {
+    format!("{} ({})", rod(piece), measured(piece.mass_g, "g"))
+}
+
+/// Describes a piece as it is bought and cut: `steel rod, 6 mm, cut to 85 mm, one end rounded`.
+pub(super) fn rod(piece: &Hardware) -> String {
+    if piece.kind == HardwareKind::Ring {
+        return RING.to_owned();
+    }
     let length_mm = (Point::from(piece.to_mm) - Point::from(piece.from_mm)).norm();
+    let rounded = if piece.round_end {
+        ", one end rounded"
+    } else {
+        ""
+    };
     format!(
-        "{} of {} in diameter, cut {} long, {} ({})",
-        word(&piece.kind),
+        "{}, {}, cut to {}{rounded}",
+        stock(piece),
         quantity(piece.diameter_mm, "mm"),
-        measured(length_mm, "mm"),
-        measured(piece.mass_g, "g"),
-        quantity(piece.density_g_cm3, "g/cm³")
+        measured(length_mm, "mm")
     )
+}
+
+/// Names what a piece is cut from. Of other materials than steel only the density is known.
+fn stock(piece: &Hardware) -> String {
+    match &piece.kind {
+        HardwareKind::Dowel(stock) => stock.clone(),
+        _ if piece.density_g_cm3 == STEEL_G_CM3 => "steel rod".to_owned(),
+        _ => format!("rod of {}", quantity(piece.density_g_cm3, "g/cm³")),
+    }
 }
 
 /// Returns the word for a kind of hardware.
@@ -126,4 +150,31 @@ fn most_turn_deg(turn: &TurnRow) -> f64 {
 /// Returns the length of a degree at half the greatest size, mm.
 fn rim_mm(sheet: &Checklist) -> f64 {
     0.5 * sheet.model.size_mm.into_iter().fold(0.0, f64::max) * 1f64.to_radians()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_tip_is_told_as_it_is_bought_and_cut() {
+        let mut tip = Hardware {
+            id: "H1".to_owned(),
+            kind: HardwareKind::Tip,
+            from_mm: [0.0, 0.0, 85.0],
+            to_mm: [0.0; 3],
+            diameter_mm: 6.0,
+            hole_mm: 0.0,
+            round_end: true,
+            density_g_cm3: STEEL_G_CM3,
+            mass_g: 18.6,
+            depth_mm: 52.5,
+            socket_mm: 6.4,
+        };
+        let said = |piece: &Hardware| rod(piece).replace('\u{a0}', " ");
+        assert_eq!(said(&tip), "steel rod, 6 mm, cut to 85 mm, one end rounded");
+        tip.density_g_cm3 = 2.7;
+        tip.round_end = false;
+        assert_eq!(said(&tip), "rod of 2.7 g/cm³, 6 mm, cut to 85 mm");
+    }
 }

@@ -3,6 +3,7 @@
 mod album;
 mod apart;
 mod below;
+mod bound;
 mod broken;
 mod certificate;
 mod cleaning;
@@ -63,4 +64,4 @@ pub use telescope::{TelescopePage, telescope_job};
 pub use telescope_album::{CutJoint, ShownPart, TelescopeView, draw_telescope};
 pub use telescope_proof::telescope_certificate;
 pub use view::View;
-pub use words::{promise, shortfall, spins_on};
+pub use words::{bought, pieces, promise, shortfall, spins_on};

@@ -5,7 +5,7 @@ use maud::{Markup, html};
 use super::below;
 use super::fields::{THIN_LAYER_MM, UM_PER_MM, file_name, half_name};
 use super::figure::{Picture, Role, figures};
-use super::hardware::bar;
+use super::hardware::{bar, word};
 use super::support;
 use crate::base::numbers::{measured, measured_extent, quantity};
 use crate::base::units::MM3_PER_CM3;
@@ -18,6 +18,10 @@ const LEAST_CUP_MM3: f64 = 150.0;
 
 /// Area of a foot that is hardly more than a point, mm²: a few lines of filament.
 const POINT_MM2: f64 = 10.0;
+
+/// What to do where the parts were not held against the machine.
+const NO_ROOM_KNOWN: &str =
+    "the build volume of this printer is not known; check by hand that every part fits.";
 
 /// Returns the step in which the parts are printed, with a card for every part.
 pub(super) fn print_step(sheet: &Checklist, pictures: &[Picture]) -> Markup {
@@ -34,7 +38,7 @@ pub(super) fn print_step(sheet: &Checklist, pictures: &[Picture]) -> Markup {
                     }
                 }
                 @if sheet.printer.build_volume_mm.is_none() {
-                    li { strong { "Room: " } "the build volume of this printer is not known; check by hand that every part fits." }
+                    li { strong { "Room: " } (NO_ROOM_KNOWN) " In a profile of your own (" code { "equipoise printers new" } ") write it as " code { "build_volume_mm" } "." }
                 }
                 @if let Some(parts) = parts_without_id(sheet) {
                     li { strong { "Names: " } "write the id on these parts when they come off the plate: " strong { (parts) } "." }
@@ -77,7 +81,9 @@ fn bought(sheet: &Checklist) -> Markup {
         @if !sheet.hardware.is_empty() {
             p { "Not printed, to have at hand:" }
             ul class="ticks" {
-                @for piece in &sheet.hardware { li { strong { (piece.id) } ", " (bar(piece)) } }
+                @for piece in &sheet.hardware {
+                    li { strong { (piece.id) } ", " (word(&piece.kind)) ": " (bar(piece)) }
+                }
             }
         }
     }
@@ -87,14 +93,17 @@ fn bought(sheet: &Checklist) -> Markup {
 fn card(sheet: &Checklist, part: &PartRow, pictures: &[Picture]) -> Markup {
     let is_part = |picture: &&Picture| part.picture.as_ref() == Some(&picture.file);
     let below = below::picture_file(&part.id);
-    let is_below = |picture: &&Picture| picture.file == below;
+    let below = pictures.iter().find(|picture| picture.file == below);
     html! {
         div class="part" {
             div class="shots" {
                 @if let Some(picture) = pictures.iter().find(is_part) { (picture.image()) }
-                @if let Some(picture) = pictures.iter().find(is_below) { (picture.image()) }
+                @if let Some(picture) = below { (picture.image()) }
             }
-            div { (orders(sheet, part)) }
+            div {
+                (orders(sheet, part))
+                @if let Some(picture) = below { p class="small" { (picture.caption) } }
+            }
         }
     }
 }
@@ -235,6 +244,7 @@ pub fn cup_warning(sheet: &Checklist) -> Option<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::draw::Drawn;
     use crate::sheet::SupportRow;
     use crate::testing::sample;
 
@@ -273,7 +283,9 @@ mod tests {
         );
         let page = page_of(|sheet| sheet.printer.build_volume_mm = None);
         assert!(
-            !page.contains("plate_") && page.contains("build volume of this printer is not known")
+            !page.contains("plate_")
+                && page.contains("build volume of this printer is not known")
+                && page.contains("equipoise printers new")
         );
     }
 
@@ -299,6 +311,24 @@ mod tests {
                 .unwrap()
                 .contains("Do not start without the brim")
         );
+    }
+
+    #[test]
+    fn a_picture_from_below_says_what_its_red_means() {
+        let sheet = sample().0;
+        let said = |file: String| {
+            let picture = Picture {
+                file,
+                role: Role::Below,
+                caption: below::CAPTION.to_owned(),
+                alt: String::new(),
+                drawn: Drawn::Png(Vec::new()),
+            };
+            print_step(&sheet, &[picture]).into_string()
+        };
+        let page = said(below::picture_file("P01"));
+        assert_eq!(page.matches("Red: where support touches").count(), 1);
+        assert!(!said(String::new()).contains("Red:"));
     }
 
     #[test]

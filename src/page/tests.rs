@@ -74,6 +74,40 @@ fn every_picture_and_code_has_a_description() {
     }
 }
 
+/// Returns the value of an attribute of an SVG element.
+fn attribute<'a>(element: &'a str, name: &str) -> &'a str {
+    let start = element.find(&format!("{name}=\"")).unwrap() + name.len() + 2;
+    element[start..].split('"').next().unwrap()
+}
+
+#[test]
+fn no_text_of_a_drawing_ends_outside_of_it() {
+    let (sheet, evidence) = sample();
+    for picture in sample_pictures(&sheet, &evidence).0 {
+        let svg = String::from_utf8_lossy(&picture.bytes()).into_owned();
+        let Some(first) = svg.find("viewBox") else {
+            continue;
+        };
+        let sides: Vec<&str> = attribute(&svg[first..], "viewBox").split(' ').collect();
+        let width: f64 = sides[2].parse().unwrap();
+        for element in svg.split("<text ").skip(1) {
+            let number = |name| attribute(element, name).parse::<f64>().unwrap();
+            let words = element.split(['>', '<']).nth(1).unwrap();
+            // A letter of a common font is half as wide as high, or a little more.
+            let long = 0.55 * number("font-size") * words.chars().count() as f64;
+            let before = match attribute(element, "text-anchor") {
+                "start" => 0.0,
+                "middle" => 0.5 * long,
+                _ => long,
+            };
+            let left = number("x") - before;
+            assert!(left >= 0.0, "{}: {words} begins at {left}", picture.file);
+            let right = left + long;
+            assert!(right <= width, "{}: {words} ends at {right}", picture.file);
+        }
+    }
+}
+
 #[test]
 fn the_page_says_what_to_do_in_order() {
     let (sheet, evidence) = sample();
@@ -123,6 +157,15 @@ fn the_page_says_what_to_do_in_order() {
             "{said} is on the job sheet"
         );
     }
+}
+
+#[test]
+fn an_axis_off_the_natural_up_is_told_on_the_job_sheet() {
+    let (mut sheet, evidence) = sample();
+    let said = "76° off the model's natural up";
+    assert!(!whole_page(&sheet, &evidence).contains(said));
+    sheet.goal.off_natural_deg = Some(76.2);
+    assert!(whole_page(&sheet, &evidence).contains(said));
 }
 
 #[test]

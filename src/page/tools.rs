@@ -1,8 +1,10 @@
 //! The things to have at hand for the steps: tools, a scale, glue and those of the test.
 
 use super::fields::spread_ratio;
+use super::hardware::rod;
 use crate::goal::GoalKind;
 use crate::sheet::{Checklist, Process};
+use crate::verify::{Hardware, HardwareKind};
 
 /// Half of a part's window of masses, g, from which a scale that shows 0.1 g tells sound parts from
 /// others.
@@ -16,6 +18,7 @@ pub(super) fn you_need(sheet: &Checklist) -> String {
         for_cleaning(&sheet.printer.process).map(str::to_owned),
         Some(scale(sheet).to_owned()),
         glue,
+        for_hardware(sheet),
         for_test(sheet.goal.aim.kind).map(str::to_owned),
     ];
     let things: Vec<String> = things.into_iter().flatten().collect();
@@ -43,6 +46,15 @@ fn scale(sheet: &Checklist) -> &'static str {
     } else {
         "a scale that shows 0.1\u{a0}g"
     }
+}
+
+/// Names what is put in, and the tools that cut it; `None` if nothing is.
+fn for_hardware(sheet: &Checklist) -> Option<String> {
+    let bought: Vec<String> = sheet.hardware.iter().map(rod).collect();
+    let is_rod = |piece: &Hardware| piece.kind != HardwareKind::Ring;
+    let has_rods = sheet.hardware.iter().any(is_rod);
+    let tools = if has_rods { "; a saw and a file" } else { "" };
+    (!bought.is_empty()).then(|| bought.join("; ") + tools)
 }
 
 /// Names the things of the last test; `None` if hands are enough.
@@ -80,6 +92,28 @@ mod tests {
             said.starts_with("compressed air") && !said.contains("cyanoacrylate"),
             "{said}"
         );
+    }
+
+    #[test]
+    fn a_rod_is_on_the_list_with_the_tools_that_cut_it() {
+        let mut sheet = sample().0;
+        assert!(!you_need(&sheet).contains("a saw"));
+        sheet.hardware.push(Hardware {
+            id: "H1".to_owned(),
+            kind: HardwareKind::Tip,
+            from_mm: [0.0, 0.0, 12.0],
+            to_mm: [0.0; 3],
+            diameter_mm: 3.0,
+            hole_mm: 0.0,
+            round_end: true,
+            density_g_cm3: 7.85,
+            mass_g: 0.6,
+            depth_mm: 6.0,
+            socket_mm: 3.4,
+        });
+        let said = you_need(&sheet).replace('\u{a0}', " ");
+        let rod = "steel rod, 3 mm, cut to 12 mm, one end rounded; a saw and a file";
+        assert!(said.contains(rod), "{said}");
     }
 
     #[test]

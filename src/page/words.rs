@@ -1,6 +1,8 @@
 //! Goals, promises and proofs in words.
 
+use super::hardware::word;
 use crate::base::numbers::{coordinates, measured, number, quantity, quantity_or_dash};
+use crate::base::units::format_count;
 use crate::goal::GoalKind;
 use crate::sheet::{
     Certificate, Checklist, GoalRow, ObjectiveName, Process, Taken, Taker, WallRow,
@@ -92,6 +94,42 @@ pub fn promise(sheet: &Checklist) -> String {
         (GoalKind::Float, ..) => floats(sheet),
         (GoalKind::Balance, ..) => runs_true(sheet),
     }
+}
+
+/// Words what is printed and glued: parts, joints with the planes they lie in, pins and voids.
+pub fn pieces(sheet: &Checklist) -> String {
+    let pins = sheet.parts.iter().map(|part| part.pins.len()).sum();
+    let planes = sheet.cuts.len();
+    // Several joints may lie in one plane, and a shop would look for more cuts.
+    let in_planes = match planes {
+        _ if planes >= sheet.joints.len() => String::new(),
+        1 => " (in one plane)".to_owned(),
+        _ => format!(" (in {planes} planes)"),
+    };
+    let counts = [
+        (sheet.parts.len(), "part", ""),
+        (sheet.joints.len(), "glue joint", in_planes.as_str()),
+        (pins, "pin", ""),
+        (sheet.voids.len(), "void", ""),
+    ];
+    let counts = counts.into_iter().filter(|(count, ..)| *count > 0);
+    let words = counts.map(|(count, word, more)| format_count(count, word) + more);
+    words.collect::<Vec<_>>().join(", ")
+}
+
+/// Words an axis that is not the natural up.
+pub fn axis_off(off_deg: f64) -> String {
+    format!(
+        "{off_deg:.0}° off the model's natural up, on which it would not spin; hold it as in the \
+         picture"
+    )
+}
+
+/// Words what is bought and not printed; `None` if that is nothing.
+pub fn bought(sheet: &Checklist) -> Option<String> {
+    let pieces = sheet.hardware.iter().map(|piece| word(&piece.kind));
+    let names = pieces.collect::<Vec<_>>().join(", ");
+    (!names.is_empty()).then(|| format!("not printed: {names}"))
 }
 
 /// Words the part of a top that touches the floor and how far it leans; `None` for other goals.
@@ -191,6 +229,13 @@ pub fn certificate(sheet: &Checklist) -> Vec<String> {
         ),
     ];
     words.extend(is_top.then(|| other_heights(proof)));
+    words.extend(proof.proof.as_ref().map(|first| {
+        format!(
+            "If only the wall stayed solid, no hollowing could have a {} {better} than {}. Anyone can check this without the solver: `verify` does, from the numbers in checklist.json.",
+            proof.figure.name(),
+            quantity(first.bound, unit)
+        )
+    }));
     words.extend(proof.written_value.map(|written| {
         let share = share_of_best(proof, written);
         format!(
@@ -208,16 +253,17 @@ pub fn shortfall(sheet: &Checklist) -> Option<String> {
     let (figure, unit) = (sheet.certificate.figure, sheet.certificate.figure.unit());
     let words = |taken: &Taken| {
         let what = match taken.by {
-            Taker::Cleaning => &format!("voids that stay solid because they {}", fault(sheet)),
-            Taker::Plan => "what the plan keeps solid",
-            Taker::Bosses => "bosses around pins",
-            Taker::Making => "cuts, pins and rounding",
+            Taker::Cleaning => &format!("where the inside stays solid because it {}", fault(sheet)),
+            Taker::Plan => "to what the plan keeps solid",
+            Taker::Bosses => "to bosses around pins",
+            Taker::Making => "to cuts, pins and rounding",
         };
-        format!("{what} ({:.0}\u{a0}%)", 100.0 * taken.ratio)
+        format!("{:.0}\u{a0}% {what}", 100.0 * taken.ratio)
     };
     let taken: Vec<String> = shortfall.taken.iter().map(words).collect();
     Some(format!(
-        "With this wall {} {} is possible, and this kit reaches {}. The rest is lost to {}.",
+        "If it needed no cuts and no cleaning, a {} of {} would be possible with this wall; \
+         this kit reaches {}. It loses {}.",
         figure.name(),
         measured(shortfall.best, unit),
         measured(shortfall.reached, unit),
@@ -331,6 +377,35 @@ mod tests {
         sheet.certificate.cleaning_rounds.push(round);
         assert!(
             certificate(&sheet)[0].contains("cleaned and where the plan keeps it so and in bosses")
+        );
+    }
+
+    #[test]
+    fn joints_in_one_plane_are_told_with_their_plane() {
+        let (mut sheet, _) = sample();
+        let joint = sheet.joints[0].clone();
+        assert!(!pieces(&sheet).contains("plane"), "{}", pieces(&sheet));
+        sheet.joints = vec![joint; 3];
+        let said = pieces(&sheet);
+        assert!(said.contains("3 glue joints (in one plane)"), "{said}");
+        sheet.cuts.push(sheet.cuts[0].clone());
+        assert!(pieces(&sheet).contains("(in 2 planes)"));
+    }
+
+    #[test]
+    fn what_is_lost_does_not_contradict_what_the_cuts_allow() {
+        let (mut sheet, _) = sample();
+        let proof = &mut sheet.certificate;
+        proof.value_before_cleaning = Some(100.0);
+        proof.written_value = Some(200.0);
+        proof.cleaning_rounds.clear();
+        sheet.rounds.clear();
+        let said = shortfall(&sheet).unwrap().replace('\u{a0}', " ");
+        let best = "If it needed no cuts and no cleaning, a critical speed of 100 rpm would be";
+        assert!(said.starts_with(best), "{said}");
+        assert!(
+            said.contains("It loses 100 % to cuts, pins and rounding."),
+            "{said}"
         );
     }
 

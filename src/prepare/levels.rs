@@ -6,9 +6,8 @@ use crate::ballast::Load;
 use crate::base::verdict::Verdict;
 use crate::base::watch::{Phase, Watch};
 use crate::error::Error;
-use crate::goal::Objective;
 use crate::hollow::{
-    Certificate, Fill, Pass, Problem, Settings, Solution, TopCourse, bound_over_heights, top_course,
+    Certificate, Fill, Pass, Problem, Settings, Solution, TopCourse, prove, top_course,
 };
 use crate::interior::Columns;
 use crate::run::{HeightProof, Placed, Solved};
@@ -62,6 +61,7 @@ pub fn with_load(placed: &Placed, load: Load, watch: &Watch) -> Result<Answer, E
                 || course(placed, &problem, &solution, watch),
                 |level| level.course,
             ),
+            proof: None,
             load,
             fixed,
             columns,
@@ -69,19 +69,18 @@ pub fn with_load(placed: &Placed, load: Load, watch: &Watch) -> Result<Answer, E
         });
     }
     let solved = coarser.ok_or(Error::Cancelled)?;
-    let solved = prove_over_heights(placed, solved, watch);
+    let solved = prove_bound(placed, solved, watch);
     watch.check()?;
     Ok(Verdict::Found(solved))
 }
 
-/// Makes the proof for other heights on the finest columns, where that takes a dozen passes only.
+/// Adds the proof of the bound on the finest columns, for tops at all heights of their centre; that
+/// takes a dozen passes only.
 ///
 /// If Spin-It's functional weighs the lever there are as many levers as heights: the proof of the
-/// coarser columns stays.
-fn prove_over_heights(placed: &Placed, solved: Solved, watch: &Watch) -> Solved {
-    let objective = solved.solution.objective;
-    let weighs_lever = matches!(objective, Objective::SpinIt { gamma_c, .. } if gamma_c > 0.0);
-    if weighs_lever || placed.fill != Fill::AIR {
+/// coarser columns stays. Filled voids and ballast have no such proof.
+fn prove_bound(placed: &Placed, solved: Solved, watch: &Watch) -> Solved {
+    if placed.fill != Fill::AIR {
         return solved;
     }
     let problem = Problem {
@@ -90,14 +89,16 @@ fn prove_over_heights(placed: &Placed, solved: Solved, watch: &Watch) -> Solved 
         columns: &solved.columns,
     };
     let settings = Settings::default();
-    let bound = bound_over_heights(&problem, &settings, &solved.solution, &watch.muted());
-    let proof = bound.map(|bound| HeightProof {
+    let proof = prove(&problem, &settings, &solved.solution, &watch.muted());
+    let over_heights = proof.as_ref().filter(|proof| proof.ends.is_some());
+    let over_heights = over_heights.map(|proof| HeightProof {
         pitch_mm: solved.columns.pitch_mm[0],
         value: solved.solution.certificate.value,
-        bound,
+        bound: proof.bound,
     });
     Solved {
-        height_proof: proof.or(solved.height_proof),
+        height_proof: over_heights.or(solved.height_proof),
+        proof: proof.filter(|_| solved.load.is_empty()),
         ..solved
     }
 }

@@ -60,12 +60,16 @@ pub fn time<'a>(
 }
 
 /// Returns what the plates of a finished kit take by the slicer that is installed here. `None` if
-/// there is none, if it is of no use for the printer, or if it fails.
-pub fn time_kit(job: &Job, kit: &Kit, watch: &Watch) -> Option<PrintTimeRow> {
+/// there is none, if it is of no use for the printer, or if it fails. `begin` is called before it
+/// starts on the plates.
+pub fn time_kit(job: &Job, kit: &Kit, watch: &Watch, begin: impl FnOnce()) -> Option<PrintTimeRow> {
     let printer = Printer::find(&job.printer.id).ok()?;
     let material = printer.material(job.printer.material.as_deref()).ok()?;
     let settings = SliceSettings::of(&printer, material)?;
     let slicer = Slicer::find(None).ok()?;
-    let row = time(&settings, &slicer, kit.files(), watch).ok()?;
-    (!row.plates.is_empty()).then_some(row)
+    if !kit.files().any(|(file, _)| Plate::is_file_name(file)) {
+        return None;
+    }
+    begin();
+    time(&settings, &slicer, kit.files(), watch).ok()
 }

@@ -7,7 +7,7 @@ use super::{
     library::{BUILT_IN, Library, PROFILE_ENDING, Profile, by_id, ids},
     resolve::resolve,
 };
-use crate::base::toml_text::nearest_name;
+use crate::base::toml_text::{nearest_name, only_name_with};
 
 impl Printer {
     /// Finds the built-in printer of that id, or reads the one that a TOML file describes.
@@ -68,7 +68,8 @@ impl Library<'_> {
 
     fn unknown(&self, id: &str) -> ProfileError {
         let known = ids(self.printers);
-        let remedy = match nearest_name(id, known.iter().copied()) {
+        let named = only_name_with(id, known.iter().copied());
+        let remedy = match named.or_else(|| nearest_name(id, known.iter().copied())) {
             Some(near) => format!("did you mean `{near}`?"),
             None => format!("give the path of a profile, or one of {}", known.join(", ")),
         };
@@ -136,6 +137,8 @@ mod tests {
         let error = Printer::find("objet").unwrap_err().to_string();
         let expected = "there is no printer `objet`; remedy: did you mean `objet-connex350`?";
         assert_eq!(error, expected);
+        let error = Printer::find("mk4").unwrap_err().to_string();
+        assert!(error.ends_with("did you mean `prusa-mk4`?"), "{error}");
         let error = Printer::find("makerbot").unwrap_err().to_string();
         let all = "the path of a profile, or one of bambu-x1c, elegoo-mars";
         assert!(error.contains(all), "{error}");

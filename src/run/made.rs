@@ -3,7 +3,7 @@
 use super::{BossRound, CleaningRound, HeightProof, Remark};
 use crate::ballast::Load;
 use crate::cut::{CutPlan, Hollowed, Jig, JointId, Part};
-use crate::hollow::{Solution, TopCourse};
+use crate::hollow::{Proof, Solution, TopCourse};
 use crate::mass::Moments;
 use crate::mesh::TriMesh;
 use crate::verify::{PartEvidence, Pose, assembly_moments};
@@ -17,6 +17,9 @@ pub struct Made {
     pub load: Load,
     /// The proof for other heights of a top's centre.
     pub height_proof: Option<HeightProof>,
+    /// The proof that no void within the wall is better, before anything was kept solid for
+    /// cleaning.
+    pub proof: Option<Proof>,
     /// The course of the first answer.
     pub course: TopCourse,
     /// The uncut body.

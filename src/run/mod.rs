@@ -22,7 +22,7 @@ mod tendency;
 
 pub use brief::{Model, Placed, Shop};
 pub use made::{Made, WrittenJig, WrittenPart};
-pub use natural::{NaturalUp, reasons};
+pub use natural::{NaturalUp, short_reason};
 pub use opened::{Achieved, BossRound, CleaningRound, KeptBoss, KeptSolid, Opened, Voids};
 pub use policy::{Policy, Rung};
 pub use remark::{AxisChoice, FewerFault, KeptCause, Refusal, Remark, Untried};

@@ -61,10 +61,18 @@ impl fmt::Display for NaturalUp {
     }
 }
 
-/// Returns the weightiest reasons for a pose, in words.
-pub fn reasons(pose: &UprightPose) -> Vec<String> {
-    let reasons = pose.reasons.iter().take(MOST_REASONS);
-    reasons.map(words).collect()
+/// Returns the weightiest reason for a pose in two or three words; `None` if there is none.
+pub fn short_reason(pose: &UprightPose) -> Option<String> {
+    Some(match pose.reasons.first()? {
+        UprightReason::FlatFoot => "flat foot".to_owned(),
+        UprightReason::Feet { count } => format!("{count} feet"),
+        UprightReason::MirrorPlane => "mirrored halves".to_owned(),
+        UprightReason::TopUnlikeBottom => "top unlike bottom".to_owned(),
+        UprightReason::StableRest => "rights itself".to_owned(),
+        UprightReason::HoldsLiquid => "holds liquid".to_owned(),
+        UprightReason::NarrowBelow => "narrow end below".to_owned(),
+        UprightReason::FileUp => "nearest to the file's z".to_owned(),
+    })
 }
 
 /// Returns the words for a reason; "there" is the pose.

@@ -181,11 +181,9 @@ impl fmt::Display for Remark {
                 let figure = *figure;
                 let [then, now] = values.map(|value| Reached { figure, value });
                 let fewer = format_count(*fewer, "part");
-                write!(
-                    f,
-                    "{fewer} in place of {parts}: as planned it {then}, and this plan {now}"
-                )?;
-                fault.map_or(Ok(()), |fault| write!(f, "; but {fault}"))
+                write!(f, "with {fewer} in place of {parts} it {then}")?;
+                fault.map_or(Ok(()), |fault| write!(f, ", but {fault}"))?;
+                write!(f, "; this kit, as planned, {now}")
             }
             Self::Seams {
                 loss_ratio,
@@ -372,7 +370,8 @@ impl fmt::Display for AxisChoice {
             Self::NearNatural { natural, nearby } => write!(
                 f,
                 "`{}` was taken, {:.0}° off the natural up (`{}`), which does not allow the goal: \
-                 it is the nearest of the axes tried that come within twice the best; there it {}",
+                 it is the nearest of the axes tried that come within twice the best; before cuts \
+                 and pins it {} there",
                 Setting::new(Key::Up, nearby.request.up),
                 nearby.off_deg,
                 natural.setting(),
@@ -396,6 +395,7 @@ impl fmt::Display for AxisChoice {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::goal::GoalKind;
 
     #[test]
     fn an_offer_of_fewer_parts_compares_both_plans() {
@@ -407,15 +407,15 @@ mod tests {
         };
         let words = remark.to_string();
         assert!(
-            words.starts_with("4 parts in place of 5: as planned it "),
+            words.starts_with("with 4 parts in place of 5 it stands until tilted by 9.6°, but "),
             "{words}"
         );
         assert!(
-            words.contains("9.6°") && words.contains("this plan "),
+            words.contains("neither pins nor a jig align 1 joint of it; this kit"),
             "{words}"
         );
         assert!(
-            words.ends_with("; but neither pins nor a jig align 1 joint of it"),
+            words.ends_with("this kit, as planned, stands until tilted by 11.0°"),
             "{words}"
         );
     }
@@ -442,6 +442,31 @@ mod tests {
         let words =
             "joint P01–P02: bosses around pins would make 61 % of the voids solid: it has none";
         assert_eq!(remark.to_string(), words);
+    }
+
+    #[test]
+    fn the_figure_of_an_axis_off_the_natural_up_is_said_to_be_that_before_cuts() {
+        let natural = NaturalUp {
+            up: Up::Y,
+            reasons: Vec::new(),
+            next: None,
+            is_clear: true,
+        };
+        let nearby = Box::new(NearbyAxis {
+            request: Request {
+                up: Up::Z,
+                ..Request::new(GoalKind::Top)
+            },
+            reached: Reached {
+                figure: Figure::CriticalSpeedRpm,
+                value: 196.0,
+            },
+            off_deg: 76.2,
+        });
+        let words = AxisChoice::NearNatural { natural, nearby }.to_string();
+        let figure = "before cuts and pins it spins upright from 196 rpm there";
+        assert!(words.ends_with(figure), "{words}");
+        assert!(words.contains("76° off the natural up"), "{words}");
     }
 
     #[test]

@@ -3,7 +3,7 @@
 use super::Placed;
 use crate::ballast::Load;
 use crate::base::watch::Watch;
-use crate::hollow::{Problem, Solution, TopCourse};
+use crate::hollow::{Problem, Proof, Solution, TopCourse};
 use crate::interior::Columns;
 use crate::mass::Moments;
 
@@ -20,6 +20,9 @@ pub struct Solved {
     pub solution: Solution,
     /// The proof for other heights of a top's centre, on the finest columns that it was made on.
     pub height_proof: Option<HeightProof>,
+    /// The proof that no void within the wall is better; `None` beside ballast, with filled voids,
+    /// and if none was made.
+    pub proof: Option<Proof>,
     /// The course of the answer on the coarsest columns: the ascent from nothing, and for tops the
     /// speed by height.
     pub course: TopCourse,

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::verify::FigureName;
+use crate::verify::{BoundProof, FigureName};
 
 /// The proof of how near the result is to the best possible.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -32,6 +32,10 @@ pub struct Certificate {
     pub over_heights: Option<HeightProof>,
     /// Value of the written assembly.
     pub written_value: Option<f64>,
+    /// The proof that no hollowing with the wall is better, before anything was kept solid for
+    /// cleaning. `None` if there is none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub proof: Option<BoundProof>,
     /// Values and bounds during the search; `None` if they were not recorded.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub course: Option<Course>,

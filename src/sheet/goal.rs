@@ -30,6 +30,10 @@ pub struct GoalRow {
     /// Reason for the choice of the axis, if the job left it open.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub choice: Option<String>,
+    /// Angle between the axis and the natural up, on which the goal is not possible, degrees.
+    /// `None` if the axis is the natural up or was ordered, and in kits of older versions.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub off_natural_deg: Option<f64>,
 }
 
 /// A round surface that a rotor turns on.

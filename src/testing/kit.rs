@@ -119,6 +119,7 @@ fn checklist(evidence: &Evidence, found: &Judgement) -> Checklist {
             turns_on: Vec::new(),
             spins_on: found.spin,
             choice: None,
+            off_natural_deg: None,
         },
         promise: Some(PromisedFigure {
             figure: FigureName::CriticalSpeedRpm,
@@ -190,6 +191,7 @@ fn certificate(speed: f64) -> Certificate {
         gap_ratio: 1e-9,
         kept_solid_mm3: 0.0,
         value_before_cleaning: Some(speed),
+        proof: None,
         cleaning_rounds: vec![],
         bosses_mm3: 0.0,
         over_heights: Some(HeightProof {

@@ -35,6 +35,18 @@ pub fn judge(evidence: &Evidence, watch: &Watch) -> Result<Judgement, Cancelled>
     judge_beside(evidence, &Body::of(&evidence.hollowed), None, watch)
 }
 
+/// Judges as [`judge`] does, with the uncut result as [`Body::of`] takes it apart.
+///
+/// # Errors
+/// As [`judge`].
+pub(super) fn judge_body(
+    evidence: &Evidence,
+    body: &Body,
+    watch: &Watch,
+) -> Result<Judgement, Cancelled> {
+    judge_beside(evidence, body, None, watch)
+}
+
 /// Judges as [`judge`] does, with what was measured before: the uncut result as [`Body::of`] takes
 /// it apart, and the jigs as [`measure_jigs`] finds them.
 ///

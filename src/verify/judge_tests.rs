@@ -55,6 +55,7 @@ fn promise(poses: &[Pose]) -> Promise {
         marks: vec![],
     };
     Promise {
+        certificate: None,
         schema: SCHEMA,
         printer: PrinterLimits {
             process: Some("polyjet".into()),

@@ -43,6 +43,8 @@ pub enum CheckKind {
         /// The figure.
         figure: FigureName,
     },
+    /// Share by which a hollowing may beat the certificate.
+    Bound,
     /// Smallest wall between a void and the outside.
     Wall,
     /// Features of the model that are thinner than the printer's least wall.
@@ -206,6 +208,7 @@ impl fmt::Display for CheckKind {
             Self::Righting => "righting",
             Self::BalanceQuality => "balance quality",
             Self::PromisedFigure { figure } => figure.name(),
+            Self::Bound => "bound",
             Self::Wall => "wall",
             Self::ThinFeatures => "thin features",
             Self::ThinNecks => "thin necks",

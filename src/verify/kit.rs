@@ -2,14 +2,17 @@
 
 use std::path::Path;
 
+use super::body::Body;
+use super::bound::{bound_check, measure_bound};
 use super::changes::{files_check, find_changes};
+use super::judge::judge_body;
 use super::model::model_check;
 use super::packages::packages_check;
 use super::reading::{find_model, read_checklist, read_evidence};
 use super::seal::find_paper_changes;
 use super::sheet::{find_misstatements, sheet_check};
 use super::strangers::find_strangers;
-use super::{Judgement, VerifyError, judge};
+use super::{Judgement, VerifyError};
 use crate::base::watch::Watch;
 
 /// Reads every file of the kit in `folder` and judges it, without the solver. The checklist
@@ -42,7 +45,14 @@ pub fn verify_kit_of(
         Ok([find_changes(folder, &evidence)?, papers?].concat())
     };
     let beside = || rayon::join(changes, || packages_check(folder, &evidence));
-    let (judgement, (changes, packages)) = rayon::join(|| judge(&evidence, watch), beside);
+    let body = Body::of(&evidence.hollowed);
+    let measured = || {
+        rayon::join(
+            || judge_body(&evidence, &body, watch),
+            || measure_bound(&evidence, &body, watch),
+        )
+    };
+    let ((judgement, bound), (changes, packages)) = rayon::join(measured, beside);
     let mut judgement: Judgement = judgement?;
     let misstated = find_misstatements(&sheet, &evidence, &judgement);
     let changes: Result<_, VerifyError> = changes;
@@ -53,6 +63,8 @@ pub fn verify_kit_of(
     let strangers = find_strangers(folder, parts.chain(jigs).chain(others))?;
     judgement.changes.extend(strangers.changes);
     judgement.unlisted = strangers.others;
+    // The kit's own list has the checks of its making: the bound is proved again only here.
+    judgement.checks.extend(bound_check(&evidence, bound?));
     judgement.checks.push(sheet_check(&misstated));
     judgement.checks.push(files_check(&judgement.changes));
     judgement.checks.extend(packages?);

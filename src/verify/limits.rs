@@ -10,6 +10,14 @@ pub const DOMINANCE_LIMIT_RATIO: f64 = 1.0;
 /// The contact of a top may be this far from its lowest point, mm. The rounding of files is far
 /// below it, a layer or a speck of dust above.
 pub const CONTACT_LIMIT_MM: f64 = 0.05;
+/// The best of all hollowings may beat the certificate by this share, by the judge's own integral.
+/// Cells of twice the size change it by some ten thousandths.
+pub const BOUND_LIMIT_RATIO: f64 = 0.01;
+/// Figures below these are held against them, degrees and mm: the integral's error does not shrink
+/// with the figure.
+pub const BOUND_SCALE_DEG: f64 = 5.0;
+/// The same for lengths, mm.
+pub const BOUND_SCALE_MM: f64 = 5.0;
 /// A standing object without a promised angle must topple at more than this tilt, degrees.
 pub const STANDING_LIMIT_DEG: f64 = 0.0;
 /// A floating object's waterline may be this far from the predicted one, mm. The meniscus hides far

@@ -12,6 +12,9 @@ use crate::printer::Printer;
 const COPY_RATIO: f64 = 1e-9;
 /// A length is a whole number of steps within this share of a step.
 const WHOLE_STEPS: f64 = 1e-3;
+/// The optimum before cleaning may be so far from its proved bound, as a share: what an ascent that
+/// ended early still accepts.
+const FIRST_GAP_RATIO: f64 = 1e-2;
 /// A stated gap is that of a functional; that of the figure differs from it by at most this factor.
 const GAP_FACTOR: f64 = 10.0;
 /// Gaps below this are rounding.
@@ -157,6 +160,15 @@ impl Faults {
         };
         let found = (value - bound).abs() / value.abs().max(bound.abs()).max(f64::MIN_POSITIVE);
         let is_near = |a: f64, b: f64| a <= GAP_FACTOR * b + GAP_RATIO;
+        let best = stated["proof"]["bound"].as_f64();
+        if let Some((first, best)) = number("value_before_cleaning").zip(best) {
+            let apart = (first - best).abs() / best.abs().max(f64::MIN_POSITIVE);
+            if apart > FIRST_GAP_RATIO {
+                self.0.push(format!(
+                    "certificate.value_before_cleaning states {first}, its proof is of {best}"
+                ));
+            }
+        }
         if !(is_near(found, gap.abs()) && is_near(gap.abs(), found)) {
             self.0.push(format!(
                 "certificate.gap_ratio states {gap}, value and bound are {found} apart"

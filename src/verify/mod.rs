@@ -6,6 +6,7 @@
 //! holds it against a limit.
 
 // The promises: the judge's view of `checklist.json`.
+mod bound_proof;
 mod fingerprint;
 mod pose;
 mod process;
@@ -18,6 +19,7 @@ mod reading;
 // The facts about a whole body.
 mod ballast;
 mod body;
+mod bound;
 mod figures;
 mod hardware;
 mod loads;
@@ -95,14 +97,15 @@ pub use reading::{find_model, read_kit, read_promise};
 // The promises.
 pub use crate::printer::{Cleaning, CleaningRule};
 pub use ballast::{BallastOrder, FillOrder};
+pub use bound_proof::{BoundPoint, BoundProof, KeptPlace};
 pub use fingerprint::{Fingerprint, Likeness};
 pub use hardware::{Hardware, HardwareKind};
 pub use plates::{PlateSpot, PromisedPlate};
 pub use pose::Pose;
 pub use process::{Density, PrinterLimits};
 pub use promise::{
-    Aim, FigureName, GlueFilm, HeldBy, Mark, Peg, Promise, PromisedCut, PromisedFigure,
-    PromisedJig, PromisedJoint, PromisedPart, PromisedVoid, SCHEMA, WallOrder,
+    Aim, FigureName, GlueFilm, HeldBy, Mark, Peg, Promise, PromisedBound, PromisedCut,
+    PromisedFigure, PromisedJig, PromisedJoint, PromisedPart, PromisedVoid, SCHEMA, WallOrder,
 };
 pub use rotor::RotorOrder;
 pub use water::WaterOrder;

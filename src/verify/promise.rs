@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use super::{
-    BallastOrder, Density, FillOrder, Fingerprint, Hardware, Pose, PrinterLimits, PromisedPlate,
-    RotorOrder, WaterOrder,
+    BallastOrder, BoundProof, Density, FillOrder, Fingerprint, Hardware, Pose, PrinterLimits,
+    PromisedPlate, RotorOrder, WaterOrder,
 };
 use crate::geom::{Frame, Point, Vector};
 use crate::goal::GoalKind;
@@ -31,6 +31,9 @@ pub struct Promise {
     pub goal: Aim,
     /// The figure promised to the buyer, if the goal has one.
     pub promise: Option<PromisedFigure>,
+    /// The bound of the certificate; `None` in kits without one.
+    #[serde(default)]
+    pub certificate: Option<PromisedBound>,
     /// The wall that was ordered.
     pub wall: WallOrder,
     /// The parts, in the order of the checklist.
@@ -68,6 +71,16 @@ pub struct Promise {
     /// The SHA-256 of every other file of the kit, by path relative to its folder.
     #[serde(default)]
     pub files: BTreeMap<String, String>,
+}
+
+/// The part of the checklist's certificate that the judge reads.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+pub struct PromisedBound {
+    /// The figure that is bounded.
+    pub figure: FigureName,
+    /// The proof; `None` in kits without one.
+    #[serde(default)]
+    pub proof: Option<BoundProof>,
 }
 
 /// The goal, as placed on the model.

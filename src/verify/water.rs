@@ -54,6 +54,17 @@ pub struct Hull {
     lowest_mm: f64,
 }
 
+/// The outside of a body at a given waterline.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Level {
+    /// The displaced volume, mm³.
+    pub volume_mm3: f64,
+    /// The centre of buoyancy across the vertical, mm.
+    pub center_mm: [f64; 2],
+    /// The height of the lower metacentre over the origin, mm.
+    pub metacenter_mm: f64,
+}
+
 /// The buoyancy of a body: the displaced volume and its first moments.
 #[derive(Debug, Clone, Copy, Default)]
 struct Buoyancy {
@@ -93,6 +104,25 @@ impl Hull {
             offset_mm: aside.norm(),
             metacentric_height_mm: self.metacentric_height(&upright)?,
             rights_from_deg: self.rights_from_deg(&upright),
+        })
+    }
+
+    /// Returns the body upright at this waterline above its lowest point, mm; `None` if it
+    /// displaces nothing there.
+    pub(super) fn at_waterline(&self, waterline_mm: f64) -> Option<Level> {
+        let level = self.lowest_mm + waterline_mm;
+        let buoyancy = self.buoyancy(&Vector::z(), level);
+        let volume_mm3 = buoyancy.volume;
+        let center = buoyancy.first_across / volume_mm3;
+        let upright = Upright {
+            volume_mm3,
+            center: Point::new(center.x, center.y, 0.0),
+            level,
+        };
+        Some(Level {
+            volume_mm3,
+            center_mm: [center.x, center.y],
+            metacenter_mm: self.metacentric_height(&upright)?,
         })
     }
 

@@ -6,7 +6,7 @@ use crate::base::setting::{Key, Setting};
 use crate::cli::flags::flag;
 use crate::goal::{GoalKind, Up, UprightPose};
 use crate::printer::Printer;
-use crate::run::reasons;
+use crate::run::short_reason;
 
 /// The most characters of a choice: it stands behind a mark.
 const LINE_CHARS: usize = 76;
@@ -88,19 +88,29 @@ impl fmt::Display for UpChoice {
 impl UpChoice {
     /// Returns the poses of a model that a person may mean, the likeliest first, and the rest of
     /// the file's axes. `name` names the direction of a pose.
-    pub fn poses(poses: &[UprightPose], name: impl Fn(&UprightPose) -> Up) -> Vec<Self> {
+    ///
+    /// What spins takes the nearest axis on which it can spin, unless one is chosen.
+    pub fn poses(
+        poses: &[UprightPose],
+        kind: GoalKind,
+        name: impl Fn(&UprightPose) -> Up,
+    ) -> Vec<Self> {
+        let spins = matches!(kind, GoalKind::Top | GoalKind::Yoyo);
         let mut choices: Vec<Self> = Vec::new();
         for pose in poses {
             let up = name(pose);
             let is_first = choices.is_empty();
-            let why = reasons(pose);
             // One reason: a line that wraps is hard to choose from.
-            let why = why.first();
-            let likely = if is_first { "likeliest" } else { "or" };
-            let why = why.map_or(String::new(), |why| format!(": {why}"));
+            let why = short_reason(pose).map_or(String::new(), |why| format!(": {why}"));
+            let side = side_below(up);
+            let words = match (is_first, spins) {
+                (true, true) => format!("{side} (likeliest) or the nearest that spins"),
+                (true, false) => format!("{side} (likeliest{why})"),
+                (false, _) => format!("{side} (or{why})"),
+            };
             choices.push(Self {
                 up: (!is_first).then_some(up),
-                words: clip(format!("{} ({likely}{why})", side_below(up))),
+                words: clip(words),
             });
         }
         let known: Vec<Up> = poses.iter().map(name).collect();
@@ -147,6 +157,7 @@ fn side_below(up: Up) -> String {
         Some((lean_deg, side)) if lean_deg >= LEAST_LEAN_DEG => {
             format!("about the {side} side down, leaning by {lean_deg:.0}°")
         }
+        Some((_, "−z")) => "the −z side down, as in the file".to_owned(),
         Some((_, side)) => format!("the {side} side down"),
         None => up.to_string(),
     }
@@ -176,12 +187,18 @@ mod tests {
             reasons: vec![UprightReason::FlatFoot],
         };
         let name = |pose: &UprightPose| if pose.up.y > 0.5 { Up::Y } else { Up::Z };
-        let choices = UpChoice::poses(&[pose(Vector::y()), pose(Vector::z())], name);
+        let poses = [pose(Vector::y()), pose(Vector::z())];
+        let choices = UpChoice::poses(&poses, GoalKind::Stand, name);
         assert_eq!(choices[0].typed(), None);
         assert!(
             choices[0]
                 .to_string()
-                .starts_with("the −y side down (likeliest: ")
+                .starts_with("the −y side down (likeliest: flat foot)")
+        );
+        let top = UpChoice::poses(&poses, GoalKind::Top, name)[0].to_string();
+        assert!(
+            top.ends_with("(likeliest) or the nearest that spins"),
+            "{top}"
         );
         assert_eq!(choices[1].typed().as_deref(), Some("--up=z"));
         assert_eq!(choices.len(), 7, "{choices:?}");
@@ -192,6 +209,7 @@ mod tests {
         let leaning = Up::Along([0.0, 0.1046, -0.9945]);
         assert_eq!(side_below(leaning), "about the +z side down, leaning by 6°");
         assert_eq!(side_below(Up::NegX), "the +x side down");
+        assert_eq!(side_below(Up::Z), "the −z side down, as in the file");
     }
 
     #[test]

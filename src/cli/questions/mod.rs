@@ -10,7 +10,7 @@ use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
 use super::args::{PrepareArgs, quoted};
-use super::flags::flag;
+use super::flags::{command_for_new_profile, flag};
 use super::show::say;
 use crate::advice::{Case, name_direction};
 use crate::base::setting::{Key, Setting};
@@ -18,7 +18,7 @@ use crate::base::units::Length;
 use crate::base::watch::{Cancelled, Watch};
 use crate::error::Error;
 use crate::goal::{GoalKind, Request, find_upright};
-use crate::io::read_model;
+use crate::io::{file_near, read_model};
 use crate::mend::mend;
 use crate::mesh::{Defects, Solid, scaled};
 use crate::printer::{Printer, ProfileError};
@@ -26,8 +26,10 @@ use choices::{GoalChoice, PrinterChoice, UpChoice};
 pub use prompt::Unanswered;
 use prompt::{choose, enter};
 
-/// The help below a list.
-const LIST_HELP: &str = "↑ ↓ and Enter, or type a few letters";
+/// The line of a list of which nothing has the letters that were typed.
+const NOTHING_FITS: &str = "nothing fits these letters: press Enter and choose again";
+/// The printer whose profile a new one is made from in the example.
+const EXAMPLE_PRINTER: &str = "prusa-mk4";
 /// The sizes, mm, that are offered as they are in the file. Others are hardly mm.
 const PLAUSIBLE_MM: std::ops::RangeInclusive<f64> = 20.0..=300.0;
 /// The size that is offered if the file's is not plausible, mm.
@@ -82,7 +84,7 @@ pub fn ask(mut args: PrepareArgs, printer: Option<String>) -> Result<PrepareArgs
     let solid = load(&path, &args)?;
     let kind = match args.goal {
         Some(kind) => kind,
-        None => choose("What should it do?", GoalChoice::all(), LIST_HELP)?.0,
+        None => choose("What should it do?", &GoalChoice::all(), NOTHING_FITS)?.0,
     };
     if args.goal.is_none() {
         typed.push(flag(&Setting::new(Key::Goal, kind)));
@@ -121,15 +123,22 @@ fn ask_model() -> Result<PathBuf, Unanswered> {
         let path = PathBuf::from(line.trim());
         let is_there = path.is_file();
         let there = is_there.then_some(path);
-        there.ok_or_else(|| "there is no such file".to_owned())
+        there.ok_or_else(|| no_file(line.trim().as_ref()))
     };
     enter("Which model?", "", "an STL, OBJ, PLY or 3MF file", read)
+}
+
+/// Returns that a file is not there, and which one may be meant.
+fn no_file(path: &Path) -> String {
+    let meant = file_near(path).map(|file| format!("; did you mean {}?", file.display()));
+    format!("there is no such file{}", meant.unwrap_or_default())
 }
 
 fn ask_printer() -> Result<String, AskError> {
     let printers = Printer::all()?;
     let choices: Vec<PrinterChoice> = printers.iter().map(PrinterChoice::from).collect();
-    Ok(choose("Which printer?", choices, LIST_HELP)?.id)
+    let other = format!("another: {}", command_for_new_profile(EXAMPLE_PRINTER));
+    Ok(choose("Which printer?", &choices, &other)?.id)
 }
 
 /// Asks for the longest side; the default is that of the file if its numbers are plausibly mm.
@@ -158,7 +167,7 @@ fn ask_size(solid: &Solid, printer: &Printer) -> Result<Length, Unanswered> {
 fn ask_up(solid: &Solid, kind: GoalKind) -> Result<UpChoice, AskError> {
     if kind == GoalKind::Balance {
         let question = "Along which axis of the file is its shaft?";
-        return Ok(choose(question, UpChoice::shafts(), LIST_HELP)?);
+        return Ok(choose(question, &UpChoice::shafts(), NOTHING_FITS)?);
     }
     let case = Case {
         solid,
@@ -171,8 +180,8 @@ fn ask_up(solid: &Solid, kind: GoalKind) -> Result<UpChoice, AskError> {
     };
     let mut poses = find_upright(solid, &Watch::silent())?;
     poses.truncate(MOST_POSES);
-    let choices = UpChoice::poses(&poses, |pose| name_direction(&case, &pose.up));
-    Ok(choose("Which side is down?", choices, LIST_HELP)?)
+    let choices = UpChoice::poses(&poses, kind, |pose| name_direction(&case, &pose.up));
+    Ok(choose("Which side is down?", &choices, NOTHING_FITS)?)
 }
 
 /// Reads the model in the numbers of its file, and mends it as ordered.

@@ -50,6 +50,13 @@ impl Scale {
     }
 }
 
+/// Returns the degree of a function of the moments: the greatest of those with a coefficient that
+/// is not zero.
+pub(crate) fn degree(coefficients: impl Iterator<Item = f64>) -> i32 {
+    let present = coefficients.zip(DEGREES).filter(|(c, _)| *c != 0.0);
+    present.map(|(_, degree)| degree).max().unwrap_or(0)
+}
+
 /// Indices of the ten moments.
 pub(crate) mod index {
     pub const ONE: usize = 0;

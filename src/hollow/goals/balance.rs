@@ -24,15 +24,16 @@ pub(crate) fn solve(work: &Work, objective: Objective, start: Option<&DualPoint>
     let Some(spindle) = &work.goal.spindle else {
         return minimise_unbalance(work, [-1.0, 1.0], start);
     };
-    let answer = minimise_unbalance(
-        work,
-        spindle.ends_mm.map(|end| end / work.to_mm(1.0)),
-        start,
-    );
+    let answer = minimise_unbalance(work, ends(work, spindle), start);
     match prove_unbalanceable(work, spindle, &answer.climb) {
         Some(proof) => answer.with_verdict(proof),
         None => answer,
     }
+}
+
+/// Returns the two ends of a rotor's axis, in the solver's units.
+pub(crate) fn ends(work: &Work, spindle: &Spindle) -> [f64; 2] {
+    spindle.ends_mm.map(|end| end / work.to_mm(1.0))
 }
 
 fn minimise_unbalance(work: &Work, ends: [f64; 2], start: Option<&DualPoint>) -> Answer {

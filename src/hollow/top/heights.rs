@@ -65,14 +65,30 @@ impl<'a> Heights<'a> {
     /// Returns bounds on the height of the centre from a scout's multipliers, with one pass over
     /// all columns per end. `None` if those multipliers prove no range.
     pub fn range_from_scout(work: &Work, scout: &Work) -> Option<[f64; 2]> {
+        let ends = Self::ends_from_scout(scout)?;
+        Self::range_of(work, &ends)
+    }
+
+    /// Returns a scout's dual points of the least and the greatest height of the centre. `None` if
+    /// it finds none.
+    pub fn ends_from_scout(scout: &Work) -> Option<[DualPoint; 2]> {
         let end = |sense: f64| {
-            let programme = Programme::top_height(&work.reach, sense);
-            let start = programme.cold_start(&work.reach);
+            let programme = Programme::top_height(&scout.reach, sense);
+            let start = programme.cold_start(&scout.reach);
             let climb = scout.climb_to_bound(&programme, start, RANGE_SLACK);
             let is_found = !matches!(climb.end, End::Infeasible(_) | End::Cancelled);
-            is_found.then(|| sense * work.bound_at(&programme, &climb.best.point))
+            is_found.then_some(climb.best.point)
         };
-        let (low, high) = (end(1.0)?, end(-1.0)?);
+        Some([end(1.0)?, end(-1.0)?])
+    }
+
+    /// Returns the range of heights that two dual points prove on all columns; `None` if they prove
+    /// none.
+    pub fn range_of(work: &Work, ends: &[DualPoint; 2]) -> Option<[f64; 2]> {
+        let end = |sense: f64, point: &DualPoint| {
+            sense * work.bound_at(&Programme::top_height(&work.reach, sense), point)
+        };
+        let (low, high) = (end(1.0, &ends[0]), end(-1.0, &ends[1]));
         let low = low.max(LEAST_HEIGHT_RATIO * high);
         (low < high).then_some([low, high])
     }

@@ -20,7 +20,7 @@ use self::weighed::Weighed;
 use crate::goal::Objective;
 use crate::hollow::dual::answer::Answer;
 use crate::hollow::dual::ascent::Climb;
-use crate::hollow::dual::programme::Programme;
+use crate::hollow::dual::programme::{DualPoint, Programme};
 use crate::hollow::dual::units::index;
 use crate::hollow::dual::work::Work;
 use crate::hollow::solution::Warm;
@@ -60,7 +60,7 @@ fn solve_with_scout(work: &Work, objective: Objective) -> Option<Answer> {
         .find_bottom_from(solid[index::Z] / solid[index::ONE])?
         .warm();
     let (bottom, scout) = find_bottom(&heights, scout, guess)?;
-    let bound_over_heights = Some(prove_with_scout(&heights, scout, &bottom)?);
+    let bound_over_heights = Some(prove_with_scout(&heights, scout, &bottom)?.0);
     Some(
         Lowest {
             bottom,
@@ -116,7 +116,11 @@ fn find_bottom<'a>(
 
 /// Proves a bound just below the bottom of a valley for every height. A scout finds the posts; all
 /// columns check them.
-fn prove_with_scout(heights: &Heights, mut scout: Work, bottom: &Bottom) -> Option<f64> {
+fn prove_with_scout(
+    heights: &Heights,
+    mut scout: Work,
+    bottom: &Bottom,
+) -> Option<(f64, Vec<Post>)> {
     for _ in 0..MOST_PLANS {
         let (bound, proof) = prove(
             &Heights {
@@ -125,8 +129,9 @@ fn prove_with_scout(heights: &Heights, mut scout: Work, bottom: &Bottom) -> Opti
             },
             bottom,
         );
-        if check_posts(heights.work, &proof.ok()?) {
-            return Some(bound);
+        let posts = proof.ok()?;
+        if check_posts(heights.work, &posts) {
+            return Some((bound, posts));
         }
         scout = scout.with_double_prudence();
     }
@@ -182,14 +187,25 @@ pub(crate) fn refine(work: &Work, objective: Objective, warm: &Warm) -> Option<A
     })
 }
 
+/// The proof of a bound at all heights, as dual points.
+pub(crate) struct Proved {
+    /// The lower bound of the ratio.
+    pub bound: f64,
+    /// The posts.
+    pub posts: Vec<Post>,
+    /// The dual points of the least and the greatest height.
+    pub ends: [DualPoint; 2],
+}
+
 /// Proves a lower bound of the ratio over all heights and levers, on all columns, near a known
 /// answer. `None` if the proof fails.
-pub(crate) fn prove_bound_near(work: &Work, objective: Objective, warm: &Warm) -> Option<f64> {
+pub(crate) fn prove_bound_near(work: &Work, objective: Objective, warm: &Warm) -> Option<Proved> {
     let scout = work.scout()?;
+    let ends = Heights::ends_from_scout(&scout)?;
     let heights = Heights {
         work,
         objective,
-        range: Heights::range_from_scout(work, &scout)?,
+        range: Heights::range_of(work, &ends)?,
     };
     let height = warm.height?;
     let here = work.evaluate(
@@ -197,11 +213,9 @@ pub(crate) fn prove_bound_near(work: &Work, objective: Objective, warm: &Warm) -
         warm.point.clone(),
     );
     let scout = scout.mend_at(&here);
-    prove_with_scout(
-        &heights,
-        scout,
-        &heights.bottom_of(height, warm.lever, Climb::of(here)),
-    )
+    let bottom = heights.bottom_of(height, warm.lever, Climb::of(here));
+    let (bound, posts) = prove_with_scout(&heights, scout, &bottom)?;
+    Some(Proved { bound, posts, ends })
 }
 
 /// The lowest valley, and the bound proved for all others.

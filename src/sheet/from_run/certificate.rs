@@ -4,11 +4,11 @@ use super::facts::Facts;
 use super::figures::{figure_name, in_sheet_unit};
 use super::joints::bosses_mm3;
 use super::voids::cleaning_rows;
-use crate::goal::compute_figures;
+use crate::goal::{Objective, compute_figures};
 use crate::hollow;
 use crate::run::HeightProof;
 use crate::sheet::{Certificate, Course, LogRow, PassRow, SpeedRow};
-use crate::verify::FigureName;
+use crate::verify::{BoundPoint, BoundProof, FigureName, KeptPlace};
 
 /// Returns the certificate in the units of the sheet.
 pub fn certificate(facts: &Facts) -> Certificate {
@@ -26,7 +26,47 @@ pub fn certificate(facts: &Facts) -> Certificate {
         bosses_mm3: bosses_mm3(facts),
         over_heights: facts.made.height_proof.map(height_proof),
         written_value: written_value(facts, figure),
+        proof: facts
+            .made
+            .proof
+            .as_ref()
+            .filter(|proof| is_plain(facts, proof))
+            .map(|proof| bound_proof(facts, proof)),
         course: course(&facts.made.course, convert),
+    }
+}
+
+/// Returns true if the judge knows the figure of a proof: Spin-It's functional may have other
+/// weights.
+fn is_plain(facts: &Facts, proof: &hollow::Proof) -> bool {
+    match facts.made.solution.objective {
+        Objective::SpinIt { gamma_i, .. } if proof.figure == hollow::Figure::SpinIt => {
+            gamma_i == 1.0
+        }
+        _ => proof.figure == facts.made.solution.certificate.figure,
+    }
+}
+
+/// Returns the proof of the bound in the units of the sheet.
+fn bound_proof(facts: &Facts, proof: &hollow::Proof) -> BoundProof {
+    let placed = facts.placed;
+    let keeps = placed.placement.keeps.iter().map(|keep| KeptPlace {
+        from_mm: keep.from.into(),
+        to_mm: keep.to.into(),
+        radius_mm: keep.radius_mm,
+    });
+    let point = |point: &hollow::ProofPoint| BoundPoint {
+        height_mm: point.height_mm,
+        weights: point.weights.clone(),
+        multipliers: point.multipliers.clone(),
+    };
+    BoundProof {
+        bound: in_sheet_unit(placed, proof.figure, proof.bound),
+        wall_mm: placed.shop.wall.wall_mm,
+        keeps: keeps.collect(),
+        points: proof.points.iter().map(point).collect(),
+        ends: proof.ends.clone(),
+        edges: proof.edges.iter().map(|&([x, y], d)| [x, y, d]).collect(),
     }
 }
 

@@ -136,6 +136,10 @@ fn goal_row(facts: &Facts) -> GoalRow {
         spins_on: facts.judgement.spin,
         turns_on: turns_on(placed),
         choice: placed.choice.as_ref().map(ToString::to_string),
+        off_natural_deg: match &placed.choice {
+            Some(AxisChoice::NearNatural { nearby, .. }) => Some(nearby.off_deg),
+            _ => None,
+        },
     }
 }
 
