@@ -328,7 +328,7 @@ mod tests {
 
     #[test]
     fn a_seam_across_the_sole_of_a_foot_is_dearer_than_one_over_the_top() {
-        let outer = cuboid(&Point::origin(), &Vector::new(20.0, 20.0, 60.0));
+        let outer = cuboid(&Point::origin(), &Point::new(20.0, 20.0, 60.0));
         let upright = plane([1.0, 0.0, 0.0], [1.0, 0.0, 0.0]);
         let level = plane([0.0, 0.0, 1.0], [0.0, 0.0, 10.0]);
         let bare = skin(&outer);

@@ -8,7 +8,7 @@ use super::parts::is_printed_in_vat;
 use super::printer::{enlargement, scale_note};
 use crate::base::numbers::measured;
 use crate::base::units::MM3_PER_CM3;
-use crate::cut;
+use crate::cut::{self, PartId};
 use crate::goal::GoalKind;
 use crate::run::Remark;
 use crate::sheet::FootRow;
@@ -51,7 +51,32 @@ pub fn warnings(facts: &Facts, foot: Option<&FootRow>) -> Vec<String> {
         .chain(seal)
         .chain(unweighed)
         .chain(shallow_axle(placed));
+    let warnings = warnings.chain(small_parts(facts));
     warnings.chain(warn_of_joints(facts.made)).collect()
+}
+
+/// Returns a warning for each part that is lighter than the least that was asked for.
+fn small_parts(facts: &Facts) -> impl Iterator<Item = String> {
+    let least_ratio = facts.placed.job.least_part.mass_ratio();
+    let density_g_mm3 = facts.placed.shop.material.density_g_mm3();
+    let parts = facts.made.parts.iter();
+    let masses: Vec<(PartId, f64)> = parts
+        .map(|part| {
+            let volume_mm3 = part.read_back.signed_volume_mm3();
+            (part.part.id, volume_mm3 * density_g_mm3)
+        })
+        .collect();
+    let whole_g: f64 = masses.iter().map(|(_, mass_g)| mass_g).sum();
+    let small = masses
+        .into_iter()
+        .filter(move |(_, mass_g)| *mass_g < least_ratio * whole_g);
+    small.map(move |(id, mass_g)| {
+        format!(
+            "{id} weighs only {} ({:.1} % of all): do not lose it; no plan without it was as good",
+            measured(mass_g, "g"),
+            100.0 * mass_g / whole_g
+        )
+    })
 }
 
 /// Words the volume that stays solid for cleaning; `None` if there is next to none.
