@@ -49,6 +49,15 @@ pub(super) fn round_to(numbers: [f64; 3], decimals: i32) -> [f64; 3] {
     numbers.map(|number| (number * unit).round() / unit + 0.0)
 }
 
+/// The angle up to which two axes are one, degrees. Rounding of printed directions turns them by
+/// less than 0.01°, and nobody sets a model up so exactly.
+const SAME_AXIS_DEG: f64 = 0.05;
+
+/// Returns true if an axis this far from another, degrees, is not the same.
+pub(super) fn is_turned(off_deg: f64) -> bool {
+    off_deg > SAME_AXIS_DEG
+}
+
 /// Returns the request with this axis.
 pub(super) fn with_axis(request: &Request, axis: &Vector) -> Request {
     Request {
@@ -60,6 +69,14 @@ pub(super) fn with_axis(request: &Request, axis: &Vector) -> Request {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_printed_direction_is_not_turned_from_itself() {
+        let exact = Vector::new(-0.851_93, 0.123_45, 0.508_9).normalize();
+        let off_deg = round_direction(&exact).angle(&exact).to_degrees();
+        assert!(off_deg > 0.0 && !is_turned(off_deg), "{off_deg}");
+        assert!(is_turned(0.1));
+    }
 
     #[test]
     fn every_direction_has_one_of_the_lattice_near_it() {
