@@ -75,7 +75,7 @@ fn jigs(sheet: &Checklist) -> Markup {
 fn bought(sheet: &Checklist) -> Markup {
     html! {
         @if !sheet.hardware.is_empty() {
-            p { "Not printed, to have at hand:" }
+            p { "Buy or cut:" }
             ul class="ticks" {
                 @for piece in &sheet.hardware { li { strong { (piece.id) } ", " (bar(piece)) } }
             }
