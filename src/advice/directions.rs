@@ -58,6 +58,33 @@ pub(super) fn is_turned(off_deg: f64) -> bool {
     off_deg > SAME_AXIS_DEG
 }
 
+/// A direction this near to a coordinate axis is named by it: cos 10°.
+const ALONG_COSINE: f64 = 0.985;
+
+/// Returns the name of the coordinate axis that a unit direction is near, such as "+x"; `None` if
+/// it is near none.
+fn name_of_axis(unit: &Vector) -> Option<String> {
+    let largest = unit.iamax();
+    let sign = if unit[largest] > 0.0 { '+' } else { '−' };
+    let is_near = unit[largest].abs() >= ALONG_COSINE;
+    is_near.then(|| format!("{sign}{}", ["x", "y", "z"][largest]))
+}
+
+/// Returns a word such as "nearly +z" for a direction near a coordinate axis, but not on it.
+/// `None` for any other. Nobody sees from cosines where a direction points.
+pub(super) fn nearly_words(direction: &Vector) -> Option<String> {
+    let unit = direction.normalize();
+    let is_on = unit.iter().filter(|part| **part != 0.0).count() == 1;
+    let name = name_of_axis(&unit).filter(|_| !is_on);
+    name.map(|name| format!("nearly {name}"))
+}
+
+/// Returns a word such as "+x", or the unit vector.
+pub(super) fn direction_words(direction: &Vector) -> String {
+    let unit = direction.normalize();
+    name_of_axis(&unit).unwrap_or_else(|| format!("({:.2}, {:.2}, {:.2})", unit.x, unit.y, unit.z))
+}
+
 /// Returns the request with this axis.
 pub(super) fn with_axis(request: &Request, axis: &Vector) -> Request {
     Request {
@@ -69,6 +96,19 @@ pub(super) fn with_axis(request: &Request, axis: &Vector) -> Request {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_direction_near_an_axis_is_named_by_it() {
+        assert_eq!(direction_words(&Vector::new(0.1, -3.0, 0.1)), "−y");
+        assert_eq!(
+            direction_words(&Vector::new(3.0, 0.0, 4.0)),
+            "(0.60, 0.00, 0.80)"
+        );
+        let nearly = Vector::new(0.0583, 0.0832, 0.9948);
+        assert_eq!(nearly_words(&nearly).as_deref(), Some("nearly +z"));
+        assert_eq!(nearly_words(&Vector::z()), None);
+        assert_eq!(nearly_words(&Vector::new(3.0, 0.0, 4.0)), None);
+    }
 
     #[test]
     fn a_printed_direction_is_not_turned_from_itself() {

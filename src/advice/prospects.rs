@@ -9,6 +9,7 @@ use super::natural::{NearbyAxis, name_direction, nearest_on};
 use super::orientation::special_axes;
 use super::reached::Reached;
 use super::sampled_model::{COARSE_SAMPLES, SampledModel, Trial};
+use crate::base::units::show_wobble;
 use crate::base::watch::{Cancelled, Watch};
 use crate::geom::Vector;
 use crate::goal::{
@@ -275,15 +276,15 @@ fn brief(trial: &Trial) -> String {
         Status::ConstraintsInfeasible { .. } => "wobbles however it is hollowed".to_owned(),
         Status::NotDominant { least_ratio }
         | Status::UnstableForEveryInterior { least_ratio, .. } => {
-            format!("too tall to spin (steadiness {least_ratio:.2}; must be below 1)")
+            format!("too tall to spin: {}", show_wobble(least_ratio))
         }
         Status::CannotStand { greatest_angle_rad } => {
             let short_deg = -greatest_angle_rad.to_degrees();
             format!("falls over ({short_deg:.1}° short)")
         }
         Status::Sinks { .. } => "sinks, even fully hollowed".to_owned(),
-        Status::RidesHigh { .. } => "rides too high, even solid".to_owned(),
-        Status::CannotTrim { .. } => "lies askew in water".to_owned(),
+        Status::RidesHigh { .. } => "floats too high, even solid".to_owned(),
+        Status::CannotTrim { .. } => "tilts in water".to_owned(),
         Status::Capsizes { .. } => "turns over in water".to_owned(),
         Status::CannotBalance {
             least_grade_mm_s, ..
