@@ -342,8 +342,8 @@ fn needs(prospect: &Prospect) -> String {
     format!("{tip}{turned}")
 }
 
-/// Returns the options that order a goal: its axis, the contact and tip of a top, and the spin point
-/// of a rotor. The only bore or shaft of a rotor needs no order.
+/// Returns the options that order a goal: its axis, the contact and tip of a top, and the spin
+/// point of a rotor. The only bore or shaft of a rotor needs no order.
 fn settings(prospect: &Prospect) -> Vec<Setting> {
     let goal = Setting::new(Key::Goal, prospect.kind);
     if prospect.turns_on.is_some_and(|turns_on| turns_on.axes == 1) {
