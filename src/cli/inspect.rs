@@ -326,7 +326,7 @@ fn needs(prospect: &Prospect) -> String {
     if let Some(turns_on) = prospect.turns_on {
         return match turns_on.axes {
             1 => ", on its bore or shaft".to_owned(),
-            axes => format!(", on the best of its {axes} bores and shafts"),
+            axes => format!(", on the best of {axes} axes"),
         };
     }
     let tip = if prospect.tip.is_some() {

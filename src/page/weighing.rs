@@ -166,8 +166,8 @@ pub(super) fn weigh_whole(sheet: &Checklist) -> Markup {
 }
 
 /// Returns the mass that the whole may have beyond what is calculated, g. It is the mass of the
-/// glue once more, and what a scale shows. `None` if nothing is added, or a filling, whose spread is not
-/// known.
+/// glue once more, and what a scale shows. `None` if nothing is added, or a filling, whose spread
+/// is not known.
 pub(super) fn whole_margin_g(sheet: &Checklist) -> Option<f64> {
     let is_added = shares(sheet).len() > 1 && sheet.fill.is_none();
     is_added.then(|| glue_mass_g(sheet) + SCALE_G)
