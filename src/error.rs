@@ -126,7 +126,7 @@ pub enum Error {
     },
     /// A heavy filling was ordered for a rotor, which keeps as much material as it can.
     #[error(
-        "`{}` is heavier than the print, and a rotor keeps as much mass as it can; remedy: lay in \
+        "`{}` is heavier than the print, and a rotor keeps as much mass as it can; remedy: add \
          ballast (`{}`)",
         Setting::new(Key::Fill, fill),
         Setting::new(Key::Ballast, Order::Auto)

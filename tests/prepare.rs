@@ -14,7 +14,8 @@ use std::process::Output;
 use std::sync::OnceLock;
 
 use common::{
-    ELLIPSOID, QUICK, assert_exit, copy, equipoise, files, path, printed, text, verify, words,
+    ELLIPSOID, QUICK, assert_exit, copy, equipoise, equipoise_in, files, path, printed, text,
+    verify, words,
 };
 
 /// Prepares the shipped model as a small top, without JSON.
@@ -68,6 +69,25 @@ fn a_replayed_job_makes_the_same_bytes() {
     let replay = ["-q", "prepare", "--job", path(&job), "--out", path(&again)];
     assert_exit(&equipoise(&replay), 0);
     assert_same_files(&kit().0, &again);
+}
+
+#[test]
+fn a_job_is_replayed_elsewhere_with_the_model_of_its_kit() {
+    let folder = tempfile::tempdir().unwrap();
+    let kit = copy_kit(folder.path());
+    // The path of the model leads nowhere from here.
+    let job = fs::read_to_string(kit.join("job.toml")).unwrap();
+    let lost = job.replace(ELLIPSOID, "nowhere/tilted-ellipsoid.stl");
+    assert_ne!(job, lost);
+    fs::write(kit.join("job.toml"), lost).unwrap();
+    let replay = ["-q", "prepare", "--job", "kit/job.toml", "--out", "again"];
+    assert_exit(&equipoise_in(folder.path(), &replay), 0);
+    let again = folder.path().join("again");
+    let parts = |kit: &Path| {
+        let is_part = |(name, _): &(PathBuf, Vec<u8>)| name.starts_with("parts");
+        files(kit).into_iter().filter(is_part).collect::<Vec<_>>()
+    };
+    assert_eq!(parts(&again), parts(&kit));
 }
 
 #[test]

@@ -121,7 +121,7 @@ fn without_questions_a_terminal_is_told_what_is_missing() {
     let (said, code) = end(&mut terminal);
     assert_eq!(code, Some(2), "{said}");
     assert!(
-        said.contains("still to say") && said.contains("--printer"),
+        said.contains("missing: ") && said.contains("--printer"),
         "{said}"
     );
 }

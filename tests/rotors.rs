@@ -63,6 +63,10 @@ fn balance(model: &Path, out: &Path, options: &str) -> std::process::Output {
 fn a_rotor_turns_on_its_only_bore_and_its_sheet_names_the_shaft() {
     let folder = tempfile::tempdir().unwrap();
     let model = write(folder.path(), &pulley(&[[3.0, 2.0, 4.0]]));
+    let looked_at = equipoise(&["inspect", path(&model), "--wall", "2mm"]);
+    let advised = printed(&looked_at);
+    let typed = advised.lines().find(|line| line.contains("--goal=balance"));
+    assert_eq!(typed.map(str::trim), Some("--goal=balance"), "{advised}");
     let kit = folder.path().join("kit");
     let done = balance(&model, &kit, "");
     assert_exit(&done, 0);
@@ -109,6 +113,12 @@ fn a_model_with_two_bores_is_refused_with_both_axes_to_type() {
 fn a_body_without_a_bore_is_refused_until_one_is_ordered() {
     let folder = tempfile::tempdir().unwrap();
     let model = write(folder.path(), &pulley(&[]));
+    let looked_at = equipoise(&["inspect", path(&model), "--wall", "2mm"]);
+    let advised = printed(&looked_at);
+    assert!(
+        advised.ends_with("needs a bore: --bore=8mm; you must say which axis\n"),
+        "{advised}"
+    );
     let kit = folder.path().join("kit");
     let refused = balance(&model, &kit, "");
     assert_exit(&refused, 2);

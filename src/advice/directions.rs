@@ -49,6 +49,42 @@ pub(super) fn round_to(numbers: [f64; 3], decimals: i32) -> [f64; 3] {
     numbers.map(|number| (number * unit).round() / unit + 0.0)
 }
 
+/// The angle up to which two axes are one, degrees. Rounding of printed directions turns them by
+/// less than 0.01°, and nobody sets a model up so exactly.
+const SAME_AXIS_DEG: f64 = 0.05;
+
+/// Returns true if an axis this far from another, degrees, is not the same.
+pub(super) fn is_turned(off_deg: f64) -> bool {
+    off_deg > SAME_AXIS_DEG
+}
+
+/// A direction this near to a coordinate axis is named by it: cos 10°.
+const ALONG_COSINE: f64 = 0.985;
+
+/// Returns the name of the coordinate axis that a unit direction is near, such as "+x"; `None` if
+/// it is near none.
+fn name_of_axis(unit: &Vector) -> Option<String> {
+    let largest = unit.iamax();
+    let sign = if unit[largest] > 0.0 { '+' } else { '−' };
+    let is_near = unit[largest].abs() >= ALONG_COSINE;
+    is_near.then(|| format!("{sign}{}", ["x", "y", "z"][largest]))
+}
+
+/// Returns a word such as "nearly +z" for a direction near a coordinate axis, but not on it.
+/// `None` for any other. Nobody sees from cosines where a direction points.
+pub(super) fn nearly_words(direction: &Vector) -> Option<String> {
+    let unit = direction.normalize();
+    let is_on = unit.iter().filter(|part| **part != 0.0).count() == 1;
+    let name = name_of_axis(&unit).filter(|_| !is_on);
+    name.map(|name| format!("nearly {name}"))
+}
+
+/// Returns a word such as "+x", or the unit vector.
+pub(super) fn direction_words(direction: &Vector) -> String {
+    let unit = direction.normalize();
+    name_of_axis(&unit).unwrap_or_else(|| format!("({:.2}, {:.2}, {:.2})", unit.x, unit.y, unit.z))
+}
+
 /// Returns the request with this axis.
 pub(super) fn with_axis(request: &Request, axis: &Vector) -> Request {
     Request {
@@ -60,6 +96,27 @@ pub(super) fn with_axis(request: &Request, axis: &Vector) -> Request {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_direction_near_an_axis_is_named_by_it() {
+        assert_eq!(direction_words(&Vector::new(0.1, -3.0, 0.1)), "−y");
+        assert_eq!(
+            direction_words(&Vector::new(3.0, 0.0, 4.0)),
+            "(0.60, 0.00, 0.80)"
+        );
+        let nearly = Vector::new(0.0583, 0.0832, 0.9948);
+        assert_eq!(nearly_words(&nearly).as_deref(), Some("nearly +z"));
+        assert_eq!(nearly_words(&Vector::z()), None);
+        assert_eq!(nearly_words(&Vector::new(3.0, 0.0, 4.0)), None);
+    }
+
+    #[test]
+    fn a_printed_direction_is_not_turned_from_itself() {
+        let exact = Vector::new(-0.851_93, 0.123_45, 0.508_9).normalize();
+        let off_deg = round_direction(&exact).angle(&exact).to_degrees();
+        assert!(off_deg > 0.0 && !is_turned(off_deg), "{off_deg}");
+        assert!(is_turned(0.1));
+    }
 
     #[test]
     fn every_direction_has_one_of_the_lattice_near_it() {

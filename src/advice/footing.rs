@@ -1,6 +1,6 @@
 //! The faces a model can stand on: those of its convex hull.
 
-use super::directions::{is_new, round_direction, with_axis};
+use super::directions::{is_new, nearly_words, round_direction, with_axis};
 use super::remedy::{Change, Kind, Remedy};
 use super::sampled_model::{SampledModel, Trial};
 use crate::base::setting::{Key, Setting};
@@ -68,7 +68,9 @@ pub(super) fn remedy(model: &SampledModel, up: &Vector) -> Remedy {
         return Remedy::dead_end(Kind::NearestFace, "other faces to stand on".to_owned());
     };
     let angle_deg = face.angle(up).to_degrees();
-    let words = format!("turn it by {angle_deg:.1}° onto another face");
+    let nearly = nearly_words(&face);
+    let nearly = nearly.map_or(String::new(), |axis| format!(", with {axis} up"));
+    let words = format!("turn it by {angle_deg:.1}° onto another face{nearly}");
     let change = Change {
         amount: angle_deg,
         settings: vec![Setting::new(Key::Up, Up::Along(face.into()))],

@@ -62,7 +62,7 @@ use crate::goal::GoalKind;
 pub use case::Case;
 pub use natural::{NearbyAxis, name_direction, nearest_orientation};
 pub use orientation::{Orientation, best_orientation};
-pub use prospects::{Prospect, prospects};
+pub use prospects::{Prospect, TurnsOn, prospects};
 pub use reached::Reached;
 pub use remedy::{Confirmation, Kind, Remedy};
 

@@ -1,12 +1,12 @@
 //! The remedy of a moved contact, spin point or axis.
 
+use super::directions::{direction_words, nearly_words};
 use super::moves::{Moves, Part};
 use super::nearest::{Nearest, find_nearest};
 use super::remedy::{Change, Kind, Remedy};
 use super::sampled_model::SampledModel;
 use crate::base::setting::{Key, Setting};
 use crate::base::units::show_mm;
-use crate::geom::Vector;
 use crate::goal::{Contact, Request, TipChoice};
 
 /// Returns the nearest move that helps, as a remedy. If no axis helps, it is also searched with the
@@ -69,7 +69,10 @@ fn words(moves: &Moves, nearest: &Nearest) -> String {
         (Part::Axis, Some(Contact::Center)) => ", with the contact below the centre of mass",
         (Part::Axis, _) => "",
     };
-    format!("tilt the axis by {angle:.1}° toward {towards}{contact}")
+    let up = nearest.request.up.direction();
+    let nearly = up.and_then(|up| nearly_words(&up));
+    let nearly = nearly.map_or(String::new(), |axis| format!(", so that it is {axis}"));
+    format!("tilt the axis by {angle:.1}° toward {towards}{nearly}{contact}")
 }
 
 /// Returns the options for a moved part, and for the tip that it needs.
@@ -89,33 +92,5 @@ fn moved(part: Part, request: &Request) -> Vec<Setting> {
         (Part::SpinPoint, _, Some(point)) => vec![Setting::new(Key::SpinPoint, point)],
         (_, Some(Contact::Center), _) => vec![up, Setting::new(Key::Contact, Contact::Center)],
         _ => vec![up],
-    }
-}
-
-/// A direction this near to a coordinate axis is named by it: cos 10°.
-const ALONG_COSINE: f64 = 0.985;
-
-/// Returns a word such as "+x", or the unit vector.
-fn direction_words(direction: &Vector) -> String {
-    let unit = direction.normalize();
-    let largest = unit.iamax();
-    if unit[largest].abs() >= ALONG_COSINE {
-        let sign = if unit[largest] > 0.0 { '+' } else { '−' };
-        return format!("{sign}{}", ["x", "y", "z"][largest]);
-    }
-    format!("({:.2}, {:.2}, {:.2})", unit.x, unit.y, unit.z)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_direction_near_an_axis_is_named_by_it() {
-        assert_eq!(direction_words(&Vector::new(0.1, -3.0, 0.1)), "−y");
-        assert_eq!(
-            direction_words(&Vector::new(3.0, 0.0, 4.0)),
-            "(0.60, 0.00, 0.80)"
-        );
     }
 }

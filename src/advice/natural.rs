@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::case::Case;
-use super::directions::{is_new, round_direction};
+use super::directions::{is_new, is_turned, round_direction};
 use super::orientation::{Place, by_score, candidates, place_on, place_with};
 use super::reached::Reached;
 use super::sampled_model::{COARSE_SAMPLES, SampledModel};
@@ -32,6 +32,13 @@ pub struct NearbyAxis {
     pub reached: Reached,
     /// The angle between both, degrees; 0 for the same.
     pub off_deg: f64,
+}
+
+impl NearbyAxis {
+    /// Returns true if it is another axis, by more than rounding.
+    pub fn is_turned(&self) -> bool {
+        is_turned(self.off_deg)
+    }
 }
 
 /// Returns a direction in the words of a request: an axis of the file that is as good, or a vector.

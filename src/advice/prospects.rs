@@ -4,14 +4,17 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 use super::case::Case;
-use super::directions::{distinct, with_axis};
+use super::directions::{distinct, is_turned, with_axis};
 use super::natural::{NearbyAxis, name_direction, nearest_on};
 use super::orientation::special_axes;
 use super::reached::Reached;
 use super::sampled_model::{COARSE_SAMPLES, SampledModel, Trial};
+use crate::base::units::show_wobble;
 use crate::base::watch::{Cancelled, Watch};
 use crate::geom::Vector;
-use crate::goal::{Contact, Footing, GoalKind, Request, Rod, Up, Warning};
+use crate::goal::{
+    Contact, Footing, GoalKind, Request, Rod, ShaftAxis, SpinPoint, Up, Warning, find_shafts,
+};
 use crate::hollow::Status;
 
 /// A principal axis this near to a coordinate axis is that axis: cos 1°.
@@ -32,8 +35,11 @@ pub struct Prospect {
     /// Tops: the tip that it needs; `None` if it spins on its own foot, and for the others.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tip: Option<Rod>,
+    /// Rotors: the bores and shafts of the model; `None` for the others.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub turns_on: Option<TurnsOn>,
     /// True if some hollowing with this wall meets it and its promises of lean and toppling angle.
-    /// The full solid counts too.
+    /// The full solid counts too. False for a rotor whose bore and axis must first be ordered.
     pub possible: bool,
     /// The best value reached, to a few per cent; `None` if it is impossible.
     pub reached: Option<Reached>,
@@ -41,11 +47,32 @@ pub struct Prospect {
     pub reason: String,
 }
 
+/// The bores and shafts of a model that a rotor can turn on.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct TurnsOn {
+    /// The number of their axes. If it is 1, `prepare` takes the axis without being told.
+    pub axes: usize,
+    /// A point on the axis of the prospect; `None` if the model has no bore and no shaft.
+    pub spin_point: Option<SpinPoint>,
+}
+
 impl Prospect {
+    /// Returns true if another direction than the natural up is up.
+    pub fn is_turned(&self) -> bool {
+        is_turned(self.off_deg)
+    }
+
+    /// Returns true if a bore and its axis must first be ordered: a rotor has neither bore nor
+    /// shaft.
+    pub fn needs_bore(&self) -> bool {
+        self.turns_on.is_some_and(|turns_on| turns_on.axes == 0)
+    }
+
     /// Returns the place in a list, the best first. What needs nothing is before what needs a tip,
-    /// another axis or a shaft. What is impossible is last.
+    /// another axis or a shaft. What is impossible comes after, and what needs a bore is last.
     fn rank(&self) -> u8 {
         match self {
+            needy if needy.needs_bore() => 5,
             Self {
                 possible: false, ..
             } => 4,
@@ -53,7 +80,7 @@ impl Prospect {
                 kind: GoalKind::Balance,
                 ..
             } => 3,
-            Self { off_deg, .. } if *off_deg > 0.0 => 2,
+            turned if turned.is_turned() => 2,
             Self { tip: Some(_), .. } => 1,
             _ => 0,
         }
@@ -63,8 +90,9 @@ impl Prospect {
 /// Returns what a model can reach of every goal with its wall, the best first.
 ///
 /// Each goal is tried as `prepare` does. What stands or floats takes the natural up. Tops and
-/// yo-yos take the axis nearest to it that works. A rotor's axis is one of the file's, through the
-/// centre of mass. A goal that cannot be placed is left out. Ignores the request of the case.
+/// yo-yos take the axis nearest to it that works. A rotor takes a bore or a shaft of the model; one
+/// without either is told to order a bore. A goal that cannot be placed is left out. Ignores the
+/// request of the case.
 ///
 /// Costs some dozen trials, and some hundred if a goal does not work on the natural up.
 ///
@@ -76,7 +104,7 @@ pub fn prospects(case: &Case, natural: &Vector, watch: &Watch) -> Result<Vec<Pro
         let model = model.with_request(Request::new(kind));
         match kind {
             GoalKind::Top | GoalKind::Yoyo => spinning(&model, natural),
-            GoalKind::Balance => Ok(turning(&model, natural)),
+            GoalKind::Balance => turning(&model, natural),
             _ => Ok(resting(&model, natural)),
         }
     });
@@ -138,21 +166,51 @@ fn resting(model: &SampledModel, natural: &Vector) -> Option<Prospect> {
     found.or(first)
 }
 
-/// Returns what a rotor reaches on the axis of the file that leaves it the most material, else on
-/// an axis of the solid.
-fn turning(model: &SampledModel, natural: &Vector) -> Option<Prospect> {
-    let on = |axis: &Vector| {
-        let off_deg = axis.angle(natural).to_degrees();
-        prospect(model, Up::of(axis), off_deg.min(180.0 - off_deg))
+/// Returns what a rotor reaches on the bore or shaft of its model that leaves it the most material.
+/// A model without one is told that it needs a bore.
+fn turning(model: &SampledModel, natural: &Vector) -> Result<Option<Prospect>, Cancelled> {
+    let shafts = find_shafts(model.case.solid, &model.watch)?;
+    let on = |shaft: &ShaftAxis| {
+        let spin_point = Some(shaft.spin_point());
+        let request = Request {
+            spin_point,
+            ..model.case.request
+        };
+        let turned_deg = shaft.direction.angle(natural).to_degrees();
+        let off_deg = turned_deg.min(180.0 - turned_deg);
+        let found = prospect(&model.with_request(request), shaft.up(), off_deg)?;
+        Some(Prospect {
+            turns_on: Some(TurnsOn {
+                axes: shafts.len(),
+                spin_point,
+            }),
+            ..found
+        })
     };
-    let best = |axes: &[Vector]| {
-        let found = axes.iter().filter_map(on).filter(|found| found.possible);
-        let score = |found: &Prospect| found.reached.map_or(f64::INFINITY, |value| value.score());
-        found.min_by(|a, b| score(a).total_cmp(&score(b)))
-    };
-    best(&[Vector::x(), Vector::y(), Vector::z()])
-        .or_else(|| best(&special_axes(&model.case)))
-        .or_else(|| on(natural))
+    if shafts.is_empty() {
+        return Ok(Some(without_bore(name_direction(&model.case, natural))));
+    }
+    let score = |found: &Prospect| found.reached.map_or(f64::INFINITY, |value| value.score());
+    let tried = shafts.iter().filter_map(on);
+    Ok(tried.min_by(|a, b| score(a).total_cmp(&score(b))))
+}
+
+/// Returns the prospect of a rotor whose bore and axis must first be ordered.
+fn without_bore(up: Up) -> Prospect {
+    Prospect {
+        kind: GoalKind::Balance,
+        up,
+        off_deg: 0.0,
+        contact: None,
+        tip: None,
+        turns_on: Some(TurnsOn {
+            axes: 0,
+            spin_point: None,
+        }),
+        possible: false,
+        reached: None,
+        reason: "it has no bore and no shaft: order a bore, and say which axis".to_owned(),
+    }
 }
 
 /// Tries the goal of a model with this up; `None` if it cannot be placed.
@@ -175,6 +233,7 @@ fn prospect(model: &SampledModel, up: Up, off_deg: f64) -> Option<Prospect> {
         off_deg,
         contact,
         tip: footing.and_then(Footing::tip),
+        turns_on: None,
         possible: refusal.is_none(),
         reached: refusal.is_none().then_some(reached),
         reason: refusal.unwrap_or_default(),
@@ -217,15 +276,15 @@ fn brief(trial: &Trial) -> String {
         Status::ConstraintsInfeasible { .. } => "wobbles however it is hollowed".to_owned(),
         Status::NotDominant { least_ratio }
         | Status::UnstableForEveryInterior { least_ratio, .. } => {
-            format!("too tall to spin (steadiness {least_ratio:.2}; must be below 1)")
+            format!("too tall to spin: {}", show_wobble(least_ratio))
         }
         Status::CannotStand { greatest_angle_rad } => {
             let short_deg = -greatest_angle_rad.to_degrees();
             format!("falls over ({short_deg:.1}° short)")
         }
         Status::Sinks { .. } => "sinks, even fully hollowed".to_owned(),
-        Status::RidesHigh { .. } => "rides too high, even solid".to_owned(),
-        Status::CannotTrim { .. } => "lies askew in water".to_owned(),
+        Status::RidesHigh { .. } => "floats too high, even solid".to_owned(),
+        Status::CannotTrim { .. } => "tilts in water".to_owned(),
         Status::Capsizes { .. } => "turns over in water".to_owned(),
         Status::CannotBalance {
             least_grade_mm_s, ..

@@ -4,7 +4,7 @@ use std::fmt;
 
 use serde::Serialize;
 
-use crate::base::units::show_mm3;
+use crate::base::units::{show_mm3, show_wobble};
 use crate::hollow::{Certificate, Figure};
 
 /// The best value of a figure, on the columns of one trial.
@@ -40,17 +40,10 @@ impl fmt::Display for Reached {
             Figure::SpinIt => {
                 write!(
                     f,
-                    "spins steadily (wobble figure {value:.2}; less is steadier)"
+                    "spins steadily (Spin-It ratio {value:.2}; less is steadier)"
                 )
             }
-            Figure::DominanceRatio => {
-                // Never "1.00; must be below 1".
-                let places = if value > 0.99 { 4 } else { 2 };
-                write!(
-                    f,
-                    "spins steadily (steadiness {value:.places$}; must be below 1)"
-                )
-            }
+            Figure::DominanceRatio => write!(f, "spins steadily: {}", show_wobble(value)),
             Figure::TopplingAngleRad => {
                 write!(f, "stands until tilted by {:.1}°", value.to_degrees())
             }

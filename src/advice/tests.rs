@@ -7,7 +7,7 @@ use crate::base::setting::{Key, Setting};
 use crate::geom::{Frame, Matrix, Point, Vector};
 use crate::goal::{Contact, Objective, Request, SpinPoint, Up, place};
 use crate::hollow::Figure;
-use crate::mesh::primitives::{cuboid, ellipsoid};
+use crate::mesh::primitives::{self, cuboid, ellipsoid};
 use crate::mesh::{Csg, Solid, TriMesh};
 
 mod cases;
@@ -294,6 +294,25 @@ fn prospects_of_a_lens_name_every_goal_the_best_first() {
     let on_edge = of(&found(Vector::x()), GoalKind::Yoyo);
     assert!(on_edge.possible && on_edge.off_deg > 20.0, "{on_edge:?}");
     assert!(flat.iter().all(|one| one.possible == one.reason.is_empty()));
+    // It has no bore to turn on, so no axis is advised.
+    let rotor = flat.last().unwrap();
+    assert!(rotor.kind == GoalKind::Balance && rotor.needs_bore());
+}
+
+#[test]
+fn a_rotor_is_advised_to_turn_on_the_bore_of_its_model() {
+    let block = |half: [f64; 3]| Csg::of_mesh(&cuboid(&-Point::from(half), &half.into())).unwrap();
+    let upright = primitives::cylinder(4.0, 40.0, 48);
+    let along_x = upright.map_vertices(|p| Point::new(p.z - 20.0, p.x, p.y));
+    let drill = Csg::of_mesh(&along_x).unwrap();
+    let bored = block([8.0, 20.0, 12.0]).subtract(&drill).unwrap();
+    let bored = solid(bored.to_mesh().unwrap());
+    let case = case(&bored, Request::new(GoalKind::Top), 1.5);
+    let found = prospects(&case, &Vector::z(), &Watch::silent()).unwrap();
+    let rotor = found.iter().find(|one| one.kind == GoalKind::Balance);
+    let rotor = rotor.unwrap();
+    assert_eq!(rotor.turns_on.map(|turns_on| turns_on.axes), Some(1));
+    assert!(rotor.up.direction().unwrap().x.abs() > 0.999, "{rotor:?}");
 }
 
 #[test]

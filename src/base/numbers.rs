@@ -6,6 +6,9 @@ const SIGNIFICANT_DIGITS: i32 = 4;
 /// Magnitude below which a number is written with a power of ten.
 const SMALL: f64 = 1e-3;
 
+/// Speed from which tens of turns per minute are reported, rpm: more cannot be set by hand.
+const FAST_RPM: f64 = 1000.0;
+
 /// Grams or cubic centimetres below which a hundredth is reported.
 const LIGHT: f64 = 10.0;
 
@@ -40,12 +43,17 @@ pub fn quantity(value: f64, unit: &str) -> String {
 }
 
 /// Returns a quantity rounded to what a shop measures. That is a tenth of a millimetre, degree or
-/// gram, a hundredth of a gram below ten, a whole turn per minute. It is never rounded to zero.
+/// gram, a hundredth of a gram below ten, a whole turn per minute. From a thousand turns on it is
+/// ten turns. It is never rounded to zero.
 pub fn measured(value: f64, unit: &str) -> String {
+    let value = match unit {
+        "rpm" if value.abs() >= FAST_RPM => 10.0 * (value / 10.0).round(),
+        _ => value,
+    };
     let wanted = match unit {
         "rpm" | "mm²" | "mm³" | "s" => 0,
-        "g" | "cm³" if value.abs() < LIGHT => 2,
-        "mm" | "°" | "g" | "cm²" | "cm³" | "%" => 1,
+        "g" | "cm³" | "g·mm" if value.abs() < LIGHT => 2,
+        "mm" | "°" | "g" | "g·mm" | "cm²" | "cm³" | "%" => 1,
         _ => return quantity(value, unit),
     };
     let is_shown = |decimals: &usize| (value * 10f64.powi(*decimals as i32)).abs() >= 0.5;
@@ -59,6 +67,13 @@ pub fn measured(value: f64, unit: &str) -> String {
         "°" => format!("{text}°"),
         _ => format!("{text}\u{a0}{unit}"),
     }
+}
+
+/// Returns a quantity to two digits: enough to compare it with another.
+pub fn rough(value: f64, unit: &str) -> String {
+    let digits = 1 - value.abs().max(f64::MIN_POSITIVE).log10().floor() as i32;
+    let unit_of_last = 10f64.powi(-digits);
+    quantity((value / unit_of_last).round() * unit_of_last, unit)
 }
 
 /// Returns three lengths as a shop measures them: `100 × 62.3 × 41.1 mm`.
@@ -106,6 +121,14 @@ mod tests {
                 "1234", "12.35", "0.004216", "100", "-0.5", "1.5e-7", "0", "123457"
             ]
         );
+    }
+
+    #[test]
+    fn rough_quantities_have_two_digits_and_fast_speeds_whole_tens() {
+        let shown = [0.001_234, 0.0891, 2706.0, 17.08, 0.0].map(|value| rough(value, ""));
+        assert_eq!(shown, ["0.0012", "0.089", "2700", "17", "0"]);
+        assert_eq!(measured(2437.0, "rpm"), "2440\u{a0}rpm");
+        assert_eq!(measured(0.1004, "g·mm"), "0.10\u{a0}g·mm");
     }
 
     #[test]

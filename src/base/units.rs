@@ -178,6 +178,13 @@ pub fn show_mm3(mm3: f64) -> String {
     }
 }
 
+/// Words the ratio of the moments of inertia across and about a spin axis for people:
+/// `wobble 0.93 (below 1 it is steady)`. A value near 1 has four decimals, so that its side shows.
+pub fn show_wobble(ratio: f64) -> String {
+    let places = if (0.99..1.01).contains(&ratio) { 4 } else { 2 };
+    format!("wobble {ratio:.places$} (below 1 it is steady)")
+}
+
 /// Formats a mass for people: `12.35 g`.
 pub fn show_g(g: f64) -> String {
     format_with_unit(g, 2, "g")
@@ -366,6 +373,8 @@ mod tests {
         assert_eq!(show_mm3(12345.6), "12.35 cm³");
         assert_eq!(show_mm3(12.34), "12.3 mm³");
         assert_eq!(show_g(12.346), "12.35 g");
+        assert_eq!(show_wobble(0.926), "wobble 0.93 (below 1 it is steady)");
+        assert_eq!(show_wobble(1.004), "wobble 1.0040 (below 1 it is steady)");
         assert_eq!(show_rpm(255.64), "255.6 rpm");
         assert_eq!(show_deg(std::f64::consts::PI), "180.000°");
         assert_eq!(show_ratio(0.64849), "0.6485");

@@ -22,6 +22,8 @@ const MIN_BAR_COLUMNS: u16 = 70;
 const MOST_SILENT: Duration = Duration::from_secs(30);
 /// The share of a run below which no time left is shown: it would be wrong by whole factors.
 const MIN_TIMED_SHARE: f64 = 0.2;
+/// The time left that is called a few seconds, and the longest time for which that is said, s.
+const FEW_S: f64 = 10.0;
 /// Time in which a new estimate of the end takes over from the old ones, s.
 const CALM_S: f64 = 6.0;
 
@@ -74,6 +76,8 @@ struct Course {
     at: Instant,
     /// The estimated time of the whole run, s; `None` if too little is done for one.
     whole_s: Option<f64>,
+    /// The time since when a few seconds are left; `None` if more are left, or nothing is known.
+    few_since: Option<Instant>,
     /// The stages that were said.
     said: BTreeSet<Phase>,
     /// The time of the last line.
@@ -88,6 +92,7 @@ impl Course {
             progress: None,
             at: now,
             whole_s: None,
+            few_since: None,
             said: BTreeSet::new(),
             said_at: now,
         }
@@ -123,7 +128,14 @@ impl Course {
             let weight = (since_last_s / CALM_S).min(1.0);
             self.whole_s = Some(known_s + weight * (whole_s - known_s));
         }
+        self.note_few(now);
         self.said.insert(progress.phase)
+    }
+
+    /// Notes since when a few seconds are left.
+    fn note_few(&mut self, now: Instant) {
+        let is_few = self.remaining_s(now).is_some_and(|left_s| left_s < FEW_S);
+        self.few_since = is_few.then(|| self.few_since.unwrap_or(now));
     }
 
     /// Returns the done share of the whole run, 0 to 1.
@@ -143,15 +155,22 @@ impl Course {
         format!("{:<21}", words(phase))
     }
 
-    fn remaining_words(&self, now: Instant) -> String {
-        self.remaining_s(now).map_or(String::new(), left_words)
+    /// Returns the words for the time left. Empty if too little is done for an estimate, or if a
+    /// few seconds were left for longer than that.
+    fn remaining_words(&mut self, now: Instant) -> String {
+        self.note_few(now);
+        let is_over = |since: Instant| (now - since).as_secs_f64() > FEW_S;
+        let left_s = self
+            .remaining_s(now)
+            .filter(|_| !self.few_since.is_some_and(is_over));
+        left_s.map_or(String::new(), left_words)
     }
 }
 
 /// Returns a time left, no more exactly than it is known.
 fn left_words(left_s: f64) -> String {
     match left_s {
-        left_s if left_s < 10.0 => "a few seconds left".to_owned(),
+        left_s if left_s < FEW_S => "a few seconds left".to_owned(),
         left_s if left_s < 90.0 => format!("about {:.0} s left", 5.0 * (left_s / 5.0).ceil()),
         left_s => format!("about {:.0} min left", (left_s / 60.0).ceil()),
     }
@@ -212,15 +231,14 @@ fn draw(course: &Arc<Mutex<Course>>, manner: Manner) -> ProgressBar {
         (true, false) => "{stage} {bar:24} {left}",
         (false, _) => "{stage} {left}",
     };
-    let shown = |words: fn(&Course, Instant) -> String| {
+    let shown = |words: fn(&mut Course, Instant) -> String| {
         let course = Arc::clone(course);
         move |_: &ProgressState, line: &mut dyn std::fmt::Write| {
-            let course = course
-                .lock()
-                .unwrap_or_else(PoisonError::into_inner)
-                .clone();
+            let mut course = course.lock().unwrap_or_else(PoisonError::into_inner);
+            let words = words(&mut course, Instant::now());
+            drop(course);
             // A line that cannot be drawn is not a reason to stop.
-            let _ = line.write_str(&words(&course, Instant::now()));
+            let _ = line.write_str(&words);
         }
     };
     let style =
@@ -302,6 +320,22 @@ mod tests {
         course.take(at_share(0.5), stuck);
         let left_s = course.remaining_s(stuck).unwrap();
         assert!((9.0..10.0).contains(&left_s), "{left_s}");
+    }
+
+    #[test]
+    fn a_few_seconds_are_not_promised_for_half_a_minute() {
+        let mut course = Course::start();
+        let after = |tenths: u64| course.since + Duration::from_millis(100 * tenths);
+        let [early, soon, stuck] = [after(81), after(120), after(190)];
+        let [late, end] = [after(250), after(345)];
+        course.take(at_share(0.57), early);
+        assert_eq!(course.remaining_words(early), "a few seconds left");
+        assert_eq!(course.remaining_words(soon), "a few seconds left");
+        // Ten seconds after the first words they are no longer believed.
+        assert_eq!(course.remaining_words(stuck), "");
+        course.take(at_share(0.71), late);
+        assert_eq!(course.remaining_words(late), "about 15 s left");
+        assert_eq!(course.remaining_words(end), "a few seconds left");
     }
 
     #[test]

@@ -8,7 +8,7 @@ use serde::Serialize;
 use super::args::InspectArgs;
 use super::broken::{BrokenPictureError, check_name, places, redraw_hint, write_picture};
 use super::exit::Exit;
-use super::flags::{flags, with_flags};
+use super::flags::{flag, flags, with_flags};
 use super::mass_facts::{Mass, mass, mass_text, plain};
 use super::show::{say, table};
 use super::voice::Voice;
@@ -106,7 +106,7 @@ const MAX_SIZE_MM: f64 = 2000.0;
 
 /// The density of the print, g/cm³, without a printer: about that of PLA, PA and resins.
 const PLAIN_DENSITY_G_CM3: f64 = 1.2;
-/// The bore in what to type for a rotor.
+/// The bore in what to type for a rotor: that of a common ball bearing, 608.
 const EXAMPLE_BORE: &str = "8mm";
 /// The wall over the longest side, if neither a wall nor a printer is given.
 const PLAIN_WALL_RATIO: f64 = 0.01;
@@ -293,10 +293,14 @@ fn text(findings: &Findings) -> String {
 /// Returns the natural up, and a line for each goal with what to type, the best first.
 fn becoming_text(becoming: &Becoming) -> String {
     let line = |prospect: &Prospect| {
-        let result = prospect.reached.map_or_else(
-            || format!("cannot: {}", prospect.reason),
-            |reached| format!("{reached}{}", needs(prospect)),
-        );
+        let result = match prospect.reached {
+            Some(reached) => format!("{reached}{}", needs(prospect)),
+            None if prospect.needs_bore() => {
+                let bore = flag(&Setting::new(Key::Bore, EXAMPLE_BORE));
+                format!("needs a bore: {bore}; you must say which axis")
+            }
+            None => format!("cannot: {}", prospect.reason),
+        };
         [prospect.kind.to_string(), result]
     };
     let typed = |prospect: &Prospect| {
@@ -319,15 +323,18 @@ fn becoming_text(becoming: &Becoming) -> String {
 
 /// Returns what a goal needs besides the hollowing, in words.
 fn needs(prospect: &Prospect) -> String {
-    if prospect.kind == GoalKind::Balance {
-        return ", on a shaft".to_owned();
+    if let Some(turns_on) = prospect.turns_on {
+        return match turns_on.axes {
+            1 => ", on its bore or shaft".to_owned(),
+            axes => format!(", on the best of {axes} axes"),
+        };
     }
     let tip = if prospect.tip.is_some() {
         ", on a steel tip"
     } else {
         ""
     };
-    let turned = if prospect.off_deg > 0.0 {
+    let turned = if prospect.is_turned() {
         format!(", turned by {:.0}°", prospect.off_deg)
     } else {
         String::new()
@@ -335,16 +342,20 @@ fn needs(prospect: &Prospect) -> String {
     format!("{tip}{turned}")
 }
 
-/// Returns the options that order a goal: its axis, and the contact and tip of a top.
+/// Returns the options that order a goal: its axis, the contact and tip of a top, and the spin
+/// point of a rotor. The only bore or shaft of a rotor needs no order.
 fn settings(prospect: &Prospect) -> Vec<Setting> {
     let goal = Setting::new(Key::Goal, prospect.kind);
+    if prospect.turns_on.is_some_and(|turns_on| turns_on.axes == 1) {
+        return vec![goal];
+    }
     let up = Setting::new(Key::Up, prospect.up);
     let is_tipped = |_: &Contact| prospect.tip.is_some();
     let contact = prospect.contact.filter(is_tipped);
     let contact = contact.map(|contact| Setting::new(Key::Contact, contact));
     let tip = prospect.tip.map(|tip| Setting::new(Key::Tip, tip));
-    let bore = prospect.kind == GoalKind::Balance;
-    let bore = bore.then(|| Setting::new(Key::Bore, EXAMPLE_BORE));
-    let all = [Some(goal), Some(up), contact, tip, bore];
+    let point = prospect.turns_on.and_then(|turns_on| turns_on.spin_point);
+    let point = point.map(|point| Setting::new(Key::SpinPoint, point));
+    let all = [Some(goal), Some(up), contact, tip, point];
     all.into_iter().flatten().collect()
 }

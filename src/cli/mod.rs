@@ -8,6 +8,7 @@ mod cuts;
 pub mod cutters;
 mod exit;
 mod flags;
+mod if_solid;
 pub mod inspect;
 pub mod manual;
 mod mass_facts;

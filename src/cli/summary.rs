@@ -4,13 +4,13 @@
 use super::args::{Request, again};
 use super::bars::words as stage_name;
 use super::flags::{OTHER_PLANS, with_flags};
+use super::if_solid::solid_words;
 use super::print_time::{PRINT_TIME, print_time_words};
 use super::show::{GREEN, RED, paint, table, verdict};
 use super::voice::Manner;
-use crate::base::numbers::{measured, measured_extent, quantity as figure};
+use crate::base::numbers::{measured, measured_extent, quantity as figure, rough};
 use crate::base::units::format_count;
 use crate::base::watch::Phase;
-use crate::goal::GoalKind;
 use crate::page::{bought, pieces, promise, shortfall, spins_on};
 use crate::sheet::{Checklist, Course, LogRow, PassRow, Taker};
 use crate::verify::{Check, SHEET_FILE};
@@ -69,31 +69,6 @@ fn offer(checklist: &Checklist, typed: &[String]) -> Option<String> {
 fn deed(checklist: &Checklist) -> String {
     let on = spins_on(checklist).map_or(String::new(), |on| format!(" It spins on {on}."));
     promise(checklist) + &on
-}
-
-/// Returns what the model would do if it were printed solid, and its mass.
-fn solid_words(checklist: &Checklist) -> String {
-    let named = checklist.certificate.figure;
-    let mass = measured(checklist.solid.mass_g, "g");
-    let kind = checklist.goal.aim.kind;
-    let does = match (checklist.solid.value_of(named), kind) {
-        (None, GoalKind::Top) => "falls over at any speed".to_owned(),
-        (None, GoalKind::Float) => "sinks".to_owned(),
-        (None, _) => format!("has no {}", named.name()),
-        (Some(value), GoalKind::Stand) if value <= 0.0 => "falls over by itself".to_owned(),
-        (Some(value), GoalKind::Balance) => {
-            let grade = checklist
-                .solid
-                .unbalance
-                .map(|unbalance| unbalance.grade_mm_s);
-            grade.map_or(
-                format!("{} {}", named.name(), measured(value, named.unit())),
-                |grade| format!("G\u{a0}{}", figure(grade, "")),
-            )
-        }
-        (Some(value), _) => format!("{} {}", named.name(), measured(value, named.unit())),
-    };
-    format!("{mass}, {does}")
 }
 
 /// Returns the best that is possible and what this kit reaches.
@@ -155,7 +130,7 @@ fn small(value: f64, unit: &str) -> String {
     if value < MIN_SHOWN_OFFSET {
         format!("less than {}", figure(MIN_SHOWN_OFFSET, unit))
     } else {
-        figure(value, unit)
+        rough(value, unit)
     }
 }
 
@@ -185,12 +160,14 @@ fn masses(checklist: &Checklist) -> String {
 }
 
 fn wall(checklist: &Checklist) -> Option<String> {
-    let [thinnest, ordered] = [checklist.wall.measured_min_mm?, checklist.wall.required_mm];
-    Some(format!(
-        "{} at its thinnest, {} ordered",
-        figure(thinnest, "mm"),
-        figure(ordered, "mm")
-    ))
+    let thinnest_mm = checklist.wall.measured_min_mm?;
+    let made = figure(checklist.wall.required_mm, "mm");
+    let made = if checklist.wall.asked_mm.is_some() {
+        format!("{made} ordered")
+    } else {
+        format!("planned {made}")
+    };
+    Some(format!("{thinnest_mm:.2}\u{a0}mm at its thinnest ({made})"))
 }
 
 fn parts(checklist: &Checklist) -> String {

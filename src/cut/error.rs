@@ -97,7 +97,7 @@ pub enum CutError {
     /// Cuts that limit each other, a cut limited to both sides of another, or a limit to a cut that
     /// is not in the plan.
     #[error(
-        "a cut is kept to a side of one that is not there, or to both sides of one, or two wait for each other; name in `within` one side of cuts that can be made before"
+        "a cut is kept to a side of a missing cut, or to both sides of one, or two cuts wait for each other. Name in `within` one side of cuts that can be made before"
     )]
     CircularCuts,
     /// There is no plan or there are no parts, but the caller needs them.

@@ -20,8 +20,8 @@ impl PlanRequest {
     /// the parts together must feel the turn.
     pub const SPREAD_RATIO: f64 = 1.0 / 3.0;
 
-    /// Returns whether a part with this volume of material is below the least: too light against all
-    /// parts together, or too short for pins.
+    /// Returns whether a part with this volume of material is below the least. It is too light
+    /// against all parts together, or too short for pins.
     pub(crate) fn is_small_part(&self, volume_mm3: f64, part: &TriMesh, whole_mm3: f64) -> bool {
         let pin_mm = self.pins.length_ratio * self.pins.min_diameter_mm;
         let is_light = volume_mm3 < self.least_part.mass_ratio() * whole_mm3;

@@ -191,8 +191,8 @@ impl CutPlan {
             .filter(move |cut| joints().any(|joint| joint.cut == cut.id))
     }
 
-    /// Returns the notes that stay true when its pins are placed again: how its cuts were found, and
-    /// which parts are small.
+    /// Returns the notes that stay true when its pins are placed again. They say how its cuts were
+    /// found, and which parts are small.
     pub fn lasting_notes(&self) -> impl Iterator<Item = &Remark> {
         let is_small = |note: &Remark| matches!(note, Remark::SmallPart { .. });
         let lasts = move |note: &&Remark| note.is_proof() || is_small(note);

@@ -309,9 +309,9 @@ impl fmt::Display for PinLack {
             Self::TooThin => f.write_str(
                 "no room for pins: the material behind the cut is too thin for a socket",
             ),
-            Self::OnePin => f.write_str("room for one pin only; mind the turn when gluing"),
+            Self::OnePin => f.write_str("room for one pin only; do not turn it when gluing"),
             Self::Ambiguous => {
-                f.write_str("the pins fit in more than one way; mind the turn when gluing")
+                f.write_str("the pins fit in more than one way; align the outlines when gluing")
             }
             Self::Loose => f.write_str("the pins leave too large a step at the rim"),
         }
@@ -401,7 +401,7 @@ mod tests {
         assert!(!lacking.is_proof());
         assert_eq!(
             lacking.to_string(),
-            "joint P01–P02: room for one pin only; mind the turn when gluing"
+            "joint P01–P02: room for one pin only; do not turn it when gluing"
         );
     }
 

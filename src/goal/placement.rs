@@ -108,7 +108,7 @@ pub enum Warning {
     },
     /// The contact needs a tip, and the model has no room for one.
     #[error(
-        "no stock pin that is long enough for its lean is held by the model at the contact; give \
+        "the model does not hold a stock pin that is long enough for its lean at the contact. Give \
          another contact (`{}`), another size (`{}`) or a tip of your own (`{}`)",
         Setting::open(Key::Contact),
         Setting::open(Key::Size),
@@ -119,9 +119,9 @@ pub enum Warning {
     /// the contact's radius of curvature.
     #[error(
         "it stands still on its foot without spinning, and rights itself when tilted by \
-         {rights_to_deg:.0}°: its contact moves as that of a ball of {radius_mm:.0} mm radius, and \
-         its centre of mass is only {center_height_mm:.1} mm up; it spins upright as promised, but \
-         rubs, and does not fall when it is slow; for a top that falls put in a tip piece (`{}`)",
+         {rights_to_deg:.0}°. Its contact moves as that of a ball of {radius_mm:.0} mm radius, and \
+         its centre of mass is only {center_height_mm:.1} mm up. It spins upright as promised, but \
+         rubs, and does not fall when it is slow. For a top that falls put in a tip piece (`{}`)",
         any_tip()
     )]
     FlatFoot {

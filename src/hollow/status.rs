@@ -110,15 +110,14 @@ impl Status {
                 obstacle,
                 least_miss,
                 ..
-            } => explain_imbalance(obstacle, least_miss, goal.kind),
-            Self::NotDominant { least_ratio } => format!(
-                "{}, so the spin about this axis is not stable",
-                compare_moments(least_ratio)
-            ),
+            } => return explain_imbalance(obstacle, least_miss, goal.kind),
+            Self::NotDominant { least_ratio } => {
+                return explain_spin(WOBBLES, &compare_moments(least_ratio));
+            }
             Self::UnstableForEveryInterior {
                 least_ratio,
                 proved,
-            } => explain_instability(least_ratio, proved),
+            } => return explain_instability(least_ratio, proved),
             Self::CannotStand { greatest_angle_rad } => format!(
                 "it falls over however it is hollowed (at least {:.1}° short)",
                 -greatest_angle_rad.to_degrees()
@@ -186,13 +185,13 @@ impl Status {
                 "use a lighter material or a denser liquid",
             ],
             (Self::RidesHigh { .. }, _) => &[
-                "let it ride higher, or leave the waterline free (waterline auto)",
+                "let it float higher, or leave the waterline free (waterline auto)",
                 "use a denser material, or put ballast in it",
             ],
             (Self::CannotTrim { .. }, _) => &[
                 "turn the model, or leave the waterline free (waterline auto)",
                 "make the model larger with the same wall, or the wall thinner",
-                "put ballast in it, on the side that rides high",
+                "put ballast in it, on the side that floats high",
             ],
             (Self::Capsizes { .. }, _) => &[
                 "leave the waterline free (waterline auto), or turn the model",
@@ -243,34 +242,41 @@ fn explain_limit(gap_ratio: f64, residual: f64) -> String {
     )
 }
 
+/// The reason why a body does not turn steadily about an axis.
+const WOBBLES: &str = "it would wobble about this axis however it is hollowed";
+
+/// Words why a body cannot spin, and in brackets the numbers of the proof.
+fn explain_spin(why: &str, proof: &str) -> String {
+    format!("Impossible: {why}. ({proof}.)")
+}
+
 fn explain_imbalance(obstacle: Obstacle, least_miss: f64, kind: GoalKind) -> String {
-    let wobbles = if matches!(kind, GoalKind::Stand | GoalKind::Float) {
-        ""
-    } else {
-        ", so it would wobble"
-    };
-    format!(
-        "no hollowing with this wall can {} (it misses by {:.1} %){wobbles}",
-        obstacle.task(kind),
-        100.0 * least_miss
-    )
+    let task = obstacle.task(kind);
+    let miss = format!("it misses by {:.1} %", 100.0 * least_miss);
+    match kind {
+        GoalKind::Stand | GoalKind::Float => {
+            format!("Impossible: no hollowing with this wall can {task} ({miss}).")
+        }
+        _ => explain_spin(
+            WOBBLES,
+            &format!("No hollowing with this wall can {task}; {miss}"),
+        ),
+    }
 }
 
 fn explain_instability(least_ratio: f64, proved: bool) -> String {
     let scope = if proved {
-        "proved for every height of the centre"
+        "this is proved for every height of the centre"
     } else {
-        "at every height that was tried"
+        "so it is at every height that was tried"
     };
-    format!(
-        "upright it is too tall; {}, so no speed makes it stable ({scope})",
-        compare_moments(least_ratio)
-    )
+    let proof = format!("{}; {scope}", compare_moments(least_ratio));
+    explain_spin("it is too tall to spin upright about this axis", &proof)
 }
 
 fn compare_moments(least_ratio: f64) -> String {
     format!(
-        "with any hollowing, the moment of inertia across the axis is at least {least_ratio:.3} \
+        "With any hollowing, the moment of inertia across the axis is at least {least_ratio:.3} \
          times the one about it"
     )
 }
@@ -381,8 +387,29 @@ mod tests {
                 status.explain(&goal)
             );
             assert!(!status.remedies(&goal).is_empty());
+            assert!(status.explain(&goal).starts_with("Impossible: "));
         }
         assert!(!Status::Solved.is_impossible() && Status::Solved.remedies(&goal).is_empty());
+    }
+
+    #[test]
+    fn what_cannot_spin_is_said_plainly_and_its_numbers_stand_in_brackets() {
+        let goal = worlds::egg(Objective::Dominance).goal;
+        let said = Status::NotDominant { least_ratio: 1.2 }.explain(&goal);
+        assert!(
+            said.starts_with(
+                "Impossible: it would wobble about this axis however it is hollowed. (With"
+            ),
+            "{said}"
+        );
+        let tall = Status::UnstableForEveryInterior {
+            least_ratio: 1.2,
+            proved: false,
+        };
+        assert!(
+            tall.explain(&goal)
+                .starts_with("Impossible: it is too tall to spin upright about this axis. (")
+        );
     }
 
     #[test]

@@ -71,7 +71,7 @@ fn hidden_rest(sheet: &Checklist, void: &VoidRow) -> String {
     match void.sight_ratio {
         Some(sight) if sheet.printer.cleaning.rule.needs_sight() && sight < ALL_IN_SIGHT_RATIO => {
             let rest = 100.0 * (1.0 - sight);
-            format!(" The last {rest:.0}\u{a0}% is round a corner: use a bent tool.")
+            format!(" The last {rest:.0}\u{a0}% cannot be seen: use a bent tool.")
         }
         _ => String::new(),
     }

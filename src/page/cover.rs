@@ -50,7 +50,7 @@ fn verdict(sheet: &Checklist) -> Markup {
     let broken = sheet.checks.iter().filter(|check| !check.pass);
     html! {
         p class=(class) { (word) }
-        @for check in broken { p class="fail" { "Broken: " (check.kind) ", " (check.promise) "." } }
+        @for check in broken { p class="fail" { (words::broken(check)) } }
     }
 }
 
@@ -110,7 +110,7 @@ fn kit(sheet: &Checklist) -> Markup {
 fn layer(sheet: &Checklist) -> String {
     let mm = sheet.printer.layer_mm;
     if mm < THIN_LAYER_MM {
-        format!("{:.0}\u{a0}µm ({}\u{a0}mm)", mm * UM_PER_MM, number(mm))
+        format!("{:.0}\u{a0}µm", mm * UM_PER_MM)
     } else {
         format!("{}\u{a0}mm", number(mm))
     }

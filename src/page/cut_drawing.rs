@@ -3,7 +3,7 @@
 use super::figure::{Picture, Role};
 use super::inserts::{Insert, inserts};
 use super::plane_map::{PlaneMap, Window, bounds, doubled_area_mm2, flat};
-use crate::base::numbers::{number, quantity};
+use crate::base::numbers::quantity;
 use crate::draw::{
     Drawing, Drawn, Hatch, Key, Mark, Paint, Spot, Stroke, VOID, draw_legend, draw_peg,
 };
@@ -140,9 +140,9 @@ impl PinInSocket<'_> {
 
     fn name(&self) -> String {
         let socket = self.socket.map_or(String::new(), |socket| {
-            format!(" in ⌀{}", number(socket.diameter_mm))
+            format!(" in ⌀{:.1}", socket.diameter_mm)
         });
-        format!("{} ⌀{}{socket}", self.pin.id, number(self.pin.diameter_mm))
+        format!("{} ⌀{:.1}{socket}", self.pin.id, self.pin.diameter_mm)
     }
 }
 
@@ -215,8 +215,8 @@ fn draw_mouth(drawing: &mut Drawing, mouth: &Mouth, map: &PlaneMap) -> Mark {
     let at = map.at(mouth.at);
     let radius_px = 0.5 * map.scale() * mouth.diameter_mm;
     drawing.circle(at, radius_px, Paint::line(Stroke::DASHED));
-    let diameter = number(mouth.diameter_mm);
-    Mark::new(at, format!("{} open ⌀{diameter}", mouth.void))
+    let diameter_mm = mouth.diameter_mm;
+    Mark::new(at, format!("{} open ⌀{diameter_mm:.1}", mouth.void))
 }
 
 /// Draws the thinnest wall as a thick line, and returns its name.

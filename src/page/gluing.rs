@@ -18,16 +18,15 @@ fn alignment(sheet: &Checklist, closing: &Closing) -> Markup {
                 @if !is_one { (joint.id) ": " }
                 @if joint.pins > 0 {
                     (format_count(joint.pins, "pin"))
-                    ", " (quantity(joint.clearance_mm, "mm")) " of room on each side"
+                    ", " (quantity(joint.clearance_mm, "mm")) " of room on each side. "
                 }
-                @if let Some(jig) = jig_of(sheet, joint) {
-                    @if joint.pins > 0 { "; " }
-                    (jig_words(jig))
+                @if let Some(jig) = jig_of(sheet, joint) { (jig_words(jig)) }
+                @else if joint.pins == 0 && joint.note.is_none() { "No pins: match the outlines by eye. " }
+                @if let Some(play) = joint.play {
+                    "The step at the rim is at most " (measured(play.step_mm, "mm")) ". "
                 }
-                @else if joint.pins == 0 && joint.note.is_none() { "no pins: match the outlines by eye" }
-                @if let Some(play) = joint.play { "; step at the rim at most " (measured(play.step_mm, "mm")) }
-                @if let Some(note) = &joint.note { @if joint.pins > 0 { "; " } strong { (note) } }
-                @if let Some(other) = closing.guide_of(joint) { "; the pins of " (other.id) " align it, as both close together" }
+                @if let Some(note) = &joint.note { strong { (capitalised(note)) "." } " " }
+                @if let Some(other) = closing.guide_of(joint) { "The pins of " (other.id) " align it, as both close together." }
             }
         }
     }
@@ -58,7 +57,14 @@ fn jig_of<'a>(sheet: &'a Checklist, joint: &JointRow) -> Option<&'a JigRow> {
 
 /// Words how a jig holds a joint.
 fn jig_words(jig: &JigRow) -> Markup {
-    html! { "held by " strong { (jig.order.id) } ": press both parts down into it and together" }
+    html! { "Lay both parts in " strong { (jig.order.id) } " and press them together. " }
+}
+
+/// Returns a text with a large first letter, as it begins a sentence.
+fn capitalised(text: &str) -> String {
+    let mut letters = text.chars();
+    let first = letters.next().map(char::to_uppercase);
+    first.into_iter().flatten().chain(letters).collect()
 }
 
 /// Returns how jigs are used: one step for each; empty without jigs.
@@ -115,12 +121,11 @@ pub(super) fn glue(sheet: &Checklist) -> Markup {
 
 /// Words the glue: its name, its amount, its times and its dangers.
 fn glue_words(sheet: &Checklist, glue: &GlueRow) -> Markup {
-    let films = sheet.joints.iter().filter_map(|joint| joint.glue);
-    let mass_g: f64 = films.map(|film| film.mass_g).sum();
+    let rows_g: Vec<f64> = closings(sheet).iter().map(film_mass_g).collect();
     html! {
         p {
             strong { "Glue: " } (glue.name)
-            @if mass_g > 0.0 { ", " (amount(mass_g)) " in all (calculated)" }
+            @if let Some(all) = whole_amount(&rows_g) { ", " (all) " in all (calculated)" }
             "."
             @if let Some(seconds) = glue.hold_s { " Hold each joint for " (measured(seconds, "s")) "." }
             @if let Some(hours) = glue.cure_h { " Leave it for " (quantity(hours, "h")) " before the test." }
@@ -138,10 +143,33 @@ fn amount(mass_g: f64) -> String {
     }
 }
 
+/// Words the amount of glue of several rows as it is given row by row: the drops, and the rest by
+/// mass. `None` if it is not known.
+fn whole_amount(rows_g: &[f64]) -> Option<String> {
+    let drops = rows_g
+        .iter()
+        .filter(|&&mass_g| 0.0 < mass_g && mass_g < DROP_G);
+    let drops = drops.count();
+    let by_mass_g: f64 = rows_g.iter().filter(|&&mass_g| mass_g >= DROP_G).sum();
+    let by_mass = (by_mass_g > 0.0).then(|| measured(by_mass_g, "g"));
+    let by_drop = match drops {
+        0 => None,
+        1 => Some("one drop".to_owned()),
+        several => Some(format_count(several, "drop")),
+    };
+    let all: Vec<String> = by_mass.into_iter().chain(by_drop).collect();
+    (!all.is_empty()).then(|| all.join(" and "))
+}
+
+/// Returns the mass of the glue in the joints that close in one movement, g.
+fn film_mass_g(closing: &Closing) -> f64 {
+    let films = closing.joints.iter().filter_map(|joint| joint.glue);
+    films.map(|film| film.mass_g).sum()
+}
+
 fn line(sheet: &Checklist, closing: &Closing) -> Markup {
     let area_mm2 = closing.joints.iter().map(|joint| joint.area_mm2).sum();
-    let films = closing.joints.iter().filter_map(|joint| joint.glue);
-    let mass_g: f64 = films.map(|film| film.mass_g).sum();
+    let mass_g = film_mass_g(closing);
     html! {
         tr {
             th scope="row" { "☐ " (closing.name()) }
@@ -157,7 +185,7 @@ fn line(sheet: &Checklist, closing: &Closing) -> Markup {
 fn glue_advice(kind: GoalKind) -> &'static str {
     match kind {
         GoalKind::Float => {
-            "Seal every joint all around: a void that fills with water sinks it or turns it over."
+            "Seal every joint all around: glue the faces, then run a bead of glue around the seam. A void that fills with water sinks it or turns it over."
         }
         GoalKind::Top | GoalKind::Yoyo | GoalKind::Balance => {
             "Use little glue, and keep it out of the voids: extra glue unbalances it. Wipe off what is pressed out."
@@ -204,11 +232,28 @@ mod tests {
         // J1 closes alone; J2 closes with J4.
         assert!(!words(0).contains("align it"), "{}", words(0));
         assert!(
-            words(2).contains("no room for pins</strong>; the pins of J4 align it"),
+            words(2).contains("No room for pins.</strong> The pins of J4 align it"),
             "{}",
             words(2)
         );
         assert_eq!(words(2).matches("align it").count(), 1);
+    }
+
+    #[test]
+    fn several_rows_of_one_drop_are_several_drops_in_all() {
+        let all = |rows_g: &[f64]| whole_amount(rows_g).map(|all| all.replace('\u{a0}', " "));
+        assert_eq!(all(&[0.01, 0.02, 0.01]).as_deref(), Some("3 drops"));
+        assert_eq!(all(&[0.01]).as_deref(), Some("one drop"));
+        assert_eq!(
+            all(&[0.4, 0.3, 0.01]).as_deref(),
+            Some("0.70 g and one drop")
+        );
+        assert_eq!(all(&[0.0]), None);
+    }
+
+    #[test]
+    fn the_seam_of_what_floats_is_sealed() {
+        assert!(glue_advice(GoalKind::Float).contains("a bead of glue around the seam"));
     }
 
     #[test]

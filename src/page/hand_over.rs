@@ -5,7 +5,7 @@ use maud::{Markup, html};
 use super::fields::blank;
 use super::steps::step_names;
 use super::words;
-use crate::base::numbers::measured;
+use crate::base::numbers::{measured, quantity};
 use crate::goal::GoalKind;
 use crate::sheet::Checklist;
 
@@ -67,7 +67,7 @@ fn customer_promise(sheet: &Checklist) -> String {
         }
         (GoalKind::Yoyo, _) => "Spins steadily as a yo-yo.".to_owned(),
         (GoalKind::Balance, _) => match sheet.goal.aim.rotor {
-            Some(order) => format!("Runs true up to {}.", measured(order.speed_rpm, "rpm")),
+            Some(order) => format!("Runs true up to {}.", quantity(order.speed_rpm, "rpm")),
             None => "Runs true on its shaft.".to_owned(),
         },
         _ => words::promise(sheet),

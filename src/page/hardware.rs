@@ -126,8 +126,8 @@ fn align_halves(sheet: &Checklist) -> Markup {
     html! {
         @if let Some(turn) = &sheet.turn {
             p {
-                strong { "Turn half A on the axle until its outline meets that of half B all around: " }
-                "sight along the axle and along the seam, at ears, corners or any mark that runs over the seam, before the glue sets. "
+                strong { "Turn half A on the axle until its outline meets that of half B all around. " }
+                "Look along the axle and along the seam, at ears, corners or any mark that runs over the seam. Do so before the glue sets. "
                 @let most_deg = most_turn_deg(turn);
                 "Turn it within " (measured(most_deg, "°"))
                 " (" (measured(most_deg * rim_mm(sheet), "mm")) " at the rim)."

@@ -5,7 +5,7 @@ use super::cut_drawing::CutFace;
 use super::figure::{Picture, Role};
 use super::names::Names;
 use super::plane_map::{PlaneMap, Window, bounds, doubled_area_mm2, flat, is_inside};
-use crate::base::numbers::{measured, number, quantity};
+use crate::base::numbers::{measured, quantity};
 use crate::draw::{Anchor, Color, Drawing, Drawn, PAPER, PIN, Paint, Spot, Stroke, part_color};
 use crate::geom::Vector;
 use crate::sheet::{Checklist, JointRow};
@@ -131,9 +131,9 @@ impl<'a> Book<'a> {
             .flat_map(|part| self.pegs(part, |row| &row.pins));
         let words = |pin: &Peg| {
             format!(
-                "{} ⌀{} × {}",
+                "{} ⌀{:.1} × {}",
                 pin.id,
-                number(pin.diameter_mm),
+                pin.diameter_mm,
                 measured(pin.length_mm, "mm")
             )
         };

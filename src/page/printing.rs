@@ -79,7 +79,7 @@ fn jigs(sheet: &Checklist) -> Markup {
 fn bought(sheet: &Checklist) -> Markup {
     html! {
         @if !sheet.hardware.is_empty() {
-            p { "Not printed, to have at hand:" }
+            p { "Buy or cut:" }
             ul class="ticks" {
                 @for piece in &sheet.hardware {
                     li { strong { (piece.id) } ", " (word(&piece.kind)) ": " (bar(piece)) }
@@ -165,7 +165,7 @@ fn handling(process: &Process) -> &'static str {
     match process {
         Process::Fdm => "Do not turn, scale or repair them.",
         Process::Sla => {
-            "They lean so that no layer encloses resin: turn them as you like while every hollow opens toward the platform. Never scale or repair them."
+            "They lean so that no layer encloses resin. Keep their poses. If you must turn a part, keep every mouth on the platform's side, at least 10° off level, and never flat on the platform. Never scale or repair them."
         }
         _ => "You may turn a part. Never scale or repair it.",
     }
@@ -337,6 +337,13 @@ mod tests {
         assert_eq!(page.matches("write the id on these parts").count(), 1);
         assert!(page.contains("<strong>P01, P02</strong>"));
         assert!(!page_of(|sheet| sheet.parts.truncate(1)).contains("write the id"));
+    }
+
+    #[test]
+    fn parts_of_resin_keep_their_poses_and_no_mouth_lies_flat_on_the_platform() {
+        let page = page_of(|sheet| sheet.printer.process = Process::Sla);
+        assert!(page.contains("Keep their poses") && page.contains("never flat on the platform"));
+        assert!(!page.contains("turn them as you like"));
     }
 
     #[test]

@@ -8,7 +8,7 @@ use crate::sheet::{Checklist, PartRow, Process, SupportMethod, SupportRow};
 const LEAST_AREA_MM2: f64 = 0.5;
 
 /// Words the support setting of the slicer for a part, and where support touches it.
-fn support_words(support: &SupportRow) -> String {
+fn support_words(support: &SupportRow, has_pins: bool) -> String {
     if support.places == 0 {
         return "off, nothing hangs in the air".to_owned();
     }
@@ -16,7 +16,11 @@ fn support_words(support: &SupportRow) -> String {
         ("outside", support.outside_mm2),
         ("in the open hollow", support.hollow_mm2),
         (
-            "on cut faces and pins: cut every rest off flush",
+            if has_pins {
+                "on cut faces and pins: cut every rest off flush"
+            } else {
+                "on cut faces: cut every rest off flush"
+            },
             support.cut_face_mm2,
         ),
     ];
@@ -44,7 +48,10 @@ pub(super) fn of_part(sheet: &Checklist, part: &PartRow) -> Option<String> {
     } else {
         format!("; about {}", measured(about_g, "g"))
     };
-    Some(format!("Support {}{mass}.", support_words(&support)))
+    Some(format!(
+        "Support {}{mass}.",
+        support_words(&support, !part.pins.is_empty())
+    ))
 }
 
 /// Returns the estimated mass of a part's support, g, in the material of the parts.
@@ -97,7 +104,7 @@ fn by_process(sheet: &Checklist) -> &'static str {
     match (sheet.printer.support, &sheet.printer.process) {
         (SupportMethod::None, _) => "none; the powder holds every part.",
         (SupportMethod::Breakaway, Process::Sla) => {
-            "the slicer adds the raft and the supports. None on cut faces, on pins and in their holes; as few as hold inside an open hollow."
+            "the slicer adds the raft and the supports. No support on cut faces, pins or pin holes. Inside an open hollow as few supports as possible."
         }
         (SupportMethod::Breakaway, _) => {
             "on where a part overhangs, none in the pin holes. Support inside a hollow is removed in the next step."

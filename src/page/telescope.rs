@@ -7,6 +7,7 @@ use super::fields::{blank, file_name, sentence};
 use super::figure::{Picture, Role, figures};
 use super::job_id::JobId;
 use super::running::{code, on_screen, style};
+use super::words;
 use crate::base::numbers::{measured, measured_extent, number};
 use crate::base::units::format_count;
 use crate::sheet::Verdict;
@@ -113,7 +114,7 @@ fn verdict(sheet: &TelescopeSheet) -> Markup {
     let broken = sheet.checks.iter().filter(|check| !check.pass);
     html! {
         p class=(class) { (word) }
-        @for check in broken { p class="fail" { "Broken: " (check.kind) ", " (check.promise) "." } }
+        @for check in broken { p class="fail" { (words::broken(check)) } }
     }
 }
 

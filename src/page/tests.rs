@@ -131,10 +131,10 @@ fn the_page_says_what_to_do_in_order() {
     for said in [
         "Job id <strong>box-01234567",
         "Spins upright from",
-        "no pins",
+        "No pins: match the outlines",
         "all promises kept",
         "Flush with the water",
-        "The last 4\u{a0}% is round a corner",
+        "The last 4\u{a0}% cannot be seen: use a bent tool",
         "It has no tip",
         "Hang it by a thread",
         "turns a second",

@@ -2,6 +2,7 @@
 
 use super::fields::spread_ratio;
 use super::hardware::rod;
+use super::weighing::whole_margin_g;
 use crate::goal::GoalKind;
 use crate::sheet::{Checklist, Process};
 use crate::verify::{Hardware, HardwareKind};
@@ -9,6 +10,9 @@ use crate::verify::{Hardware, HardwareKind};
 /// Half of a part's window of masses, g, from which a scale that shows 0.1 g tells sound parts from
 /// others.
 const COARSE_SCALE_G: f64 = 0.2;
+
+/// Mass of hardware, g, below which the sheet gives hundredths of a gram.
+const LIGHT_HARDWARE_G: f64 = 10.0;
 
 /// Returns what must be at hand, in the order of the steps.
 pub(super) fn you_need(sheet: &Checklist) -> String {
@@ -37,11 +41,17 @@ fn for_cleaning(process: &Process) -> Option<&'static str> {
     }
 }
 
-/// Names a scale that tells sound parts from others.
+/// Names a scale that tells sound parts from others, weighs the hardware, and shows the margin of
+/// the whole.
 fn scale(sheet: &Checklist) -> &'static str {
     let masses = sheet.parts.iter().map(|part| part.mass_g);
     let least_g = masses.fold(f64::INFINITY, f64::min);
-    if spread_ratio(sheet) * least_g < COARSE_SCALE_G {
+    let is_light = sheet
+        .hardware
+        .iter()
+        .any(|piece| piece.mass_g < LIGHT_HARDWARE_G);
+    let is_narrow = whole_margin_g(sheet).is_some_and(|margin_g| margin_g < COARSE_SCALE_G);
+    if is_light || is_narrow || spread_ratio(sheet) * least_g < COARSE_SCALE_G {
         "a scale that shows 0.01\u{a0}g"
     } else {
         "a scale that shows 0.1\u{a0}g"
@@ -71,7 +81,9 @@ fn for_test(kind: GoalKind) -> Option<&'static str> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::mass::FlatFace;
     use crate::testing::sample;
+    use crate::verify::GlueFilm;
 
     #[test]
     fn the_list_names_the_tools_of_the_process_and_of_the_test() {
@@ -125,6 +137,21 @@ mod tests {
             scale(sheet)
         };
         assert!(scale_for(&mut sheet, 1.4).contains("0.01"));
+        assert!(scale_for(&mut sheet, 50.0).contains("0.1\u{a0}g"));
+        let film = |mass_g| GlueFilm {
+            thickness_mm: 0.05,
+            density_g_cm3: 1.1,
+            mass_g,
+            face: FlatFace {
+                area_mm2: 100.0,
+                center_mm: [0.0; 3],
+                squares_mm4: [[0.0; 3]; 3],
+            },
+        };
+        // The whole is rejected beyond the glue and a tenth of a gram.
+        sheet.joints[0].glue = Some(film(0.05));
+        assert!(scale_for(&mut sheet, 50.0).contains("0.01"));
+        sheet.joints[0].glue = Some(film(0.5));
         assert!(scale_for(&mut sheet, 50.0).contains("0.1\u{a0}g"));
     }
 }

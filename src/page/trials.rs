@@ -47,7 +47,7 @@ pub(super) fn test_step(sheet: &Checklist, pictures: &[Picture]) -> Markup {
 /// Words the tests, with the figures to expect.
 fn test_lines(sheet: &Checklist) -> Vec<String> {
     let size_mm = sheet.finished_size_mm.unwrap_or(sheet.model.size_mm);
-    let within = sheet.size_tolerance_mm.map(|mm| {
+    let within = sheet.size_within_mm().map(|mm| {
         let mm = measured(mm, "mm");
         format!(", each within {mm}")
     });
@@ -111,8 +111,8 @@ fn lean_line(sheet: &Checklist) -> Option<String> {
 fn falling_line(rpm: f64) -> String {
     format!(
         "Spin it upright on a hard, smooth table, faster than {} ({:.1} turns a second). It stays upright until friction slows it \
-         below that speed. To see its speed, put a mark on its side and film it at {FILM_PER_S} frames a second: \
-         at that speed a turn takes {} frames. Slower, it leans over and falls.",
+         below that speed. To see its speed, put a mark on its side and film it at {FILM_PER_S} frames a second. \
+         At that speed a turn takes {} frames. Slower, it leans over and falls.",
         measured(rpm, "rpm"),
         rpm / S_PER_MIN,
         number((FILM_PER_S * S_PER_MIN / rpm).round())
@@ -146,7 +146,7 @@ fn foot_lines(foot: &FootRow, rpm: Option<f64>) -> impl Iterator<Item = String> 
 fn yoyo_lines(sheet: &Checklist) -> Vec<String> {
     let string = sheet.string_gap_mm.map(|gap_mm| {
         format!(
-            "Tie a string thinner than {} around the axle in the gap, wind it up, hold its end and let the yo-yo fall: it runs down the string \
+            "Tie a string thinner than {} around the axle in the gap. Wind it up, hold its end and let the yo-yo fall. It runs down the string \
              and up again without leaning to either side.",
             measured(gap_mm, "mm")
         )
@@ -223,7 +223,7 @@ fn rotor_lines(sheet: &Checklist) -> Vec<String> {
              That is grade G\u{a0}{} at {}.",
             measured(left_g_mm, "g·mm"),
             number(order.grade_mm_s),
-            measured(order.speed_rpm, "rpm")
+            quantity(order.speed_rpm, "rpm")
         )
     });
     ream_line(sheet)
@@ -293,6 +293,7 @@ mod tests {
         };
         assert!((allowed_g_mm(&order, 100.0) - 1.002_676).abs() < 1e-6);
     }
+    use crate::geom::play::Play;
     use crate::testing::sample;
 
     fn page_of(foot: Option<FootRow>) -> String {
@@ -327,6 +328,23 @@ mod tests {
                 ..foot
             }))
             .contains("leaned further it falls over")
+        );
+    }
+
+    #[test]
+    fn the_overall_size_may_differ_by_the_printer_and_by_the_step_of_a_joint() {
+        let mut sheet = sample().0;
+        let within = |sheet: &Checklist| test_lines(sheet)[0].replace('\u{a0}', " ");
+        assert!(within(&sheet).ends_with("each within 0.2 mm."));
+        sheet.joints[0].play = Some(Play {
+            shift_mm: 0.2,
+            turn_deg: 0.1,
+            step_mm: 0.3,
+        });
+        assert!(
+            within(&sheet).ends_with("each within 0.5 mm."),
+            "{}",
+            within(&sheet)
         );
     }
 

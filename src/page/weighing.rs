@@ -143,7 +143,6 @@ fn shares(sheet: &Checklist) -> Vec<Share> {
 pub(super) fn weigh_whole(sheet: &Checklist) -> Markup {
     let shares = shares(sheet);
     let added_g: f64 = shares.iter().skip(1).map(|share| share.mass_g).sum();
-    let glue_g: f64 = glue_mass_g(sheet);
     let added: Vec<String> = shares
         .iter()
         .skip(1)
@@ -155,16 +154,23 @@ pub(super) fn weigh_whole(sheet: &Checklist) -> Markup {
                 "Weigh " (all_together(sheet)) ": target " strong { (whole_mass(sheet)) } ". Weighed, g " (blank())
                 @if !added.is_empty() {
                     br;
-                    "That is what the parts weighed, and with it (calculated): " (added.join(", ")) "."
+                    "= weight of the parts + (calculated) " (added.join(", ")) "."
                 }
-                // The spread of a filling is not known.
-                @if !added.is_empty() && sheet.fill.is_none() {
+                @if let Some(margin_g) = whole_margin_g(sheet) {
                     " Reject it if it weighs over "
-                    (measured(added_g + glue_g + SCALE_G, "g")) " more than the parts weighed: too much glue, or something is left inside."
+                    (measured(added_g + margin_g, "g")) " more than the parts weighed: too much glue, or something is left inside."
                 }
             }
         }
     }
+}
+
+/// Returns the mass that the whole may have beyond what is calculated, g. It is the mass of the
+/// glue once more, and what a scale shows. `None` if nothing is added, or a filling, whose spread
+/// is not known.
+pub(super) fn whole_margin_g(sheet: &Checklist) -> Option<f64> {
+    let is_added = shares(sheet).len() > 1 && sheet.fill.is_none();
+    is_added.then(|| glue_mass_g(sheet) + SCALE_G)
 }
 
 /// Returns the mass of the glue, g.

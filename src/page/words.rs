@@ -1,13 +1,13 @@
 //! Goals, promises and proofs in words.
 
 use super::hardware::word;
-use crate::base::numbers::{coordinates, measured, number, quantity, quantity_or_dash};
-use crate::base::units::format_count;
+use crate::base::numbers::{coordinates, measured, number, quantity, quantity_or_dash, rough};
+use crate::base::units::{format_count, show_wobble};
 use crate::goal::GoalKind;
 use crate::sheet::{
     Certificate, Checklist, GoalRow, ObjectiveName, Process, Taken, Taker, WallRow,
 };
-use crate::verify::{CONTACT_LIMIT_MM, Figures, SpinFacts};
+use crate::verify::{CONTACT_LIMIT_MM, Check, Comparison, Figures, SpinFacts};
 
 /// Relative difference up to which the ordered and the printed wall count as equal.
 const SAME_WALL_RATIO: f64 = 1e-3;
@@ -84,7 +84,7 @@ pub fn promise(sheet: &Checklist) -> String {
         (GoalKind::Top, Some(rpm), _, _) => format!("Spins upright from {}.", measured(rpm, "rpm")),
         (GoalKind::Top, None, _, _) => "Does not spin upright at any speed.".to_owned(),
         (GoalKind::Yoyo, _, _, Some(ratio)) if ratio < 1.0 => {
-            format!("Spins steadily as a yo-yo (steadiness {ratio:.2}; must be below 1).")
+            format!("Spins steadily as a yo-yo: {}.", show_wobble(ratio))
         }
         (GoalKind::Yoyo, ..) => "Does not spin stably about its axis.".to_owned(),
         (GoalKind::Stand, _, Some(tilt), _) if tilt > 0.0 => {
@@ -132,6 +132,38 @@ pub fn bought(sheet: &Checklist) -> Option<String> {
     (!names.is_empty()).then(|| format!("not printed: {names}"))
 }
 
+/// The last words of a promise that its value completes, such as "it stands until tilted by".
+const OPEN_ENDS: [&str; 10] = [
+    " by", " of", " from", " within", " is", " least", " most", " than", " for", " G",
+];
+
+/// Words a broken promise in one sentence, with what was measured and what is promised.
+pub fn broken(check: &Check) -> String {
+    let (kind, promise, unit) = (&check.kind, &check.promise, &check.unit);
+    if check.limit == 0.0 && unit.is_empty() && check.comparison == Comparison::AtMost {
+        let found = check.value.map_or_else(|| "not known".to_owned(), number);
+        return format!("Broken: {kind}, {promise}: {found}; it must be none.");
+    }
+    let limit = quantity(check.limit, unit);
+    let value = check.value.map(|value| {
+        let is_clear = measured(value, unit) != measured(check.limit, unit);
+        let words = if is_clear { measured } else { quantity };
+        words(value, unit)
+    });
+    let found = match value {
+        Some(value) if OPEN_ENDS.iter().any(|end| promise.ends_with(end)) => format!(" {value}"),
+        Some(value) => format!(": measured {value}"),
+        None => ": there is no such value".to_owned(),
+    };
+    let than = match check.comparison {
+        Comparison::AtMost => "at most",
+        Comparison::AtLeast => "at least",
+        Comparison::Below => "less than",
+        Comparison::Above => "more than",
+    };
+    format!("Broken: {kind}, {promise}{found}; {than} {limit} is promised.")
+}
+
 /// Words the part of a top that touches the floor and how far it leans; `None` for other goals.
 pub fn spins_on(sheet: &Checklist) -> Option<String> {
     let SpinFacts {
@@ -160,15 +192,18 @@ pub fn spins_on(sheet: &Checklist) -> Option<String> {
         "its own foot".to_owned()
     };
     let name = if has_tip { "tip" } else { "foot" };
-    let lean = quantity(lean_deg, "°");
+    let clear = if lean_deg > 0.0 {
+        let lean = measured(lean_deg, "°");
+        format!("leaned by less than {lean} only the {name} touches the floor")
+    } else {
+        "other places touch the floor first".to_owned()
+    };
     let waived = if sheet.goal.aim.least_lean_deg == Some(0.0) {
         "; no lean was promised"
     } else {
         ""
     };
-    Some(format!(
-        "{part}; leaned by less than {lean} only the {name} touches the floor{waived}"
-    ))
+    Some(format!("{part}; {clear}{waived}"))
 }
 
 /// Words how it floats.
@@ -186,15 +221,15 @@ fn floats(sheet: &Checklist) -> String {
 
 /// Words how well a rotor is balanced, before and after.
 fn runs_true(sheet: &Checklist) -> String {
-    let grade = |body: &Figures| body.unbalance.map(|unbalance| number(unbalance.grade_mm_s));
+    let grade = |body: &Figures| body.unbalance.map(|unbalance| unbalance.grade_mm_s);
     match (
         sheet.goal.aim.rotor,
-        grade(&sheet.solid),
-        grade(&sheet.assembly),
+        grade(&sheet.solid).map(|grade| rough(grade, "")),
+        grade(&sheet.assembly).map(number),
     ) {
         (Some(order), Some(solid), Some(written)) => format!(
             "Runs true: balanced to G\u{a0}{written} at {}; solid it would be G\u{a0}{solid}.",
-            measured(order.speed_rpm, "rpm")
+            quantity(order.speed_rpm, "rpm")
         ),
         _ => "Not known to run true.".to_owned(),
     }
@@ -354,6 +389,7 @@ mod tests {
     use super::*;
     use crate::sheet::CleaningRow;
     use crate::testing::sample;
+    use crate::verify::{CheckKind, Limit};
 
     #[test]
     fn the_proof_names_the_places_that_stay_solid() {
@@ -405,6 +441,66 @@ mod tests {
         assert!(said.starts_with(best), "{said}");
         assert!(
             said.contains("It loses 100 % to cuts, pins and rounding."),
+            "{said}"
+        );
+    }
+
+    #[test]
+    fn a_broken_promise_says_what_was_measured_and_what_is_promised() {
+        let words = |kind: CheckKind, promise: &str, value: f64, limit: Limit| {
+            broken(&Check::new(kind, promise, Some(value), limit))
+        };
+        assert_eq!(
+            words(
+                CheckKind::Standing,
+                "it stands, and topples when tilted by",
+                1.123,
+                Limit::at_least(5.0, "°")
+            ),
+            "Broken: standing, it stands, and topples when tilted by 1.1°; at least 5° is promised."
+        );
+        let offset = "the centre of mass lies on the spin axis";
+        assert_eq!(
+            words(
+                CheckKind::AxisOffset,
+                offset,
+                0.4,
+                Limit::at_most(0.05, "mm")
+            )
+            .replace('\u{a0}', " "),
+            "Broken: axis offset, the centre of mass lies on the spin axis: measured 0.4 mm; \
+             at most 0.05 mm is promised."
+        );
+        let wall = "every wall between a void and the outside is at least";
+        assert!(
+            words(CheckKind::Wall, wall, 0.86, Limit::at_least(0.9, "mm"))
+                .contains("is at least 0.86\u{a0}mm; at least 0.9\u{a0}mm is promised")
+        );
+        let crossings = "no surface passes through itself";
+        assert!(
+            words(
+                CheckKind::SelfIntersections,
+                crossings,
+                3.0,
+                Limit::at_most(0.0, "")
+            )
+            .ends_with("itself: 3; it must be none.")
+        );
+    }
+
+    #[test]
+    fn a_top_that_does_not_lean_is_not_said_to_lean_by_nothing() {
+        let mut sheet = sample().0;
+        sheet.goal.spins_on = Some(SpinFacts {
+            has_tip: true,
+            radius_mm: 2.0,
+            lean_deg: 0.0,
+            below_mm: 0.0,
+            gap_mm: 0.0,
+        });
+        let said = spins_on(&sheet).unwrap();
+        assert!(
+            said.contains("; other places touch the floor first"),
             "{said}"
         );
     }

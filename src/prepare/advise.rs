@@ -103,7 +103,7 @@ fn laid_in(remedy: Remedy, load: &Load) -> Remedy {
         amount: Some(mass_g),
         settings: vec![Setting::new(Key::Ballast, Order::Auto)],
         words: format!(
-            "lay in {}, {} in all",
+            "add {}, {} in all",
             format_count(count, "steel ball"),
             quantity(mass_g, "g")
         ),

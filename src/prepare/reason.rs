@@ -25,15 +25,26 @@ pub fn reason(prepared: &Prepared, broken: &[&Check]) -> String {
         .any(|check| follows_from_hollowing(&check.kind));
     match proof.written_value.filter(|_| is_far) {
         Some(written) => format!(
-            "the kit breaks {}: the best void there is reaches a {} of {}, and of that the parts that can be made keep {}; what \
-             pins, cuts and cleaning take is more than there is to spare",
-            names.join(", "),
+            "{}. The best void reaches a {} of {}, and the parts that can be made keep {}. Pins, cuts and cleaning take too \
+             much of it",
+            broken_words(&names),
             proof.figure.name(),
             quantity(proof.possible(), unit),
             quantity(written, unit)
         ),
-        None => format!("the kit breaks {}", names.join(", ")),
+        None => broken_words(&names),
     }
+}
+
+/// Words which promises are broken: `Two promises are broken: contact, lean`.
+fn broken_words(names: &[String]) -> String {
+    let count = match names.len() {
+        1 => "One promise is".to_owned(),
+        2 => "Two promises are".to_owned(),
+        3 => "Three promises are".to_owned(),
+        more => format!("{more} promises are"),
+    };
+    format!("{count} broken: {}", names.join(", "))
 }
 
 /// Returns whether no hollowing stands as firmly as promised. Else another size or wall is no sure
@@ -71,6 +82,17 @@ fn follows_from_hollowing(kind: &CheckKind) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn broken_promises_are_counted_and_named() {
+        let words =
+            |names: &[&str]| broken_words(&names.iter().map(|&n| n.into()).collect::<Vec<_>>());
+        assert_eq!(
+            words(&["contact", "lean"]),
+            "Two promises are broken: contact, lean"
+        );
+        assert_eq!(words(&["wall"]), "One promise is broken: wall");
+    }
     use crate::verify::Limit;
 
     #[test]

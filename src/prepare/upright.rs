@@ -27,7 +27,7 @@ pub fn choose(
         return Ok(AxisChoice::Natural(natural));
     };
     Ok(match nearest_orientation(&case, &up, watch)? {
-        Some(nearby) if nearby.off_deg > 0.0 => AxisChoice::NearNatural {
+        Some(nearby) if nearby.is_turned() => AxisChoice::NearNatural {
             natural,
             nearby: Box::new(nearby),
         },

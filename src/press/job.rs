@@ -87,7 +87,7 @@ impl Faults {
             let at = format!("plates[{}].size_mm", plate.file);
             self.compare(&at, &json!(plate.size_mm), &json!(size_mm));
         }
-        let method = printer.cleaning_rule().rule.description();
+        let method = printer.cleaning_method();
         for void in &sheet.voids {
             let at = |key: &str| format!("voids[{}].{key}", void.id);
             self.compare(&at("method"), &json!(void.method), &json!(method));

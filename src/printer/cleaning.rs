@@ -48,6 +48,9 @@ impl CleaningRule {
     }
 }
 
+/// The process that prints in a vat of resin.
+const VAT: &str = "sla";
+
 /// A printer's rule with its numbers, except for the least opening: that is the printer's
 /// `min_opening_mm`.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -92,6 +95,15 @@ impl Cleaning {
 }
 
 impl Printer {
+    /// Returns how voids are cleaned, in words. A vat leaves resin in them too.
+    pub fn cleaning_method(&self) -> &'static str {
+        if self.process.as_deref() == Some(VAT) {
+            "resin drains, and support comes out, through the opening"
+        } else {
+            self.cleaning_rule().rule.description()
+        }
+    }
+
     /// Returns the rule by which voids in this printer's parts count as clean.
     pub fn cleaning_rule(&self) -> Cleaning {
         let number = |quantity| self.number(quantity).map(|number| number.value);
@@ -122,6 +134,13 @@ mod tests {
 
     fn rule(id: &str) -> Cleaning {
         Printer::find(id).unwrap().cleaning_rule()
+    }
+
+    #[test]
+    fn a_printer_with_a_vat_says_that_resin_drains() {
+        let method = |id: &str| Printer::find(id).unwrap().cleaning_method();
+        assert!(method("formlabs-form3").starts_with("resin drains"));
+        assert!(method("objet-connex350").starts_with("support is broken"));
     }
 
     #[test]

@@ -13,7 +13,7 @@ pub enum ProfileError {
     Unknown {
         /// The id asked for.
         id: String,
-        /// The nearest id, or all of them.
+        /// The nearest id, or the command that lists them.
         remedy: String,
     },
     /// The file cannot be read.

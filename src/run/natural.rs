@@ -54,9 +54,9 @@ impl fmt::Display for NaturalUp {
         };
         let next = Setting::new(Key::Up, next);
         if self.is_clear {
-            write!(f, "; the next best is `{next}`")
+            write!(f, ". The next best is `{next}`")
         } else {
-            write!(f, "; `{next}` is about as likely")
+            write!(f, ". About as likely is `{next}`")
         }
     }
 }
@@ -115,9 +115,9 @@ mod tests {
         assert!(clear.starts_with("`up = \"0,1,0\"` was taken"), "{clear}");
         assert!(clear.contains("4 separate feet"), "{clear}");
         assert!(
-            clear.ends_with("the next best is `up = \"1,0,0\"`"),
+            clear.ends_with(". The next best is `up = \"1,0,0\"`"),
             "{clear}"
         );
-        assert!(words(0.05).ends_with("`up = \"1,0,0\"` is about as likely"));
+        assert!(words(0.05).ends_with(". About as likely is `up = \"1,0,0\"`"));
     }
 }

@@ -246,6 +246,16 @@ impl Checklist {
         }
     }
 
+    /// Returns the tolerance of the finished extent, ± mm: the printer's, and the largest step that
+    /// a joint may leave. Steps of several joints hardly ever add up. `None` in kits of older
+    /// versions.
+    pub fn size_within_mm(&self) -> Option<f64> {
+        let steps_mm = self.joints.iter().filter_map(|joint| joint.play);
+        let step_mm = steps_mm.map(|play| play.step_mm).fold(0.0, f64::max);
+        self.size_tolerance_mm
+            .map(|printed_mm| printed_mm + step_mm)
+    }
+
     /// Returns the names of the kit's plates: the files that hold all parts of a print.
     pub fn plate_files(&self) -> impl Iterator<Item = &str> {
         let files = self.files.keys().map(String::as_str);

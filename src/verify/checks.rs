@@ -254,7 +254,7 @@ fn joint_checks(promise: &Promise, found: &Judgement) -> Vec<Check> {
         .at(off_at),
         Check::new(
             CheckKind::Clearance,
-            "pin gap as ordered, on each side; it lacks",
+            "pin gap as ordered, on each side; short by at most",
             lack_mm.map(|lack_mm| lack_mm.max(0.0)),
             Limit::at_most(GAP_TOLERANCE_MM, "mm"),
         )
@@ -296,7 +296,7 @@ fn jig_checks(jigs: &[JigFacts]) -> Vec<Check> {
         no_faults(CheckKind::JigWay, words, caught as usize).at(at)
     });
     let gap = worst(|jig| jig.ordered_gap_mm - jig.gap_mm).map(|(lack_mm, at)| {
-        let words = "every jig keeps its gap from the outside; it lacks";
+        let words = "every jig keeps its gap from the outside; short by at most";
         let limit = Limit::at_most(GAP_TOLERANCE_MM, "mm");
         Check::new(CheckKind::JigGap, words, Some(lack_mm.max(0.0)), limit).at(at)
     });

@@ -76,7 +76,7 @@ impl fmt::Display for Missing {
         let and = if others.is_empty() { "" } else { " and " };
         write!(
             f,
-            "still to say: {}{and}{last}; remedy: type {}",
+            "missing: {}{and}{last}; remedy: type {}",
             others.join(", "),
             self.line()
         )

@@ -1,7 +1,7 @@
 //! The arguments of `prepare`, and the job they make.
 
 use std::ffi::OsString;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 
@@ -17,6 +17,7 @@ use crate::cli::shop::chosen_printer;
 use crate::goal::{self, Contact, GoalKind, Objective, SpinPoint, Up};
 use crate::job::{Job, ModelChoice, PartFormat, SlicerChoice};
 use crate::repair::RepairOrder;
+use crate::verify::find_model;
 
 /// The usage: the required arguments, and the options.
 const USAGE: &str = "equipoise prepare <MODEL> --goal <GOAL> --printer <ID|FILE> [OPTIONS]";
@@ -272,7 +273,7 @@ impl PrepareArgs {
         let typed = std::env::args_os().map(|word| word.to_string_lossy().into_owned());
         let typed = typed.chain(self.answered.iter().cloned()).collect();
         let job = match &self.job {
-            Some(path) => replay(Job::read(path)?, self.model),
+            Some(path) => replay(path, self.model)?,
             None => self.new_job()?,
         };
         let out = out.unwrap_or_else(|| default_out(&job, plans));
@@ -352,13 +353,18 @@ impl PrepareArgs {
     }
 }
 
-/// Returns the job with another path of its model, if one is given.
-fn replay(job: Job, model: Option<PathBuf>) -> Job {
+/// Returns the job in a file, with another path of its model if one is given. If the path in the
+/// job leads nowhere, the model is read from the kit beside it.
+fn replay(file: &Path, model: Option<PathBuf>) -> Result<Job, ArgsError> {
+    let job = Job::read(file)?;
+    let is_lost = model.is_none() && !job.model.path.exists();
+    let copy = file.parent().filter(|_| is_lost).and_then(find_model);
     let path = model.unwrap_or(job.model.path);
-    Job {
+    Ok(Job {
         model: ModelChoice { path, ..job.model },
+        model_copy: copy,
         ..job
-    }
+    })
 }
 
 /// Returns `<model>-<goal>` in the current folder, or `<model>-plans` for plans of cuts.

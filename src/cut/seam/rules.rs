@@ -74,7 +74,7 @@ impl Seams {
         })
     }
 
-    /// Returns the same rules for an object that rests on its feet with this unit direction up: a
+    /// Returns the same rules for an object that rests on its feet with this unit direction up. A
     /// seam across the sole of a foot is dear, though nobody sees it.
     #[must_use]
     pub fn sparing_feet(self, up: &Vector) -> Self {

@@ -30,14 +30,14 @@ const NECK_GROWTH_RATIO: f64 = 0.4;
 const NECK_LENGTH_RATIO: f64 = 0.25;
 /// Share of a seam in hollows with which it runs along a crease.
 const CREASE_SHARE: f64 = 0.4;
-/// Height up to which what looks down is the sole of a foot, in heights of the body: a hundredth
-/// is a millimetre of a figure of 100 mm.
+/// Height up to which what looks down is the sole of a foot, in heights of the body. It is a
+/// millimetre of a figure of 100 mm.
 const SOLE_RATIO: f64 = 0.01;
 /// Cosine to up below which a surface looks down: 45°.
 const SOLE_COSINE: f64 = -std::f64::consts::FRAC_1_SQRT_2;
 /// Weight of a seam across a sole. A step of the joint there rocks the object, so such a cut is
-/// dearer than one through a face, however short: one of 2 % of the diagonal costs a third of a
-/// circle about the model.
+/// dearer than one through a face. A seam of 2 % of the diagonal costs a third of a circle about
+/// the model.
 const SOLE_WEIGHT: f64 = 50.0;
 /// Height up to which a cut follows the base, in heights of the body.
 const BASE_RATIO: f64 = 0.2;

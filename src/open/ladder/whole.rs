@@ -8,8 +8,8 @@ use crate::open::way::Way;
 use crate::run::{KeptCause, Rung};
 
 impl<'a> Ladder<'a> {
-    /// Returns a plan whose voids end before parts below the least, if it then has none of them, no
-    /// more parts, and costs next to nothing of the goal's figure. Else it returns the plan as it is.
+    /// Returns a plan whose voids end before parts below the least. It then has none of them and no
+    /// more parts, and costs next to nothing of the figure. Without one the plan stays as it is.
     ///
     /// Takes and returns the way with bosses, and the one without.
     pub(super) fn join_small_parts(

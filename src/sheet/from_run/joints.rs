@@ -104,10 +104,8 @@ fn joint_warning(made: &Made, index: usize) -> Option<&'static str> {
     match joint.pins.len() {
         _ if made.jig_of(index).is_some() => None,
         0 => Some("no room for pins: align the outlines by eye and touch"),
-        1 => Some("room for one pin only: mind the turn, align the outlines"),
-        _ if !joint.one_way => {
-            Some("the pins fit in more than one way: mind the turn, align the outlines")
-        }
+        1 => Some("room for one pin only: do not turn it, align the outlines"),
+        _ if !joint.one_way => Some("the pins fit in more than one way: align the outlines"),
         _ if !joint.held => {
             Some("the pins leave too large a step at the rim: align the outlines by eye and touch")
         }

@@ -20,8 +20,8 @@ const LEAST_REPORTED_MM3: f64 = 0.05;
 const SEAL: &str = "seal every joint: a void that fills with water sinks it or turns it over";
 
 /// Warning for all that floats, if the density was not measured.
-const UNWEIGHED: &str = "how deep it floats depends on a density that was not measured: weigh coupons \
-    (equipoise coupon) and prepare again; every part too heavy by 1 % takes 1 % more water";
+const UNWEIGHED: &str = "how deep it floats depends on a density that was not measured. Weigh coupons \
+    (equipoise coupon) and prepare again. A part that is 1 % too heavy takes 1 % more water";
 
 /// Returns the warnings for the shop.
 pub fn warnings(facts: &Facts, foot: Option<&FootRow>) -> Vec<String> {

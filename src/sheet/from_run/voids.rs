@@ -28,13 +28,7 @@ pub fn void_rows(facts: &Facts) -> Vec<VoidRow> {
             least_opening_mm: least_opening_mm(placed, access),
             depth_mm: access.depth_mm,
             sight_ratio: Some(access.sight_ratio),
-            method: placed
-                .shop
-                .printer
-                .cleaning_rule()
-                .rule
-                .description()
-                .to_owned(),
+            method: placed.shop.printer.cleaning_method().to_owned(),
             is_clean: is_clean(&facts.judgement.checks, &id),
             clean: placed.shop.printer.cleaning.clone(),
             id,
