@@ -20,6 +20,8 @@ use common::{assert_exit, checklist, copy, list, make_kit, number, prepare, prin
 
 /// The judge of a kit's folder.
 const JUDGE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/judge/judge_kit.py");
+/// The judge of the bound that its certificate states.
+const JUDGE_BOUND: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/judge/judge_bound.py");
 /// The judge of its 3MF packages.
 const JUDGE_3MF: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/judge/judge_3mf.py");
 /// The Python packages that each of them imports.
@@ -193,6 +195,27 @@ fn an_independent_judge_finds_a_dent_of_a_tenth_in_one_part() {
     let (code, said) = judge(JUDGE, &python, &kit);
     let complaint = format!("FAIL {} off its surfaces", part["id"].as_str().unwrap());
     assert!(code == Some(1) && said.contains(&complaint), "{said}");
+}
+
+#[test]
+fn an_independent_judge_proves_the_bound_of_a_kit_and_refuses_a_better_one() {
+    let Some(python) = find_python(PACKAGES) else {
+        return;
+    };
+    let (code, said) = judge(JUDGE_BOUND, &python, kit_in_both());
+    assert_eq!(code, Some(0), "{said}");
+    let folder = tempfile::tempdir().unwrap();
+    let kit = copy_of(kit_in_both(), folder.path());
+    let mut sheet = checklist(&kit);
+    let bound = number(&sheet, "/certificate/proof/bound");
+    // A top is better the slower it spins.
+    sheet["certificate"]["proof"]["bound"] = (1.03 * bound).into();
+    fs::write(kit.join("checklist.json"), sheet.to_string()).unwrap();
+    let (code, said) = judge(JUDGE_BOUND, &python, &kit);
+    assert!(
+        code == Some(1) && said.contains("BETTER THAN STATED"),
+        "{said}"
+    );
 }
 
 /// Another test gives the kit in both formats to the judge of folders.

@@ -328,3 +328,32 @@ fn packages_with_other_parts_are_reported() {
         "assembly.3mf: P01 differs from the part in its own file, or is not in its place",
     );
 }
+
+#[test]
+fn a_bound_that_a_hollowing_beats_is_reported() {
+    let kit = Kit::new();
+    let bound = |figure: f64| format!("\"bound\": {figure}");
+    let proof = &checklist(&kit.folder)["certificate"]["proof"];
+    let stated = proof["bound"].as_f64().unwrap();
+    let (_, said) = verify(&kit.folder);
+    assert!(
+        said.contains("the best of all hollowings with its wall"),
+        "{said}"
+    );
+    // A top is better the slower it spins: a bound of 3 % more can be beaten.
+    let text = fs::read_to_string(kit.folder.join("checklist.json")).unwrap();
+    let (before, after) = text.split_once("\"proof\"").unwrap();
+    let lie = after.replacen(&bound(stated), &bound(1.03 * stated), 1);
+    assert_ne!(lie, after);
+    fs::write(
+        kit.folder.join("checklist.json"),
+        format!("{before}\"proof\"{lie}"),
+    )
+    .unwrap();
+    let (code, said) = verify(&kit.folder);
+    let line = said
+        .lines()
+        .find(|line| line.contains("the best of all hollowings"));
+    assert_eq!(code, Some(1), "{said}");
+    assert!(line.is_some_and(|line| line.contains("FAIL")), "{said}");
+}
