@@ -71,7 +71,10 @@ pub fn measured(value: f64, unit: &str) -> String {
 
 /// Returns a quantity to two digits: enough to compare it with another.
 pub fn rough(value: f64, unit: &str) -> String {
-    let digits = 1 - value.abs().max(f64::MIN_POSITIVE).log10().floor() as i32;
+    if value == 0.0 {
+        return quantity(value, unit);
+    }
+    let digits = 1 - value.abs().log10().floor() as i32;
     let unit_of_last = 10f64.powi(-digits);
     quantity((value / unit_of_last).round() * unit_of_last, unit)
 }
