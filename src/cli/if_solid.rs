@@ -1,4 +1,4 @@
-//! What the model would do if it were printed solid.
+//! The figure and the mass of the model if it were printed solid.
 
 use crate::base::numbers::{measured, quantity, rough};
 use crate::base::units::show_wobble;

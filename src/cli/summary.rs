@@ -367,8 +367,8 @@ mod tests {
     use std::collections::BTreeMap;
 
     use super::*;
-    use crate::testing::sample;
-    use crate::verify::{CheckKind, Hardware, HardwareKind, Limit};
+    use crate::testing::{sample, steel_tip};
+    use crate::verify::{CheckKind, Limit};
 
     const PLAIN: Manner = Manner {
         quiet: false,
@@ -436,19 +436,7 @@ mod tests {
     fn what_is_not_printed_lies_on_no_plate() {
         let mut sheet = sample().0;
         sheet.files.insert("plate.3mf".to_owned(), String::new());
-        sheet.hardware.push(Hardware {
-            id: "H1".to_owned(),
-            kind: HardwareKind::Tip,
-            from_mm: [0.0, 0.0, 12.0],
-            to_mm: [0.0; 3],
-            diameter_mm: 3.0,
-            hole_mm: 0.0,
-            round_end: true,
-            density_g_cm3: 7.85,
-            mass_g: 0.6,
-            depth_mm: 6.0,
-            socket_mm: 3.4,
-        });
+        sheet.hardware.push(steel_tip());
         let said = parts(&sheet);
         assert!(said.contains("1 glue joint"), "{said}");
         assert!(said.ends_with("; not printed: tip"), "{said}");

@@ -77,8 +77,7 @@ fn prove_top(work: &Work, known: &Solution) -> Option<Proof> {
     }
     let Proved { bound, posts, ends } = top::prove_bound_near(work, known.objective, &known.warm)?;
     let scale = work.reach.scale;
-    let rows = |programme: &Programme| programme.rows.clone();
-    let axis = rows(&Programme::top_height(&work.reach, 1.0));
+    let axis = Programme::top_height(&work.reach, 1.0).rows;
     let in_mm = |point: &DualPoint, degree: i32| {
         to_mm(scale, &axis, value_unit(scale, degree), &point.lambda)
     };

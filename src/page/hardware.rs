@@ -74,7 +74,7 @@ fn description(sheet: &Checklist, piece: &Hardware) -> String {
     }
 }
 
-/// What is counted as a ring on an axle.
+/// The words for what is counted as a ring on an axle.
 const RING: &str = "nuts, washers or a bearing for the axle";
 
 /// Describes a piece as it is bought and cut, with its mass.
@@ -155,21 +155,14 @@ fn rim_mm(sheet: &Checklist) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::testing::steel_tip;
 
     #[test]
     fn a_tip_is_told_as_it_is_bought_and_cut() {
         let mut tip = Hardware {
-            id: "H1".to_owned(),
-            kind: HardwareKind::Tip,
             from_mm: [0.0, 0.0, 85.0],
-            to_mm: [0.0; 3],
             diameter_mm: 6.0,
-            hole_mm: 0.0,
-            round_end: true,
-            density_g_cm3: STEEL_G_CM3,
-            mass_g: 18.6,
-            depth_mm: 52.5,
-            socket_mm: 6.4,
+            ..steel_tip()
         };
         let said = |piece: &Hardware| rod(piece).replace('\u{a0}', " ");
         assert_eq!(said(&tip), "steel rod, 6 mm, cut to 85 mm, one end rounded");

@@ -19,7 +19,7 @@ const LEAST_CUP_MM3: f64 = 150.0;
 /// Area of a foot that is hardly more than a point, mm²: a few lines of filament.
 const POINT_MM2: f64 = 10.0;
 
-/// What to do where the parts were not held against the machine.
+/// The advice where the parts were not held against the machine.
 const NO_ROOM_KNOWN: &str =
     "the build volume of this printer is not known; check by hand that every part fits.";
 

@@ -82,7 +82,7 @@ fn for_test(kind: GoalKind) -> Option<&'static str> {
 mod tests {
     use super::*;
     use crate::mass::FlatFace;
-    use crate::testing::sample;
+    use crate::testing::{sample, steel_tip};
     use crate::verify::GlueFilm;
 
     #[test]
@@ -110,19 +110,7 @@ mod tests {
     fn a_rod_is_on_the_list_with_the_tools_that_cut_it() {
         let mut sheet = sample().0;
         assert!(!you_need(&sheet).contains("a saw"));
-        sheet.hardware.push(Hardware {
-            id: "H1".to_owned(),
-            kind: HardwareKind::Tip,
-            from_mm: [0.0, 0.0, 12.0],
-            to_mm: [0.0; 3],
-            diameter_mm: 3.0,
-            hole_mm: 0.0,
-            round_end: true,
-            density_g_cm3: 7.85,
-            mass_g: 0.6,
-            depth_mm: 6.0,
-            socket_mm: 3.4,
-        });
+        sheet.hardware.push(steel_tip());
         let said = you_need(&sheet).replace('\u{a0}', " ");
         let rod = "steel rod, 3 mm, cut to 12 mm, one end rounded; a saw and a file";
         assert!(said.contains(rod), "{said}");

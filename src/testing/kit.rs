@@ -8,8 +8,8 @@ use crate::sheet::part_picture_file;
 use crate::sheet::*;
 use crate::verify::judge_tests::{judge, sound_kit};
 use crate::verify::{
-    Cleaning, Evidence, FigureName, HeldBy, Judgement, PartFacts, Promise, PromisedCut,
-    PromisedFigure, PromisedPart, PromisedVoid, Shells,
+    Cleaning, Evidence, FigureName, Hardware, HardwareKind, HeldBy, Judgement, PartFacts, Promise,
+    PromisedCut, PromisedFigure, PromisedPart, PromisedVoid, Shells,
 };
 
 /// The cleaning rule of a water jet.
@@ -39,6 +39,23 @@ fn order_cleaning(promise: &mut Promise) {
         sight_ratio,
         least_opening_mm: Some(4.0),
     }];
+}
+
+/// Returns a steel tip of 3 × 12 mm, half of it in its socket.
+pub fn steel_tip() -> Hardware {
+    Hardware {
+        id: "H1".to_owned(),
+        kind: HardwareKind::Tip,
+        from_mm: [0.0, 0.0, 12.0],
+        to_mm: [0.0; 3],
+        diameter_mm: 3.0,
+        hole_mm: 0.0,
+        round_end: true,
+        density_g_cm3: 7.85,
+        mass_g: 0.6,
+        depth_mm: 6.0,
+        socket_mm: 3.4,
+    }
 }
 
 /// Returns the checklist of a sound kit, and the evidence on which it was judged.

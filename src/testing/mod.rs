@@ -2,4 +2,4 @@
 
 mod kit;
 
-pub use kit::{sample, sample_pictures};
+pub use kit::{sample, sample_pictures, steel_tip};

@@ -89,7 +89,7 @@ impl UpChoice {
     /// Returns the poses of a model that a person may mean, the likeliest first, and the rest of
     /// the file's axes. `name` names the direction of a pose.
     ///
-    /// What spins takes the nearest axis on which it can spin, unless one is chosen.
+    /// Tops and yo-yos take the nearest axis on which they can spin, unless one is chosen.
     pub fn poses(
         poses: &[UprightPose],
         kind: GoalKind,

@@ -10,7 +10,7 @@ use crate::base::numbers::measured;
 use crate::base::units::MM3_PER_CM3;
 use crate::cut::{self, PartId};
 use crate::goal::GoalKind;
-use crate::run::Remark;
+use crate::run::{Remark, WrittenPart};
 use crate::sheet::FootRow;
 
 /// Least volume left solid that gets a note, mm³: less would be shown as zero.
@@ -56,27 +56,28 @@ pub fn warnings(facts: &Facts, foot: Option<&FootRow>) -> Vec<String> {
 }
 
 /// Returns a warning for each part that is lighter than the least that was asked for.
-fn small_parts(facts: &Facts) -> impl Iterator<Item = String> {
-    let least_ratio = facts.placed.job.least_part.mass_ratio();
+fn small_parts(facts: &Facts) -> Vec<String> {
     let density_g_mm3 = facts.placed.shop.material.density_g_mm3();
     let parts = facts.made.parts.iter();
-    let masses: Vec<(PartId, f64)> = parts
-        .map(|part| {
-            let volume_mm3 = part.read_back.signed_volume_mm3();
-            (part.part.id, volume_mm3 * density_g_mm3)
-        })
-        .collect();
-    let whole_g: f64 = masses.iter().map(|(_, mass_g)| mass_g).sum();
-    let small = masses
-        .into_iter()
-        .filter(move |(_, mass_g)| *mass_g < least_ratio * whole_g);
-    small.map(move |(id, mass_g)| {
+    let mass_g = |part: &WrittenPart| part.read_back.signed_volume_mm3() * density_g_mm3;
+    let masses: Vec<(PartId, f64)> = parts.map(|part| (part.part.id, mass_g(part))).collect();
+    warn_of_small(&masses, facts.placed.job.least_part.mass_ratio())
+}
+
+/// Warns of parts lighter than this share of all, g.
+fn warn_of_small(masses_g: &[(PartId, f64)], least_ratio: f64) -> Vec<String> {
+    let whole_g: f64 = masses_g.iter().map(|(_, mass_g)| mass_g).sum();
+    let small = masses_g
+        .iter()
+        .filter(|(_, mass_g)| *mass_g < least_ratio * whole_g);
+    let words = small.map(|(id, mass_g)| {
         format!(
-            "{id} weighs only {} ({:.1} % of all): do not lose it; no plan without it was as good",
-            measured(mass_g, "g"),
+            "{id} weighs only {} ({:.1} % of all): do not lose it",
+            measured(*mass_g, "g"),
             100.0 * mass_g / whole_g
         )
-    })
+    });
+    words.collect()
 }
 
 /// Words the volume that stays solid for cleaning; `None` if there is next to none.
@@ -122,4 +123,22 @@ pub fn notes(facts: &Facts) -> Vec<String> {
         .chain(left_solid(facts))
         .chain(planned);
     all.chain(remarks).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_part_below_the_least_is_told_with_its_share() {
+        let masses = [(PartId::of(0), 0.35), (PartId::of(1), 24.65)];
+        let said = warn_of_small(&masses, 0.02)
+            .join(";")
+            .replace('\u{a0}', " ");
+        assert_eq!(
+            said,
+            "P01 weighs only 0.35 g (1.4 % of all): do not lose it"
+        );
+        assert!(warn_of_small(&masses, 0.01).is_empty());
+    }
 }
