@@ -74,17 +74,6 @@ impl Seams {
         })
     }
 
-    /// Returns the same rules for an object that rests on its feet with this unit direction up. A
-    /// seam across the sole of a foot is dear, though nobody sees it.
-    #[must_use]
-    pub fn sparing_feet(self, up: &Vector) -> Self {
-        let spare = |skin: Arc<Skin>| Arc::new(skin.sparing_feet(up));
-        Self {
-            skin: self.skin.map(spare),
-            ..self
-        }
-    }
-
     /// Returns true if seams are priced by how much of them is seen.
     #[must_use]
     pub fn are_seen(&self) -> bool {
