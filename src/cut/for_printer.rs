@@ -5,6 +5,7 @@ use crate::cut::joints::shelf::JigShelf;
 use crate::cut::least_part::LeastPart;
 use crate::cut::request::{GoalAxis, LabelStyle, PinSettings, PlanRequest, PosePreference};
 use crate::cut::seam::rules::Seams;
+use crate::mesh::TriMesh;
 use crate::printer::{Grid, PrintPose, Printer, Quantity, Support};
 
 impl PlanRequest {
@@ -18,6 +19,14 @@ impl PlanRequest {
     /// Least distance of a joint's farthest pins, as a share of its longest diagonal. Whoever puts
     /// the parts together must feel the turn.
     pub const SPREAD_RATIO: f64 = 1.0 / 3.0;
+
+    /// Returns whether a part with this volume of material is below the least. It is too light
+    /// against all parts together, or too short for pins.
+    pub(crate) fn is_small_part(&self, volume_mm3: f64, part: &TriMesh, whole_mm3: f64) -> bool {
+        let pin_mm = self.pins.length_ratio * self.pins.min_diameter_mm;
+        let is_light = volume_mm3 < self.least_part.mass_ratio() * whole_mm3;
+        is_light || part.aabb().size().max() < self.least_part.length_mm(pin_mm)
+    }
 
     /// Returns the request for a model whose longest side is `size_mm`, with the printer's walls,
     /// openings, pins and grid.

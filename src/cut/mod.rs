@@ -80,7 +80,7 @@ pub use pieces::pose::{Lie, Pose, apply};
 
 // The voids after the cuts, and sections.
 pub use access::uncleanable::{
-    Unclean, find_closed, find_ends_beyond_unpinned_joints, find_unclean,
+    Unclean, find_closed, find_ends_beyond_unpinned_joints, find_ends_in_small_parts, find_unclean,
 };
 pub use access::void_access::VoidAccess;
 pub use geometry::chart::Point2;

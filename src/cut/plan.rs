@@ -191,9 +191,12 @@ impl CutPlan {
             .filter(move |cut| joints().any(|joint| joint.cut == cut.id))
     }
 
-    /// Returns the notes on how its cuts were found.
-    pub fn proofs(&self) -> impl Iterator<Item = &Remark> {
-        self.notes.iter().filter(|note| note.is_proof())
+    /// Returns the notes that stay true when its pins are placed again. They say how its cuts were
+    /// found, and which parts are small.
+    pub fn lasting_notes(&self) -> impl Iterator<Item = &Remark> {
+        let is_small = |note: &Remark| matches!(note, Remark::SmallPart { .. });
+        let lasts = move |note: &&Remark| note.is_proof() || is_small(note);
+        self.notes.iter().filter(lasts)
     }
 
     /// Returns its cuts with the half-spaces within which they are made, in their order. Errors as

@@ -323,7 +323,12 @@ impl<'r, 'a> Search<'r, 'a> {
         });
         let plan = settled.plan;
         state.plan = CutPlan {
-            notes: state.plan.proofs().cloned().chain(plan.notes).collect(),
+            notes: state
+                .plan
+                .lasting_notes()
+                .cloned()
+                .chain(plan.notes)
+                .collect(),
             moves: std::mem::take(&mut state.plan.moves),
             ..plan
         };

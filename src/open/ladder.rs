@@ -4,6 +4,7 @@ mod fewer;
 mod hidden;
 mod joined;
 mod rungs;
+mod whole;
 
 use joined::{Fewer, Joined};
 
@@ -163,6 +164,7 @@ impl<'a> Ladder<'a> {
             Some(fewer) => self.weigh_fewer_parts((usual, walls), fewer)?,
             None => (usual, walls),
         };
+        let (usual, walls) = self.join_small_parts((usual, walls))?;
         match self.draft_fewest_parts(&usual)? {
             Some(draft) => {
                 let is_as_good = self.is_as_good(&draft, &usual)?;

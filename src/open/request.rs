@@ -3,6 +3,7 @@
 use crate::base::watch::{Cancelled, Watch};
 use crate::cut::{GoalAxis, PinSettings, PlanRequest, Seams};
 use crate::geom::Vector;
+use crate::goal::GoalKind;
 use crate::run::{AxisChoice, Placed};
 
 /// Returns what cuts, pins and parts must keep to for this job on its printer. Looks at the outside
@@ -19,7 +20,11 @@ pub fn request(placed: &Placed, watch: &Watch) -> Result<PlanRequest, Cancelled>
     let size_mm = placed.solid().mesh().longest_side_mm();
     let usual = PlanRequest::for_printer(&placed.shop.printer, size_mm, axis);
     let outer = placed.solid().mesh();
-    let looked_at = Seams::look(placed.job.seam, outer, &natural_up(placed), watch)?;
+    let seen = Seams::look(placed.job.seam, outer, &natural_up(placed), watch)?;
+    let looked_at = match placed.goal().kind {
+        GoalKind::Stand => seen.on_feet(&axis.direction),
+        _ => seen,
+    };
     Ok(PlanRequest {
         pins: PinSettings {
             spread_ratio: placed.policy.pin_spread_ratio,

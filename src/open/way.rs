@@ -51,7 +51,8 @@ impl<'a> Way<'a> {
         count_unaligned(voids, plan, &self.request)
     }
 
-    fn achieved(&self) -> Achieved {
+    /// Returns the figure that its voids reach, and their volume.
+    pub fn achieved(&self) -> Achieved {
         Achieved::of(&self.bossed.voids)
     }
 
@@ -129,8 +130,17 @@ impl<'a> Way<'a> {
 }
 
 /// Returns the price of a plan's seams with their slants, in circles about the model; 0 if nobody
-/// looked.
+/// looked. A seam across the sole of a foot is dear.
 pub fn seam_price(voids: &Voids, plan: &CutPlan, request: &PlanRequest) -> Result<f64, Error> {
+    let sparing = PlanRequest {
+        seams: request.seams.sparing_feet(),
+        ..request.clone()
+    };
+    bare_seam_price(voids, plan, &sparing)
+}
+
+/// Returns the same price with a seam across a sole priced as any other.
+pub fn bare_seam_price(voids: &Voids, plan: &CutPlan, request: &PlanRequest) -> Result<f64, Error> {
     let seams = cut::seams(voids.hollowed.outer.mesh(), plan, request)?;
     let prices = seams
         .iter()

@@ -290,6 +290,8 @@ impl fmt::Display for Refusal {
 pub enum KeptCause {
     /// It lies beyond a joint without room for pins.
     BeyondJoint,
+    /// It lies in a part that would be smaller than the least.
+    SmallPart,
     /// The ordered plan keeps it solid.
     Ordered,
     /// No cut opens the void.
@@ -307,6 +309,7 @@ impl fmt::Display for KeptCause {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         match self {
             Self::BeyondJoint => f.write_str("the end beyond a joint without room for pins"),
+            Self::SmallPart => f.write_str("the end in a part that would be too small"),
             Self::Ordered => f.write_str("the plan keeps it solid"),
             Self::Unopenable => f.write_str("no cut opens it wide enough"),
             Self::Uncleanable(cause) => cause.fmt(f),

@@ -140,19 +140,7 @@ pub fn find_ends_beyond_unpinned_joints(
 ) -> Result<Vec<SolidEnd>, CutError> {
     let tree = plan.tree()?;
     let parts = pieces_for_trial(hollowed, plan, &tree, watch)?;
-    let chambers = Chamber::all(hollowed, watch)?;
-    let mut inside: Vec<(usize, Piece)> = Vec::new();
-    for chamber in chambers
-        .iter()
-        .filter(|chamber| chamber.void.holds.is_none())
-    {
-        for piece in chamber.split(&tree)? {
-            let part = parts
-                .iter()
-                .position(|part| borders(part, &piece.mesh, &tree));
-            inside.extend(part.map(|part| (part, piece)));
-        }
-    }
+    let inside = void_pieces(hollowed, &tree, &parts, watch)?;
     let empty_mm3 = |part: usize| -> f64 {
         inside
             .iter()
@@ -179,15 +167,67 @@ pub fn find_ends_beyond_unpinned_joints(
         .filter(lacks_pins)
         .filter_map(less_hollow)
         .collect();
+    let is_end = |part: usize| ends.contains(&part);
+    Ok(solid_ends(&inside, &tree, margin_mm, is_end))
+}
+
+/// Returns the pieces of all voids without seats, each with the index of the part about it.
+fn void_pieces(
+    hollowed: &Hollowed,
+    tree: &CutTree,
+    parts: &[Piece],
+    watch: &Watch,
+) -> Result<Vec<(usize, Piece)>, CutError> {
+    let chambers = Chamber::all(hollowed, watch)?;
+    let mut inside: Vec<(usize, Piece)> = Vec::new();
+    for chamber in chambers
+        .iter()
+        .filter(|chamber| chamber.void.holds.is_none())
+    {
+        for piece in chamber.split(tree)? {
+            let part = parts
+                .iter()
+                .position(|part| borders(part, &piece.mesh, tree));
+            inside.extend(part.map(|part| (part, piece)));
+        }
+    }
+    Ok(inside)
+}
+
+/// Returns the boxes about the pieces of voids in some parts, grown by a margin, mm.
+fn solid_ends(
+    inside: &[(usize, Piece)],
+    tree: &CutTree,
+    margin_mm: f64,
+    is_end: impl Fn(usize) -> bool,
+) -> Vec<SolidEnd> {
     let solid_end = |(_, piece): &(usize, Piece)| {
-        let at = farthest_corner(&piece.mesh, &tree)?;
+        let at = farthest_corner(&piece.mesh, tree)?;
         Some(SolidEnd::new(&at, &piece.mesh.aabb().inflated(margin_mm)))
     };
-    Ok(inside
-        .iter()
-        .filter(|(part, _)| ends.contains(part))
-        .filter_map(solid_end)
-        .collect())
+    let ends = inside.iter().filter(|(part, _)| is_end(*part));
+    ends.filter_map(solid_end).collect()
+}
+
+/// Returns the ends of voids in parts below the least of the request: the box around each, grown by
+/// a margin, mm. If these stay solid, such a part needs no cut and stays with its neighbour. Seats
+/// for parts are left out.
+pub fn find_ends_in_small_parts(
+    hollowed: &Hollowed,
+    plan: &CutPlan,
+    request: &PlanRequest,
+    margin_mm: f64,
+) -> Result<Vec<SolidEnd>, CutError> {
+    let tree = plan.tree()?;
+    let parts = pieces_for_trial(hollowed, plan, &tree, &request.watch)?;
+    let whole_mm3: f64 = parts.iter().map(|part| part.volume_mm3).sum();
+    let is_small = |part: &Piece| request.is_small_part(part.volume_mm3, &part.mesh, whole_mm3);
+    let small: Vec<bool> = parts.iter().map(is_small).collect();
+    if parts.len() < 3 || !small.contains(&true) {
+        return Ok(Vec::new());
+    }
+    let inside = void_pieces(hollowed, &tree, &parts, &request.watch)?;
+    Ok(solid_ends(&inside, &tree, margin_mm, |part| small[part]))
 }
 
 /// Returns the corner of a void's piece that is farthest from all cuts.

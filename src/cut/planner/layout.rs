@@ -39,12 +39,13 @@ impl Layout {
     /// Returns true if a piece has too small a share of the material, or is too short for pins. A
     /// body that is not cut is never too small.
     pub(crate) fn is_small(&self, scene: &Scene, piece: &Piece) -> bool {
-        let least = scene.request.least_part;
-        let pins = &scene.request.pins;
-        let least_mm = least.length_mm(pins.length_ratio * pins.min_diameter_mm);
-        let length_mm = piece.mesh.aabb().size().max();
-        let is_light = piece.volume_mm3 < least.mass_ratio() * scene.volume_mm3;
-        self.pieces.len() > 1 && (is_light || length_mm < least_mm)
+        let is_small = |piece: &Piece| {
+            let whole_mm3 = scene.volume_mm3;
+            scene
+                .request
+                .is_small_part(piece.volume_mm3, &piece.mesh, whole_mm3)
+        };
+        self.pieces.len() > 1 && is_small(piece)
     }
 
     /// Cuts the body, each cut only where it is needed. Pieces that a cut would separate needlessly

@@ -51,6 +51,8 @@ pub struct Seams {
     pub only_level: bool,
     /// The outside, looked at; `None` if only the length of a seam counts.
     pub(crate) skin: Option<Arc<Skin>>,
+    /// The outside with dear soles; `None` unless the object rests on its feet.
+    pub(crate) spared: Option<Arc<Skin>>,
 }
 
 impl Seams {
@@ -74,6 +76,26 @@ impl Seams {
         })
     }
 
+    /// Returns the same rules for an object that rests on its feet with this unit direction up.
+    #[must_use]
+    pub fn on_feet(self, up: &Vector) -> Self {
+        let spare = |skin: &Arc<Skin>| Arc::new(skin.sparing_feet(up));
+        Self {
+            spared: self.skin.as_ref().map(spare),
+            ..self
+        }
+    }
+
+    /// Returns the same rules with a dear seam across the sole of a foot, though nobody sees it.
+    /// They are the same for an object without feet.
+    #[must_use]
+    pub fn sparing_feet(&self) -> Self {
+        Self {
+            skin: self.spared.clone().or_else(|| self.skin.clone()),
+            ..self.clone()
+        }
+    }
+
     /// Returns true if seams are priced by how much of them is seen.
     #[must_use]
     pub fn are_seen(&self) -> bool {
@@ -91,6 +113,7 @@ impl Seams {
     pub fn unseen(&self) -> Self {
         Self {
             skin: None,
+            spared: None,
             lack_weight: None,
             tried: Vec::new(),
             dearest_ratio: None,

@@ -9,7 +9,7 @@ use crate::open::ground::Ground;
 use crate::open::plan::are_clean;
 use crate::open::refused::unless_refused;
 use crate::open::tendency::lean;
-use crate::open::way::{Way, seam_price};
+use crate::open::way::{Way, bare_seam_price, seam_price};
 use crate::run::{Achieved, Policy, Remark, Rung, Tendency, Untried, Voids};
 
 /// A draft whose seams are to be seen less than those of the usual plan.
@@ -137,7 +137,8 @@ impl<'a> Ladder<'a> {
     ) -> Result<(), Error> {
         let mut tried = vec![planes(&choice.usual.bossed.plan)?];
         let mut lack_weight = self.policy.lack_weight;
-        let dearest_ratio = choice.usual_price;
+        let (voids, plan) = (&choice.usual.bossed.voids, &choice.usual.bossed.plan);
+        let dearest_ratio = bare_seam_price(voids, plan, request)?;
         let weight = |lack_weight: f64, tried: &[Vec<Plane>]| {
             let tried = tried.to_vec();
             SeamWeight {
@@ -184,7 +185,11 @@ impl<'a> Ladder<'a> {
                 break;
             }
             let outer = self.ground.voids.hollowed.outer.mesh();
-            let Some(spot) = dearest_spot(outer, &shown.bossed.plan, &shown.request)? else {
+            let sparing = PlanRequest {
+                seams: shown.request.seams.sparing_feet(),
+                ..shown.request.clone()
+            };
+            let Some(spot) = dearest_spot(outer, &shown.bossed.plan, &sparing)? else {
                 break;
             };
             request.seams.keep_clear.push(spot);
