@@ -1,5 +1,6 @@
 //! The reasons why a goal cannot be placed in a model.
 
+use super::hardware::Rod;
 use super::request::RequestError;
 use super::shafts::ShaftList;
 use super::sites::Up;
@@ -62,6 +63,20 @@ pub enum GoalError {
          tip can be put in; give another contact"
     )]
     NoSeat,
+    /// A tip on which the top leans less than was asked for.
+    #[error(
+        "on this tip the top leans by {lean_deg:.1}° before more of it touches the floor, and \
+         {least_deg}° are asked for; remedy: {}",
+        longer_tip(pin.as_ref(), *lean_deg)
+    )]
+    ShortTip {
+        /// The lean on it, degrees.
+        lean_deg: f64,
+        /// The lean that was asked for, degrees.
+        least_deg: f64,
+        /// A stock pin that keeps it; `None` if none does.
+        pin: Option<Rod>,
+    },
     /// A rotor without a bore, a shaft end or an order for a bore.
     #[error(
         "the model has no round bore and no shaft end to turn on; remedy: give the diameter of \
@@ -121,6 +136,18 @@ pub enum GoalError {
 /// Returns the setting that orders a bore where the model has none.
 fn bore_to_make() -> Setting {
     Setting::new(Key::Bore, "6mm")
+}
+
+/// Words what to order in place of a tip that is too short. It is a stock pin that keeps the lean,
+/// or the lean in whole degrees that the tip has.
+fn longer_tip(pin: Option<&Rod>, lean_deg: f64) -> String {
+    match pin {
+        Some(pin) => format!("give `{}`", Setting::new(Key::Tip, pin)),
+        None => format!(
+            "no stock pin does it; give `{}`, or another contact",
+            Setting::new(Key::LeastLean, lean_deg.floor())
+        ),
+    }
 }
 
 /// Returns the words for the support of this many vertices, which has no area.

@@ -14,7 +14,7 @@ fn of_faces(vertices: &[[f64; 3]], faces: &[&[u32]]) -> Solid {
 
 /// Returns the prism over a polygon of the xz plane, counterclockwise seen against y, from y = 0 to
 /// `depth`.
-fn prism(polygon: &[[f64; 2]], caps: &[&[u32]], depth: f64) -> Solid {
+pub fn prism(polygon: &[[f64; 2]], caps: &[&[u32]], depth: f64) -> Solid {
     let n = polygon.len() as u32;
     let at = |y: f64| polygon.iter().map(move |p| [p[0], y, p[1]]);
     let vertices: Vec<[f64; 3]> = at(0.0).chain(at(depth)).collect();

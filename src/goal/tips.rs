@@ -21,6 +21,9 @@ const LEAST_DIAMETER_RATIO: f64 = 0.029;
 /// The greatest length of a tip outside the model, in its diameters. A thinner one bends, and looks
 /// like a stilt.
 const SLENDER_DIAMETERS: f64 = 6.0;
+/// The greatest length of a pin, as a part of the model's longest side. A longer one carries more
+/// weight than the top, and nobody would call it a tip.
+const LONGEST_RATIO: f64 = 0.5;
 /// The least length outside, in diameters: its end is a half ball, and the rest is seen.
 const LEAST_OUT_DIAMETERS: f64 = 1.0;
 /// The least depth inside, in diameters. Less glue does not hold a pin against a blow.
@@ -83,7 +86,11 @@ impl TipPlace<'_> {
     fn pin(&self, drill: &Drill, diameter_mm: f64, out_mm: f64) -> Option<Rod> {
         let least_depth_mm = (LEAST_DEPTH_DIAMETERS * diameter_mm).max(LEAST_DEPTH_RATIO * out_mm);
         let bore = drill.bore(0.5 * diameter_mm + CLEARANCE_MM, self.wall_mm);
-        let depths = LENGTHS_MM.iter().map(|length_mm| length_mm - out_mm);
+        let longest_mm = LONGEST_RATIO * self.site.solid.mesh().longest_side_mm();
+        let lengths = LENGTHS_MM
+            .iter()
+            .filter(|length_mm| **length_mm <= longest_mm);
+        let depths = lengths.map(|length_mm| length_mm - out_mm);
         let depth_mm = depths
             .filter(|depth_mm| *depth_mm >= least_depth_mm)
             .find(|depth_mm| bore.holds(*depth_mm))?;
@@ -98,8 +105,10 @@ impl TipPlace<'_> {
 
 #[cfg(test)]
 mod tests {
-    use crate::goal::testing::{arch, block};
-    use crate::goal::{Contact, Footing, GoalKind, Placement, Request, TipChoice, Warning, place};
+    use crate::goal::testing::{arch, block, prism};
+    use crate::goal::{
+        Contact, Footing, GoalError, GoalKind, Placement, Request, TipChoice, Warning, place,
+    };
     use crate::mesh::Solid;
     use crate::mesh::primitives::{cylinder, ellipsoid};
 
@@ -167,6 +176,56 @@ mod tests {
         };
         let placed = place(&post, 1.0, &request).unwrap();
         assert!(placed.footing.unwrap().tip().is_some() && placed.warnings.is_empty());
+    }
+
+    #[test]
+    fn a_tip_that_is_too_short_is_refused_at_once_with_a_pin_that_does_it() {
+        let slab = block([-30., -30., 0.], [30., 30., 20.]);
+        let with_tip = |tip: &str| Request {
+            tip: tip.parse().unwrap(),
+            ..Request::new(GoalKind::Top)
+        };
+        let refused = place(&slab, 1.0, &with_tip("4mmx9mmx4mm")).unwrap_err();
+        let Some(GoalError::ShortTip { lean_deg, pin, .. }) = Some(&refused) else {
+            panic!("{refused}")
+        };
+        // The corners are 42.43 mm from the axis and 3 mm over the middle of the round end. They
+        // reach the floor at asin(2/42.54) + atan(3/42.43) = 6.74°.
+        assert!((lean_deg - 6.74).abs() < 0.01, "{lean_deg}");
+        assert_eq!(pin.unwrap().to_string(), "2mmx12mmx4mm");
+        assert!(refused.to_string().contains("2mmx12mmx4mm"), "{refused}");
+        // Nobody is kept from a top that leans less.
+        let waived = Request {
+            least_lean_deg: 6.0,
+            ..with_tip("4mmx9mmx4mm")
+        };
+        assert!(place(&slab, 1.0, &waived).is_ok());
+    }
+
+    #[test]
+    fn no_pin_is_longer_than_half_the_model() {
+        // A gate of 60 mm with legs of this length below a thick roof, into which the pin goes.
+        let gate = |legs_mm: f64| {
+            let (top, low) = (25.0 + legs_mm, legs_mm);
+            let outline = [
+                [0., 0.],
+                [10., 0.],
+                [10., low],
+                [50., low],
+                [50., 0.],
+                [60., 0.],
+                [60., top],
+                [0., top],
+            ];
+            let faces: [&[u32]; 3] = [&[0, 1, 2, 7], &[2, 3, 6, 7], &[3, 4, 5, 6]];
+            place_default(&prism(&outline, &faces, 60.0))
+        };
+        // Its corners are 42.43 mm from the axis. So the pin stands out by the legs and some
+        // 7.5 mm, and goes in by half of that.
+        let short = gate(8.0).footing.unwrap().tip().unwrap();
+        assert!((23.0..=30.0).contains(&short.length_mm()), "{short}");
+        // Here it would be 45 mm long.
+        assert!(gate(20.0).warnings.contains(&Warning::NoTip));
     }
 
     #[test]

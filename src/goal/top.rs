@@ -71,7 +71,33 @@ pub(super) fn place(site: &Site, wall_mm: f64, order: Order) -> Result<Placement
         Contact::Auto => Contact::Center,
         chosen => chosen,
     };
-    place_on(site, wall_mm, Order { contact, ..order })
+    let order = Order { contact, ..order };
+    let placed = place_on(site, wall_mm, order)?;
+    refuse_short_tip(site, wall_mm, order, &placed)?;
+    Ok(placed)
+}
+
+/// Refuses a tip that was ordered if the top leans too little on it: no hollowing changes that.
+fn refuse_short_tip(
+    site: &Site,
+    wall_mm: f64,
+    order: Order,
+    placed: &Placement,
+) -> Result<(), GoalError> {
+    let Some(Footing::Tip { lean, .. }) = placed.footing else {
+        return Ok(());
+    };
+    if lean.lean_rad >= order.least_lean_rad {
+        return Ok(());
+    }
+    let origin = contact_point(site, order.contact)?;
+    Err(GoalError::ShortTip {
+        lean_deg: lean.lean_rad.to_degrees(),
+        least_deg: order.least_lean_rad.to_degrees(),
+        pin: stock_pins(site, wall_mm, &origin, order.least_lean_rad)
+            .into_iter()
+            .next(),
+    })
 }
 
 /// Returns true if a top keeps its promise on the model's lowest point, without a tip but for one
