@@ -7,7 +7,7 @@ use super::fields::{blank, file_name};
 use crate::base::numbers::{measured, quantity};
 use crate::base::units::format_count;
 use crate::goal::GoalKind;
-use crate::sheet::{Checklist, GlueRow, JigRow, JointRow};
+use crate::sheet::{Checklist, GlueRow, JigRow, JointRow, ShaftKind};
 
 /// Returns how the joints are aligned: their pins, and their notes.
 fn alignment(sheet: &Checklist, closing: &Closing) -> Markup {
@@ -94,6 +94,7 @@ pub(super) fn glue(sheet: &Checklist) -> Markup {
         div class="lead" {
             @if let Some(glue) = &sheet.printer.glue { (glue_words(sheet, glue)) }
             p { (glue_advice(sheet.goal.aim.kind)) }
+            @if let Some(advice) = shaft_advice(sheet) { p { (advice) } }
             @if closings(sheet).len() > 1 {
                 p {
                     "Let each row harden before the next."
@@ -194,6 +195,21 @@ fn glue_advice(kind: GoalKind) -> &'static str {
             "Use little glue, and keep it out of the voids. Wipe off what is pressed out."
         }
     }
+}
+
+/// Returns how the shaft of a rotor lines its parts up; `None` if the play of its joints costs less
+/// than its grade, or if it has no bore.
+fn shaft_advice(sheet: &Checklist) -> Option<String> {
+    let allowed_g_mm = sheet.goal.aim.rotor?.allowed_g_mm(sheet.assembly.mass_g);
+    let mut left = sheet.joints.iter().filter_map(|joint| joint.unbalance_g_mm);
+    let turns_on = sheet.goal.turns_on.first()?;
+    let is_needed = left.any(|left_g_mm| left_g_mm > allowed_g_mm);
+    (is_needed && turns_on.kind != ShaftKind::ShaftEnd).then(|| {
+        format!(
+            "Push a straight shaft of {} through the bore before the glue sets. It lines up the parts that the bore runs through. Keep it free of glue.",
+            measured(turns_on.diameter_mm, "mm")
+        )
+    })
 }
 
 /// Returns the dowels to cut; empty if pins are printed.

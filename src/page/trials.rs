@@ -7,7 +7,6 @@ use super::figure::{Picture, Role, figure};
 use crate::base::numbers::{measured, measured_extent, number, quantity};
 use crate::goal::GoalKind;
 use crate::sheet::{Checklist, FootRow, ShaftKind, ShaftRow};
-use crate::verify::RotorOrder;
 
 /// Frames per second of slow motion, which most telephones can film. At 30 the turns of a fast top
 /// cannot be counted.
@@ -217,7 +216,7 @@ fn floating_lines(sheet: &Checklist) -> Vec<String> {
 /// Words the tests of a rotor.
 fn rotor_lines(sheet: &Checklist) -> Vec<String> {
     let residual = sheet.goal.aim.rotor.map(|order| {
-        let left_g_mm = allowed_g_mm(&order, sheet.assembly.mass_g);
+        let left_g_mm = order.allowed_g_mm(sheet.assembly.mass_g);
         format!(
             "On a balancing machine, with planes at its two ends: at most {} is left in either. \
              That is grade G\u{a0}{} at {}.",
@@ -231,12 +230,6 @@ fn rotor_lines(sheet: &Checklist) -> Vec<String> {
         .chain([level_line(&sheet.goal.turns_on)])
         .chain(residual)
         .collect()
-}
-
-/// Returns the unbalance that a grade of ISO 21940-11 allows in each of two planes, g·mm.
-fn allowed_g_mm(order: &RotorOrder, mass_g: f64) -> f64 {
-    let omega_rad_s = order.speed_rpm * std::f64::consts::TAU / S_PER_MIN;
-    0.5 * mass_g * order.grade_mm_s / omega_rad_s
 }
 
 /// Words how a bore is made round where seams cross it; `None` without a bore or a seam.
@@ -284,15 +277,6 @@ fn tip_line(sheet: &Checklist) -> Option<String> {
 mod tests {
     use super::*;
 
-    #[test]
-    fn a_grade_allows_half_of_its_unbalance_in_each_plane() {
-        // G 6.3 at 3000 rpm: 20.05 µm of offset; of 100 g, 1.0027 g·mm in each of two planes.
-        let order = RotorOrder {
-            speed_rpm: 3000.0,
-            grade_mm_s: 6.3,
-        };
-        assert!((allowed_g_mm(&order, 100.0) - 1.002_676).abs() < 1e-6);
-    }
     use crate::geom::play::Play;
     use crate::testing::sample;
 

@@ -324,6 +324,7 @@ fn joint() -> JointRow {
         clearance_mm: 0.2,
         held_by: HeldBy::Eye,
         play: None,
+        unbalance_g_mm: None,
         glue: None,
         note: None,
     }

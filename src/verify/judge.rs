@@ -15,6 +15,7 @@ use super::part_probe::PartProbe;
 use super::pegs::{count_overlaps, measure_pegs};
 use super::play::measure_joints;
 use super::shape::measure_shapes;
+use super::slack::Slack;
 use super::{
     Evidence, Figures, Fit, JigFacts, Judgement, PartFacts, PegFacts, Setting, ShapeFacts,
     SpinFacts, SurfaceFacts, VoidFacts, assembly_moments,
@@ -84,6 +85,14 @@ fn judge_beside(
             both(|| both(thin, cups), || both(inside, figures))
         },
     )?;
+    let mut joints = measure_joints(promise, &evidence.parts, &jigs);
+    let slack = Slack {
+        promise,
+        parts: &evidence.parts,
+        whole: &figures.whole,
+        setting: &figures.setting,
+    };
+    slack.state(&mut joints);
     let mut judgement = Judgement {
         solid: figures.solid,
         hollowed: figures.hollowed,
@@ -98,7 +107,7 @@ fn judge_beside(
         thin,
         cups,
         pegs: inside.pegs,
-        joints: measure_joints(promise, &evidence.parts, &jigs),
+        joints,
         jigs,
         overlaps: inside.overlaps,
         voids: inside.voids,
@@ -129,6 +138,9 @@ struct AllFigures {
     fit: Option<Fit>,
     spin: Option<SpinFacts>,
     ballast_room_mm: Option<f64>,
+    /// Moments of all that is put together, and the setting in which they are weighed.
+    whole: Moments,
+    setting: Setting,
 }
 
 impl AllFigures {
@@ -138,6 +150,7 @@ impl AllFigures {
         let setting = Setting::new(promise, outer);
         let Loads { inside, joined } = Loads::of(promise, body, &setting);
         let assembled = assembly_moments(&evidence.parts);
+        let hardware = setting.hardware * setting.density_g_mm3().recip();
         let figures = |printed: &Moments, load: &Moments| {
             watch.check()?;
             Ok(Figures::with_load(printed, load, &setting))
@@ -154,6 +167,8 @@ impl AllFigures {
             ),
             spin: SpinFacts::of_top(&promise.goal, &promise.hardware, outer),
             ballast_room_mm: least_room_mm(&promise.ballast, &body.welded, outer),
+            whole: assembled + inside + joined + hardware,
+            setting,
         })
     }
 }

@@ -44,6 +44,7 @@ mod rim;
 mod rooms;
 mod shape;
 mod shells;
+mod slack;
 // The checks and the verdict.
 mod check;
 mod checks;

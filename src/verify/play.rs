@@ -13,6 +13,9 @@ pub struct JointFacts {
     /// The play that its pins or its jig leave; `None` if they leave a turn free, or there are
     /// none.
     pub play: Option<Play>,
+    /// The unbalance in an end plane of a rotor that this play can leave, g·mm; `None` for other
+    /// goals.
+    pub unbalance_g_mm: Option<f64>,
 }
 
 /// Measures the play of every joint, in the order of the checklist.
@@ -31,6 +34,7 @@ pub(super) fn measure_joints(
             Some(HeldBy::Jig) => in_jig(joint),
             _ => play(joint, promise, parts),
         },
+        unbalance_g_mm: None,
     };
     promise.joints.iter().map(facts).collect()
 }

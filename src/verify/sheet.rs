@@ -271,6 +271,9 @@ fn joint_rows(promise: &Promise, found: Option<&[JointFacts]>) -> Vec<Value> {
         // Kits of older versions do not state their play.
         if let (Some(found), true) = (found, joint.held_by.is_some()) {
             row["play"] = json!(found[index].play);
+            if let Some(left_g_mm) = found[index].unbalance_g_mm {
+                row["unbalance_g_mm"] = json!(left_g_mm);
+            }
         }
         if let Some(film) = joint.glue {
             let volume_mm3 = film.face.area_mm2 * film.thickness_mm;

@@ -91,6 +91,7 @@ pub fn joint_rows(facts: &Facts) -> Vec<JointRow> {
             clearance_mm: facts.placed.shop.printer.clearance_per_side_mm.value,
             held_by: held_by(facts.made, index),
             play: facts.judgement.joints[index].play,
+            unbalance_g_mm: facts.judgement.joints[index].unbalance_g_mm,
             glue: facts.placed.glue_film(joint),
             note: joint_warning(facts.made, index)
                 .map(|warning| [why_no_bosses(facts.made, joint), warning.to_owned()].concat()),

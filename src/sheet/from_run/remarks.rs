@@ -6,12 +6,14 @@ use super::hardware::shallow_axle;
 use super::joints::{is_shown_at_its_step, warn_of_joints};
 use super::parts::is_printed_in_vat;
 use super::printer::{enlargement, scale_note};
-use crate::base::numbers::measured;
+use super::promise::aim;
+use crate::base::numbers::{measured, number};
 use crate::base::units::MM3_PER_CM3;
 use crate::cut::{self, PartId};
 use crate::goal::GoalKind;
 use crate::run::{Remark, WrittenPart};
 use crate::sheet::FootRow;
+use crate::verify::{JointFacts, RotorOrder};
 
 /// Least volume left solid that gets a note, mm³: less would be shown as zero.
 const LEAST_REPORTED_MM3: f64 = 0.05;
@@ -51,8 +53,38 @@ pub fn warnings(facts: &Facts, foot: Option<&FootRow>) -> Vec<String> {
         .chain(seal)
         .chain(unweighed)
         .chain(shallow_axle(placed));
-    let warnings = warnings.chain(small_parts(facts));
+    let warnings = warnings.chain(small_parts(facts)).chain(slack(facts));
     warnings.chain(warn_of_joints(facts.made)).collect()
+}
+
+/// Returns a warning of the joints of a rotor whose play can cost more than its grade; `None`
+/// without any.
+fn slack(facts: &Facts) -> Option<String> {
+    let order = aim(facts.placed).rotor?;
+    warn_of_slack(
+        &facts.judgement.joints,
+        &order,
+        facts.judgement.assembly.mass_g,
+    )
+}
+
+/// Warns of joints whose play can leave more than a grade allows to a rotor of this mass.
+fn warn_of_slack(joints: &[JointFacts], order: &RotorOrder, mass_g: f64) -> Option<String> {
+    let allowed_g_mm = order.allowed_g_mm(mass_g);
+    let left = |joint: &JointFacts| Some((joint.id.clone(), joint.unbalance_g_mm?));
+    let left = joints.iter().filter_map(left);
+    let (ids, left_g_mm): (Vec<String>, Vec<f64>) = left
+        .filter(|(_, left_g_mm)| *left_g_mm > allowed_g_mm)
+        .unzip();
+    let worst_g_mm = left_g_mm.into_iter().reduce(f64::max)?;
+    Some(format!(
+        "{}: the play of the joint can leave {} at one end of the axis, and grade G\u{a0}{} allows \
+         {}. Line the parts up on the shaft, or balance the rotor once it is glued",
+        ids.join(", "),
+        measured(worst_g_mm, "g·mm"),
+        number(order.grade_mm_s),
+        measured(allowed_g_mm, "g·mm")
+    ))
 }
 
 /// Returns a warning for each part that is lighter than the least that was asked for.
@@ -140,5 +172,32 @@ mod tests {
             "P01 weighs only 0.35 g (1.4 % of all): do not lose it"
         );
         assert!(warn_of_small(&masses, 0.01).is_empty());
+    }
+
+    #[test]
+    fn a_joint_whose_play_costs_more_than_the_grade_is_told_with_both_figures() {
+        let joint = |id: &str, unbalance_g_mm| JointFacts {
+            id: id.to_owned(),
+            play: None,
+            unbalance_g_mm,
+        };
+        let order = RotorOrder {
+            speed_rpm: 3000.0,
+            grade_mm_s: 6.3,
+        };
+        let joints = [
+            joint("J1", Some(1.8)),
+            joint("J2", Some(0.9)),
+            joint("J3", None),
+        ];
+        // G 6.3 at 3000 rpm allows 1.0027 g·mm to 100 g, in each of two planes.
+        let said = warn_of_slack(&joints, &order, 100.0).unwrap();
+        let said = said.replace('\u{a0}', " ");
+        assert!(
+            said.starts_with("J1: the play of the joint can leave 1.8 g·mm at one end of the axis"),
+            "{said}"
+        );
+        assert!(said.contains("grade G 6.3 allows 1.0"), "{said}");
+        assert_eq!(warn_of_slack(&joints[1..], &order, 100.0), None);
     }
 }
