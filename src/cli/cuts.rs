@@ -16,7 +16,9 @@ use crate::base::watch::Watch;
 use crate::error::Error;
 use crate::kit::{Existing, PLANS_FILE};
 use crate::prepare::Impossible;
-use crate::prepare::plans::{PlanChoice, Plans, SeamRow, figure_words, plans};
+use crate::prepare::plans::{
+    PlanChoice, Plans, SeamRow, figure_words, part_words, plans, seam_words,
+};
 
 /// Share of the figure by which the first plan may be worse than the best and is still proposed.
 /// Its seams are hidden, which costs some of the figure.
@@ -119,16 +121,11 @@ fn words(plan: &PlanChoice) -> String {
         "{}    {}; {}, {}; {}\n",
         plan.file,
         plan.tendency,
-        format_count(plan.parts, "part"),
+        part_words(plan),
         format_count(plan.pins, "pin"),
         figure_words(plan)
     );
-    let seam = |row: &SeamRow| {
-        format!(
-            "              seam {}: {:.0} mm, {}; seen {:.2}\n",
-            row.cut, row.length_mm, row.place, row.seen_ratio
-        )
-    };
+    let seam = |row: &SeamRow| format!("              seam {}: {}\n", row.cut, seam_words(row));
     head + &plan.seams.iter().map(seam).collect::<String>()
 }
 
@@ -146,6 +143,7 @@ mod tests {
             value: 0.1,
             loss_ratio,
             parts: 2,
+            is_solid: false,
             pins: 2,
             joints_without_pins: 0,
             seams: Vec::new(),

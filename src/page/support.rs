@@ -36,6 +36,9 @@ fn support_words(support: &SupportRow, has_pins: bool) -> String {
     format!("on: {areas}")
 }
 
+/// The first word on how a part lies that neither lies nor stands on a flat face.
+const LEANING: &str = "leaning";
+
 /// Least mass of support that is reported, g.
 const LEAST_G: f64 = 0.05;
 
@@ -75,7 +78,17 @@ fn all_words(sheet: &Checklist) -> String {
 
 /// Words the support of the whole job.
 pub(super) fn of_all(sheet: &Checklist) -> String {
-    method_words(sheet) + &all_words(sheet)
+    method_words(sheet) + &all_words(sheet) + why_they_lean(sheet)
+}
+
+/// Returns why parts lean; empty if none does, or if the slicer places the support.
+fn why_they_lean(sheet: &Checklist) -> &'static str {
+    let leans = |part: &PartRow| part.lies.starts_with(LEANING) && part.support.is_some();
+    if sheet.parts.iter().any(leans) {
+        " Parts that lean need less support that way."
+    } else {
+        ""
+    }
 }
 
 /// Words the settings for support.
@@ -117,6 +130,16 @@ fn by_process(sheet: &Checklist) -> &'static str {
 mod tests {
     use super::*;
     use crate::testing::sample;
+
+    #[test]
+    fn the_sheet_says_why_parts_lean() {
+        let mut sheet = sample().0;
+        let why = "need less support that way";
+        sheet.parts[0].support = Some(SupportRow::default());
+        assert!(!of_all(&sheet).contains(why));
+        sheet.parts[0].lies = "leaning, as in the picture".to_owned();
+        assert!(of_all(&sheet).contains(why));
+    }
 
     #[test]
     fn support_is_worded_by_part_if_known_else_by_process() {

@@ -2,10 +2,9 @@
 
 mod choice;
 
-pub use choice::{PlanChoice, SeamRow, figure_words};
+pub use choice::{PlanChoice, SeamRow, figure_words, part_words, seam_words};
 
 use super::{advise, load, outcome::Impossible, place, solve};
-use crate::base::units::format_count;
 use crate::base::verdict::Verdict;
 use crate::base::watch::{Phase, Watch};
 use crate::cut::{CutError, CutOrder, parts};
@@ -94,16 +93,15 @@ fn card(
     let row = |name: &str, value: String| [name.to_owned(), value];
     let mut rows = vec![
         row("Figure", figure_words(choice)),
-        row("Parts", format_count(choice.parts, "part")),
+        row("Parts", part_words(choice)),
         row("Pins", pin_words(choice)),
     ];
-    rows.extend(choice.seams.iter().map(|seam| {
-        let words = format!(
-            "{:.0} mm, {}; seen {:.2}",
-            seam.length_mm, seam.place, seam.seen_ratio
-        );
-        row(&format!("Seam {}", seam.cut), words)
-    }));
+    rows.extend(
+        choice
+            .seams
+            .iter()
+            .map(|seam| row(&format!("Seam {}", seam.cut), seam_words(seam))),
+    );
     rows.push(row("File", choice.file.clone()));
     Ok(PlanCard {
         title: format!(

@@ -22,6 +22,8 @@ pub struct PlanChoice {
     pub loss_ratio: f64,
     /// Number of parts.
     pub parts: usize,
+    /// True if it is printed in one piece without voids.
+    pub is_solid: bool,
     /// Number of pins.
     pub pins: usize,
     /// Number of joints that lack their two pins.
@@ -63,6 +65,7 @@ pub(super) fn choice(file: String, leaning: &Leaning, all: &[Leaning]) -> PlanCh
         value: certificate.value,
         loss_ratio: losses.fold(0.0, f64::max),
         parts: plan.count_parts(),
+        is_solid: leaning.opened.voids.hollowed.voids.is_empty(),
         pins: plan.pins.len(),
         joints_without_pins: unaligned.count(),
         seams: leaning.seams.iter().map(seam_row).collect(),
@@ -86,7 +89,8 @@ fn seam_row(seam: &SeamNote) -> SeamRow {
         Some(SeamLie::Slanted) | None => "slanted",
     };
     let place = seam.heights.map_or_else(String::new, |[low, high]| {
-        let [low, high] = [low, high].map(|height| format!("{:.0}", 100.0 * height));
+        // Rounding may leave a zero with a minus sign.
+        let [low, high] = [low, high].map(|height| (100.0 * height).round() + 0.0);
         if low == high {
             format!(", at {low} % of the height")
         } else {
@@ -99,6 +103,33 @@ fn seam_row(seam: &SeamNote) -> SeamRow {
         seen_ratio: seam.seen_ratio.unwrap_or_default(),
         place: format!("{lie}{place}"),
         is_slanted: seam.lie == Some(SeamLie::Slanted),
+    }
+}
+
+/// Ratio up to which a seam is hardly seen: that of a neck. A waist has twice as much.
+const HARDLY_SEEN_RATIO: f64 = 0.1;
+/// Ratio up to which a seam is seen a little. A seam through a face has more.
+const LITTLE_SEEN_RATIO: f64 = 0.3;
+
+/// Words a seam: its length, its lie and place, and how much of it is seen.
+pub fn seam_words(seam: &SeamRow) -> String {
+    let seen = if seam.seen_ratio <= HARDLY_SEEN_RATIO {
+        "hardly seen"
+    } else if seam.seen_ratio <= LITTLE_SEEN_RATIO {
+        "seen a little"
+    } else {
+        "easily seen"
+    };
+    format!("{:.0} mm, {}; {seen}", seam.length_mm, seam.place)
+}
+
+/// Words the number of parts. A body in one piece without voids is solid, and the words say so.
+pub fn part_words(choice: &PlanChoice) -> String {
+    let parts = format_count(choice.parts, "part");
+    if choice.is_solid {
+        format!("{parts}, printed solid")
+    } else {
+        parts
     }
 }
 
