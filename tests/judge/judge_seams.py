@@ -108,7 +108,7 @@ class Kit:
         proof = self.sheet["certificate"]
         self.figure, self.value = proof["figure"], proof["value"]
         texts = [*self.sheet.get("offers", []), *self.sheet.get("notes", []), *self.sheet.get("warnings", [])]
-        self.said = [text for text in texts if text.startswith("seams:")]
+        self.said = [text for text in texts if text.startswith(("seams:", "pins: cuts where their seams are seen"))]
 
     @staticmethod
     def placed(folder, row, scale):
@@ -132,8 +132,9 @@ class Seam:
         is_made = distance(points, rims(kit.parts, self.point, self.normal)) < STEP_MM
         self.points, self.length = points[is_made], float(sizes[is_made].sum())
 
-    def enters(self, center, radius):
-        return bool(len(self.points)) and np.linalg.norm(self.points - center, axis=1).min() < radius
+    def depth(self, center, radius):
+        """How far it enters a ball, mm; not above 0 if it does not."""
+        return radius - float(np.linalg.norm(self.points - center, axis=1).min()) if len(self.points) else 0.0
 
     def slant_deg(self):
         rise = math.degrees(math.asin(min(1.0, abs(float(self.normal @ self.up)))))
@@ -214,13 +215,14 @@ class Row:
             print(f"{label} {self.refusal()} | | | | | | |", flush=True)
             return not (self.run.out / f"{self.name}-{self.goal}-{self.printer}" / "checklist.json").exists()
         seams = kit.seams(self.up)
-        is_cut = any(seam.enters(*face) for seam in seams for face in self.faces())
+        depth = max((seam.depth(*face) for seam in seams for face in self.faces()), default=0.0)
+        is_cut = depth > 0
         clear = self.kit("clear", *(word for (x, y, z), r in self.faces() for word in ("--keep-clear", f"{x},{y},{z},{r}"))) if is_cut else None
         best = min(other.cost() for other in (kit, short, clear) if other is not None)
         loss = lambda of: (of.cost() - best) / abs(best)
         price = loss(clear) if clear else None
         is_paid = not is_cut or ((price is None or price > MOST_LOSS_RATIO) and bool(kit.said))
-        face = "no" if not is_cut else f"YES; whole: {'no kit' if price is None else f'{100 * price:.1f} %'}{', said' if kit.said else ', NOT SAID'}"
+        face = "no" if not is_cut else f"YES, by {depth:.1f} mm; whole: {'no kit' if price is None else f'{100 * price:.1f} %'}{', said' if kit.said else ', NOT SAID'}"
         lies = ", ".join(f"{seam.lie()} at {self.place(seam)}" for seam in seams)
         mm = " + ".join(f"{seam.length:.0f}" for seam in seams)
         print(f"{label} {len(kit.parts)} | {mm} | {face} | {lies} | {kit.value:.4g} | {100 * loss(kit):.1f} % |", flush=True)
