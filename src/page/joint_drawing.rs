@@ -188,6 +188,7 @@ impl<'a> Book<'a> {
         );
         let [pins, sockets] = [pins, sockets].map(|pegs| self.spots(&pegs, map));
         let mut names = Names::new(WIDTH_PX, TEXT_PX);
+        names.place_at(title, part);
         for peg in pins.iter().chain(&sockets) {
             names.keep_clear(peg.at, peg.radius_px);
         }

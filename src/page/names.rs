@@ -12,7 +12,7 @@ const WAYS: usize = 16;
 const SIDEWAYS: f64 = 1.3;
 
 /// Distances at which a name is tried, as multiples of the wished one.
-const AWAY: [f64; 3] = [1.0, 1.6, 2.2];
+const AWAY: [f64; 4] = [1.0, 1.6, 2.2, 3.0];
 
 /// The upright boxes that names and pins fill.
 pub(super) struct Names {
@@ -106,6 +106,18 @@ mod tests {
         assert_eq!(names.place_at([200.0, 200.0], "V1"), [200.0, 200.0]);
         let beside = names.place_beside([100.0, 100.0], 30.0, [0.0, -1.0], "N1");
         assert_eq!(beside, [100.0, 70.0]);
+    }
+
+    #[test]
+    fn a_name_beside_a_title_leaves_the_title_free() {
+        let mut names = Names::new(400.0, 20.0);
+        names.place_at([200.0, 20.0], "P02");
+        let pin = names.place_beside([200.0, 50.0], 30.0, [0.0, -1.0], "N3");
+        assert_eq!(
+            overlap_px2(&names.taken[0], &names.taken[1]),
+            0.0,
+            "{pin:?}"
+        );
     }
 
     #[test]
