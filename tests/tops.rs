@@ -59,7 +59,7 @@ fn without_a_tip_no_lean_is_promised_and_the_sheet_says_so() {
 }
 
 #[test]
-fn a_lean_that_is_not_reached_breaks_the_promise_and_names_the_tip_that_reaches_it() {
+fn a_tip_that_is_too_short_for_the_lean_is_refused_with_the_one_that_does_it() {
     let folder = tempfile::tempdir().unwrap();
     let kit = folder.path().join("kit");
     let rod = "--contact center --tip 4mmx10mmx6mm --least-lean 30";
@@ -70,11 +70,22 @@ fn a_lean_that_is_not_reached_breaks_the_promise_and_names_the_tip_that_reaches_
     ]
     .concat();
     let output = equipoise(&line);
-    assert_exit(&output, 1);
-    let (lean_deg, kept) = check(&checklist(&kit), "lean").unwrap();
-    assert!(!kept && lean_deg < 30.0, "{lean_deg}");
+    assert_exit(&output, 2);
+    assert!(!kit.exists());
     let said = printed(&output);
-    assert!(said.contains("take a longer tip (--tip="), "{said}");
+    assert!(
+        said.contains("and 30° are asked for") && said.contains("--tip="),
+        "{said}"
+    );
+    // Without an axis the tip is held against the natural one, and no other is taken for it.
+    let options = format!("{QUICK} --goal top --wall 1mm {rod}");
+    let line = [
+        &["prepare", ELLIPSOID, "--out", path(&kit)],
+        &words(&options)[..],
+    ]
+    .concat();
+    assert_exit(&equipoise(&line), 2);
+    assert!(!kit.exists());
 }
 
 #[test]

@@ -65,8 +65,9 @@ pub enum GoalError {
     NoSeat,
     /// A tip on which the top leans less than was asked for.
     #[error(
-        "on this tip the top leans by {lean_deg:.1}° before more of it touches the floor, and \
-         {least_deg}° are asked for; remedy: {}",
+        "on this tip the top leans by {:.1}° before its body touches the floor, and {least_deg}° \
+         are asked for; remedy: {}",
+        rounded_down(*lean_deg),
         longer_tip(pin.as_ref(), *lean_deg)
     )]
     ShortTip {
@@ -143,11 +144,17 @@ fn bore_to_make() -> Setting {
 fn longer_tip(pin: Option<&Rod>, lean_deg: f64) -> String {
     match pin {
         Some(pin) => format!("give `{}`", Setting::new(Key::Tip, pin)),
-        None => format!(
+        None if lean_deg >= 1.0 => format!(
             "no stock pin does it; give `{}`, or another contact",
             Setting::new(Key::LeastLean, lean_deg.floor())
         ),
+        None => "no stock pin does it; give another contact".to_owned(),
     }
+}
+
+/// Returns an angle in whole tenths of a degree, never more than it is.
+fn rounded_down(deg: f64) -> f64 {
+    (10.0 * deg).floor() / 10.0
 }
 
 /// Returns the words for the support of this many vertices, which has no area.

@@ -108,7 +108,8 @@ pub enum Warning {
     },
     /// The contact needs a tip, and the model has no room for one.
     #[error(
-        "the model does not hold a stock pin that is long enough for its lean at the contact. Give \
+        "the model does not hold a stock pin that is long enough for its lean at the contact, \
+         and no longer than half of the model. Give \
          another contact (`{}`), another size (`{}`) or a tip of your own (`{}`)",
         Setting::open(Key::Contact),
         Setting::open(Key::Size),

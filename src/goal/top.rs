@@ -35,6 +35,7 @@ pub(super) struct Order {
     contact: Contact,
     tip: TipChoice,
     least_lean_rad: f64,
+    least_lean_deg: f64,
 }
 
 impl Order {
@@ -44,6 +45,7 @@ impl Order {
             contact: request.contact.unwrap_or(Contact::Auto),
             tip: request.ordered_tip(),
             least_lean_rad: request.least_lean_deg.to_radians(),
+            least_lean_deg: request.least_lean_deg,
         }
     }
 
@@ -93,7 +95,7 @@ fn refuse_short_tip(
     let origin = contact_point(site, order.contact)?;
     Err(GoalError::ShortTip {
         lean_deg: lean.lean_rad.to_degrees(),
-        least_deg: order.least_lean_rad.to_degrees(),
+        least_deg: order.least_lean_deg,
         pin: stock_pins(site, wall_mm, &origin, order.least_lean_rad)
             .into_iter()
             .next(),

@@ -20,7 +20,7 @@ pub struct Ground<'a> {
 }
 
 impl Ground<'_> {
-    /// Keeps parts of the interior solid; `None` if nothing lies there or the goal is lost.
+    /// Keeps more parts of the interior solid; `None` if nothing lies there or the goal is lost.
     pub fn without(&self, solid: &[SolidEnd], cause: &KeptCause) -> Result<Option<Self>, Error> {
         let mut resolver = self.resolver.clone();
         let less = without_ends(&mut resolver, &self.voids, solid, cause)?;
@@ -28,8 +28,8 @@ impl Ground<'_> {
             resolver,
             voids,
             draft: None,
-            solid: solid.to_vec(),
-            rounds: vec![round],
+            solid: [&self.solid, solid].concat(),
+            rounds: self.rounds.iter().cloned().chain([round]).collect(),
         }))
     }
 }

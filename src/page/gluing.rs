@@ -201,12 +201,13 @@ fn glue_advice(kind: GoalKind) -> &'static str {
 /// than its grade, or if it has no bore.
 fn shaft_advice(sheet: &Checklist) -> Option<String> {
     let allowed_g_mm = sheet.goal.aim.rotor?.allowed_g_mm(sheet.assembly.mass_g);
-    let mut left = sheet.joints.iter().filter_map(|joint| joint.unbalance_g_mm);
+    let left = sheet.joints.iter().filter_map(|joint| joint.unbalance_g_mm);
     let turns_on = sheet.goal.turns_on.first()?;
-    let is_needed = left.any(|left_g_mm| left_g_mm > allowed_g_mm);
-    (is_needed && turns_on.kind != ShaftKind::ShaftEnd).then(|| {
+    let is_needed = left.sum::<f64>() > allowed_g_mm;
+    // A bore that is still to be made holds no shaft.
+    (is_needed && turns_on.kind == ShaftKind::Bore).then(|| {
         format!(
-            "Push a straight shaft of {} through the bore before the glue sets. It lines up the parts that the bore runs through. Keep it free of glue.",
+            "Before the glue sets, push a straight shaft through the bore ({}) that just fits. It lines up the parts that the bore runs through. Keep it free of glue.",
             measured(turns_on.diameter_mm, "mm")
         )
     })
@@ -234,7 +235,32 @@ fn cut_list(sheet: &Checklist) -> Markup {
 mod tests {
     use super::super::closing::tests::sheet;
     use super::*;
+    use crate::sheet::ShaftRow;
     use crate::testing::sample;
+    use crate::verify::RotorOrder;
+
+    #[test]
+    fn a_shaft_lines_up_a_rotor_whose_joints_have_too_much_play_and_whose_bore_is_there() {
+        let mut rotor = sample().0;
+        rotor.goal.aim.rotor = Some(RotorOrder {
+            speed_rpm: 3000.0,
+            grade_mm_s: 6.3,
+        });
+        rotor.assembly.mass_g = 100.0;
+        let mut advice = |kind: ShaftKind, left_g_mm: f64| {
+            rotor.joints[0].unbalance_g_mm = Some(left_g_mm);
+            rotor.goal.turns_on = vec![ShaftRow {
+                kind,
+                diameter_mm: 8.0,
+            }];
+            shaft_advice(&rotor)
+        };
+        // Its grade allows 1.0027 g·mm in each plane.
+        assert!(advice(ShaftKind::Bore, 1.1).is_some());
+        assert_eq!(advice(ShaftKind::Bore, 0.9), None);
+        assert_eq!(advice(ShaftKind::BoreToMake, 1.1), None);
+        assert_eq!(advice(ShaftKind::ShaftEnd, 1.1), None);
+    }
 
     #[test]
     fn a_joint_without_pins_is_aligned_by_one_that_closes_with_it() {

@@ -109,18 +109,6 @@ mod tests {
     }
 
     #[test]
-    fn a_name_beside_a_title_leaves_the_title_free() {
-        let mut names = Names::new(400.0, 20.0);
-        names.place_at([200.0, 20.0], "P02");
-        let pin = names.place_beside([200.0, 50.0], 30.0, [0.0, -1.0], "N3");
-        assert_eq!(
-            overlap_px2(&names.taken[0], &names.taken[1]),
-            0.0,
-            "{pin:?}"
-        );
-    }
-
-    #[test]
     fn names_at_one_spot_do_not_overlap() {
         let mut names = Names::new(400.0, 20.0);
         names.keep_clear([200.0, 200.0], 12.0);

@@ -54,7 +54,7 @@ pub fn on_failure(placed: &Placed, prepared: Prepared, watch: &Watch) -> Result<
 
 /// Names the stock tip that keeps the promise of a top on a given tip that breaks it.
 fn longer_tip(placed: &Placed, broken: &[&Check]) -> Option<String> {
-    let is_contact = |check: &&Check| matches!(check.kind, CheckKind::Contact | CheckKind::Lean);
+    let is_contact = |check: &&Check| check.kind == CheckKind::Contact;
     placed.request.ordered_tip().rod()?;
     broken.iter().copied().find(|check| is_contact(check))?;
     let request = Request {

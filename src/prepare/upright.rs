@@ -1,11 +1,11 @@
 //! The natural up of a model, or the axis nearest to it on which the goal is possible.
 
 use super::advise;
-use crate::advice::{Case, name_direction, nearest_orientation};
+use crate::advice::{Case, NearbyAxis, name_direction, nearest_orientation};
 use crate::base::setting::{Key, Setting};
 use crate::base::watch::{Cancelled, Watch};
 use crate::error::Error;
-use crate::goal::{GoalError, GoalKind, Up, find_upright};
+use crate::goal::{GoalError, GoalKind, Request, Up, find_upright};
 use crate::job::Job;
 use crate::run::{AxisChoice, Model, NaturalUp, Shop};
 
@@ -26,7 +26,25 @@ pub fn choose(
     let Some(up) = natural.up.direction().filter(|_| spins && is_plain) else {
         return Ok(AxisChoice::Natural(natural));
     };
-    Ok(match nearest_orientation(&case, &up, watch)? {
+    // A tip that was ordered is held against the axis that would be taken without it. No other axis
+    // is taken for a tip that is too short: placing refuses it.
+    let waived = Case {
+        request: Request {
+            least_lean_deg: 0.0,
+            ..case.request
+        },
+        ..case
+    };
+    let has_ordered_tip = case.request.ordered_tip().rod().is_some();
+    let asked = if has_ordered_tip { &waived } else { &case };
+    let nearby = nearest_orientation(asked, &up, watch)?.map(|nearby| NearbyAxis {
+        request: Request {
+            least_lean_deg: case.request.least_lean_deg,
+            ..nearby.request
+        },
+        ..nearby
+    });
+    Ok(match nearby {
         Some(nearby) if nearby.is_turned() => AxisChoice::NearNatural {
             natural,
             nearby: Box::new(nearby),

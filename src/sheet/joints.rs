@@ -26,8 +26,8 @@ pub struct JointRow {
     /// Play that its pins leave; `None` if they leave a turn free, or there are fewer than two.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub play: Option<Play>,
-    /// Unbalance in an end plane of a rotor that this play can leave, g·mm; `None` for other goals,
-    /// and in kits of older versions.
+    /// Unbalance in an end plane of a rotor if the lighter side shifts by this play, g·mm. `None`
+    /// for other goals, where other joints hold it, and in kits of older versions.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub unbalance_g_mm: Option<f64>,
     /// Film of glue, which the figures of the assembly count; `None` if the printer's profile does

@@ -13,8 +13,8 @@ pub struct JointFacts {
     /// The play that its pins or its jig leave; `None` if they leave a turn free, or there are
     /// none.
     pub play: Option<Play>,
-    /// The unbalance in an end plane of a rotor that this play can leave, g·mm; `None` for other
-    /// goals.
+    /// The unbalance in an end plane of a rotor if the lighter side shifts by this play, g·mm.
+    /// `None` for other goals, and where other joints hold it.
     pub unbalance_g_mm: Option<f64>,
 }
 

@@ -145,7 +145,10 @@ pub(super) fn restate(sheet: &Value, findings: &Findings) -> Value {
     rows.insert("parts".to_owned(), json!(parts));
     let is_whole = findings.are_all_as_made();
     let found = is_whole.then_some(&judgement.joints[..]);
-    rows.insert("joints".to_owned(), json!(joint_rows(promise, found)));
+    rows.insert(
+        "joints".to_owned(),
+        json!(joint_rows(&sheet["joints"], promise, found)),
+    );
     if is_whole {
         rows.extend(restate_whole(sheet, promise, judgement));
     }
@@ -255,7 +258,7 @@ fn part_row(findings: &Findings, part: usize, facts: &PartFacts) -> Value {
 }
 
 /// Returns the number of pins of every joint, its play as found, and the mass of its glue.
-fn joint_rows(promise: &Promise, found: Option<&[JointFacts]>) -> Vec<Value> {
+fn joint_rows(stated: &Value, promise: &Promise, found: Option<&[JointFacts]>) -> Vec<Value> {
     let row = |(index, joint): (usize, &PromisedJoint)| {
         let pegs = promise
             .parts
@@ -271,8 +274,9 @@ fn joint_rows(promise: &Promise, found: Option<&[JointFacts]>) -> Vec<Value> {
         // Kits of older versions do not state their play.
         if let (Some(found), true) = (found, joint.held_by.is_some()) {
             row["play"] = json!(found[index].play);
-            if let Some(left_g_mm) = found[index].unbalance_g_mm {
-                row["unbalance_g_mm"] = json!(left_g_mm);
+            // Nor what it does to a rotor.
+            if !stated[index]["unbalance_g_mm"].is_null() {
+                row["unbalance_g_mm"] = json!(found[index].unbalance_g_mm);
             }
         }
         if let Some(film) = joint.glue {

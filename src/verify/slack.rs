@@ -21,12 +21,22 @@ impl Slack<'_> {
     /// States in each joint of a rotor what its play does to the balance; nothing for other goals.
     ///
     /// The lighter of the two bodies that the joint parts shifts as far as the play lets it,
-    /// without a turn. Ballast stays where it is. A joint in a ring of parts is held by the others,
-    /// and states nothing.
+    /// without a turn. If the shaft is in the lighter one, more is left. Ballast stays where it is.
+    /// A joint in a ring of parts is held by the others, and states nothing. Several joints between
+    /// the same parts shift together: as far as the tightest of them, which alone states it.
     pub(super) fn state(&self, facts: &mut [JointFacts]) {
-        for (joint, facts) in self.promise.joints.iter().zip(facts) {
-            let shift_mm = facts.play.map(|play| play.shift_mm);
-            facts.unbalance_g_mm = shift_mm.and_then(|shift_mm| self.worst_g_mm(joint, shift_mm));
+        let joints = &self.promise.joints;
+        let shift_mm = |facts: &JointFacts| facts.play.map(|play| play.shift_mm);
+        let shifts_mm: Vec<Option<f64>> = facts.iter().map(shift_mm).collect();
+        for (index, facts) in facts.iter_mut().enumerate() {
+            let is_tighter = |other: usize| {
+                let is_beside = is_between(&joints[other], &joints[index]);
+                let order = |at: usize| (shifts_mm[at].unwrap_or(f64::INFINITY), at);
+                is_beside && order(other) < order(index)
+            };
+            if let (Some(shift_mm), false) = (shifts_mm[index], (0..joints.len()).any(is_tighter)) {
+                facts.unbalance_g_mm = self.worst_g_mm(&joints[index], shift_mm);
+            }
         }
     }
 
@@ -89,19 +99,21 @@ fn lighter_side(
         .min_by(|a, b| a.volume().total_cmp(&b.volume()))
 }
 
+/// Returns whether a joint is between the same two parts as another.
+fn is_between(joint: &PromisedJoint, other: &PromisedJoint) -> bool {
+    other.parts.iter().all(|id| joint.parts.contains(id))
+}
+
 /// Returns the parts connected with a part by joints other than those between the same two parts as
 /// `left_out`.
 fn reach<'a>(from: &'a str, left_out: &PromisedJoint, promise: &'a Promise) -> Vec<&'a str> {
-    let is_between = |joint: &&PromisedJoint| {
-        let [a, b] = &left_out.parts;
-        !(joint.parts.contains(a) && joint.parts.contains(b))
-    };
     let mut reached = vec![from];
     let mut next = 0;
     while let Some(&part) = reached.get(next) {
         next += 1;
-        let joints = promise.joints.iter().filter(is_between);
-        let at = joints.filter(|joint| joint.parts.iter().any(|id| id == part));
+        let joints = promise.joints.iter();
+        let others = joints.filter(|joint| !is_between(joint, left_out));
+        let at = others.filter(|joint| joint.parts.iter().any(|id| id == part));
         for id in at.flat_map(|joint| &joint.parts) {
             if !reached.contains(&id.as_str()) {
                 reached.push(id);

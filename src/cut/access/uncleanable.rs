@@ -211,7 +211,7 @@ fn solid_ends(
 
 /// Returns the ends of voids in parts below the least of the request: the box around each, grown by
 /// a margin, mm. If these stay solid, such a part needs no cut and stays with its neighbour. Seats
-/// for parts are left out.
+/// for parts are left out, and so is a plan of two parts, which needs its cut.
 pub fn find_ends_in_small_parts(
     hollowed: &Hollowed,
     plan: &CutPlan,

@@ -1,8 +1,9 @@
 //! Whole parts: a void ends before a part below the least, so that no chip is cut off for it.
 
 use super::Ladder;
-use crate::cut::{SolidEnd, find_ends_in_small_parts};
+use crate::cut::{self, SolidEnd, find_ends_in_small_parts};
 use crate::error::Error;
+use crate::open::ground::Ground;
 use crate::open::refused::unless_refused;
 use crate::open::way::Way;
 use crate::run::{Achieved, KeptCause, Rung, Untried, Voids};
@@ -19,7 +20,7 @@ impl<'a> Ladder<'a> {
         if !(self.joins_parts && self.is_free()) {
             return Ok((usual, walls));
         }
-        let Some(draft) = self.draft_whole_parts(&usual)? else {
+        let Some((ground, draft)) = self.draft_whole_parts(&usual)? else {
             return Ok((usual, walls));
         };
         let placed = self
@@ -30,20 +31,22 @@ impl<'a> Ladder<'a> {
         };
         let is_better = self.is_worth_joining(&whole, &usual)?
             && whole.count_unaligned()? <= usual.count_unaligned()?;
-        Ok(if is_better {
-            (whole, whole_walls)
-        } else {
-            (usual, walls)
-        })
+        if !is_better {
+            return Ok((usual, walls));
+        }
+        // The rungs beyond keep these ends solid, too.
+        self.ground = ground;
+        Ok((whole, whole_walls))
     }
 
-    /// Drafts a plan without parts below the least; `None` if there is none that is worth it.
-    fn draft_whole_parts(&self, usual: &Way<'a>) -> Result<Option<Way<'a>>, Error> {
+    /// Drafts a plan without parts below the least, with its ground. `None` if there is none that
+    /// is worth it.
+    fn draft_whole_parts(&self, usual: &Way<'a>) -> Result<Option<(Ground<'a>, Way<'a>)>, Error> {
         let mut solid = Vec::new();
-        let mut found: Option<Way<'a>> = None;
+        let mut found: Option<(Ground<'a>, Way<'a>)> = None;
         // Another void may reach into a small part in place of the one that ends before it.
         for _ in 0..=self.policy.max_ends {
-            let last = found.as_ref().unwrap_or(usual);
+            let last = found.as_ref().map_or(usual, |(_, draft)| draft);
             let ends = self.ends_in_small_parts(last)?;
             if ends.is_empty() {
                 break;
@@ -53,18 +56,15 @@ impl<'a> Ladder<'a> {
             }
             solid.extend(ends);
             let draft = unless_refused(self.draft_without(&solid, usual))?.flatten();
-            let Some(draft) = draft else {
+            let Some((ground, draft)) = draft else {
                 return Ok(None);
             };
             if !self.is_worth_joining(&draft, usual)? {
                 return Ok(None);
             }
-            found = Some(draft);
+            found = Some((ground, draft));
         }
-        match found {
-            Some(draft) if self.ends_in_small_parts(&draft)?.is_empty() => Ok(Some(draft)),
-            _ => Ok(None),
-        }
+        Ok(found.filter(|(_, draft)| !has_small_parts(draft)))
     }
 
     /// Returns whether a plan has no more parts than another, is as good, and costs next to nothing
@@ -86,7 +86,11 @@ impl<'a> Ladder<'a> {
 
     /// Drafts a plan like another one with these ends of voids kept solid; `None` if the goal is
     /// lost with them. Stops at voids that lose too much.
-    fn draft_without(&self, solid: &[SolidEnd], usual: &Way<'a>) -> Result<Option<Way<'a>>, Error> {
+    fn draft_without(
+        &self,
+        solid: &[SolidEnd],
+        usual: &Way<'a>,
+    ) -> Result<Option<(Ground<'a>, Way<'a>)>, Error> {
         let Some(ground) = self.ground.without(solid, &KeptCause::SmallPart)? else {
             return Ok(None);
         };
@@ -94,6 +98,12 @@ impl<'a> Ladder<'a> {
         let is_lost =
             |voids: &Voids| before.loss_ratio(&Achieved::of(voids)) > self.policy.part_loss_ratio;
         let draft = self.plan_in_walls(&ground, &usual.request, Rung::Bosses, &is_lost)?;
-        Ok(Some(draft))
+        Ok(Some((ground, draft)))
     }
+}
+
+/// Returns whether a plan has parts below the least.
+fn has_small_parts(way: &Way) -> bool {
+    let is_small = |note: &cut::Remark| matches!(note, cut::Remark::SmallPart { .. });
+    way.bossed.plan.notes.iter().any(is_small)
 }

@@ -65,7 +65,7 @@ pub(super) fn choice(file: String, leaning: &Leaning, all: &[Leaning]) -> PlanCh
         value: certificate.value,
         loss_ratio: losses.fold(0.0, f64::max),
         parts: plan.count_parts(),
-        is_solid: leaning.opened.voids.hollowed.voids.is_empty(),
+        is_solid: plan.cuts.is_empty() && leaning.opened.voids.hollowed.voids.is_empty(),
         pins: plan.pins.len(),
         joints_without_pins: unaligned.count(),
         seams: leaning.seams.iter().map(seam_row).collect(),
@@ -155,5 +155,27 @@ pub(super) fn pin_words(choice: &PlanChoice) -> String {
     match choice.joints_without_pins {
         0 => pins,
         lacking => format!("{pins}; {} without two", format_count(lacking, "joint")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_seam_is_worded_by_how_much_of_it_is_seen() {
+        let row = |seen_ratio: f64| SeamRow {
+            cut: "C1".to_owned(),
+            length_mm: 57.6,
+            seen_ratio,
+            place: "level, at 44 % of the height".to_owned(),
+            is_slanted: false,
+        };
+        assert_eq!(
+            seam_words(&row(0.05)),
+            "58 mm, level, at 44 % of the height; hardly seen"
+        );
+        assert!(seam_words(&row(0.2)).ends_with("seen a little"));
+        assert!(seam_words(&row(0.5)).ends_with("easily seen"));
     }
 }

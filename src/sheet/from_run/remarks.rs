@@ -72,19 +72,19 @@ fn slack(facts: &Facts) -> Option<String> {
 fn warn_of_slack(joints: &[JointFacts], order: &RotorOrder, mass_g: f64) -> Option<String> {
     let allowed_g_mm = order.allowed_g_mm(mass_g);
     let left = |joint: &JointFacts| Some((joint.id.clone(), joint.unbalance_g_mm?));
-    let left = joints.iter().filter_map(left);
-    let (ids, left_g_mm): (Vec<String>, Vec<f64>) = left
-        .filter(|(_, left_g_mm)| *left_g_mm > allowed_g_mm)
-        .unzip();
-    let worst_g_mm = left_g_mm.into_iter().reduce(f64::max)?;
-    Some(format!(
-        "{}: the play of the joint can leave {} at one end of the axis, and grade G\u{a0}{} allows \
-         {}. Line the parts up on the shaft, or balance the rotor once it is glued",
-        ids.join(", "),
-        measured(worst_g_mm, "g·mm"),
-        number(order.grade_mm_s),
-        measured(allowed_g_mm, "g·mm")
-    ))
+    let (ids, left_g_mm): (Vec<String>, Vec<f64>) = joints.iter().filter_map(left).unzip();
+    // All joints may shift the same way.
+    let all_g_mm: f64 = left_g_mm.iter().sum();
+    (all_g_mm > allowed_g_mm).then(|| {
+        format!(
+            "{}: a shift in the joint can leave an unbalance of {} at one end of the axis, and \
+             grade G\u{a0}{} allows {}. Balance the rotor on a machine once it is glued",
+            ids.join(", "),
+            measured(all_g_mm, "g·mm"),
+            number(order.grade_mm_s),
+            measured(allowed_g_mm, "g·mm")
+        )
+    })
 }
 
 /// Returns a warning for each part that is lighter than the least that was asked for.
@@ -119,8 +119,10 @@ fn left_solid(facts: &Facts) -> Option<String> {
     let why = match (is_printed_in_vat(facts.placed), by_plan) {
         (false, false) => "because it could not be cleaned",
         (true, false) => "because it could not be drained or cleaned",
-        (false, true) => "because it could not be cleaned or because the plan says so",
-        (true, true) => "because it could not be drained or cleaned or because the plan says so",
+        (false, true) => "because it could not be cleaned or because the plan keeps it solid",
+        (true, true) => {
+            "because it could not be drained or cleaned or because the plan keeps it solid"
+        }
     };
     (refused >= LEAST_REPORTED_MM3).then(|| {
         format!(
@@ -175,7 +177,7 @@ mod tests {
     }
 
     #[test]
-    fn a_joint_whose_play_costs_more_than_the_grade_is_told_with_both_figures() {
+    fn joints_whose_play_costs_more_than_the_grade_are_told_with_both_figures() {
         let joint = |id: &str, unbalance_g_mm| JointFacts {
             id: id.to_owned(),
             play: None,
@@ -186,18 +188,18 @@ mod tests {
             grade_mm_s: 6.3,
         };
         let joints = [
-            joint("J1", Some(1.8)),
-            joint("J2", Some(0.9)),
+            joint("J1", Some(0.9)),
+            joint("J2", Some(0.2)),
             joint("J3", None),
         ];
         // G 6.3 at 3000 rpm allows 1.0027 g·mm to 100 g, in each of two planes.
         let said = warn_of_slack(&joints, &order, 100.0).unwrap();
         let said = said.replace('\u{a0}', " ");
         assert!(
-            said.starts_with("J1: the play of the joint can leave 1.8 g·mm at one end of the axis"),
+            said.starts_with("J1, J2: a shift in the joint can leave an unbalance of 1.1"),
             "{said}"
         );
         assert!(said.contains("grade G 6.3 allows 1.0"), "{said}");
-        assert_eq!(warn_of_slack(&joints[1..], &order, 100.0), None);
+        assert_eq!(warn_of_slack(&joints[..1], &order, 100.0), None);
     }
 }
