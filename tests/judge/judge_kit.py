@@ -770,6 +770,47 @@ def judge_play(table, sheet, parts):
             table.at_most(f"{joint['id']} step at the rim, mm", limit, step)
 
 
+def connected(sheet, start, left_out):
+    """The parts that joints connect with a part, without the joints between two parts that are left out."""
+    reached, fresh = {start}, [start]
+    pairs = [set(joint["parts"]) for joint in sheet["joints"]]
+    while fresh:
+        part = fresh.pop()
+        fresh_here = {other for pair in pairs if part in pair and pair != left_out for other in pair} - reached
+        reached |= fresh_here
+        fresh += fresh_here
+    return reached
+
+
+def judge_slack(table, sheet, parts, outer, density):
+    """Whether the play of a rotor's joints can leave the unbalance that is stated: the lighter side shifts, all around in the joint."""
+    stated = [joint for joint in sheet["joints"] if joint.get("unbalance_g_mm") is not None]
+    if not stated:
+        return
+    origin, axes = frame(sheet["goal"])
+    by_id = {part["id"]: corners for part, corners in zip(sheet["parts"], parts)}
+    along = (outer - origin) @ axes[2]
+    low, high = along.min(), along.max()
+    for joint in stated:
+        sides = [connected(sheet, part, set(joint["parts"])) for part in joint["parts"]]
+        weights = [moments(np.concatenate([by_id[part] for part in sorted(side)])) for side in sides]
+        volume, first, _ = min(weights, key=lambda weight: weight[0])
+        mass, center = volume * density, axes @ (first / volume - origin)
+        seats, jig = seats_of(sheet, joint["id"]), next((jig for jig in sheet.get("jigs", []) if jig["joint"] == joint["id"]), None)
+        _, (u, v, _) = frame({"axis": seats[0][1] if seats else jig["normal"], "origin_mm": [0, 0, 0]})
+        worst = 0.0
+        for angle in np.arange(0.0, 2 * math.pi, math.pi / 90):
+            shift = axes @ (u * math.cos(angle) + v * math.sin(angle)) * joint["play"]["shift_mm"]
+            # What the shift adds to Σ m (x, y) and to Σ m z (x, y); without it the rotor is balanced.
+            added = mass * shift[:2]
+            product = mass * (shift[:2] * center[2] + shift[2] * center[:2] + shift[2] * shift[:2])
+            planes = (added * high - product) / (high - low), (product - added * low) / (high - low)
+            worst = max(worst, *(np.linalg.norm(plane) for plane in planes))
+        # What is left without a shift adds to it or takes from it. The program tries 32 directions, this 180.
+        left = sheet["assembly"]["unbalance"]["end_plane_g_mm"]
+        table.at_most(f"{joint['id']} unbalance by a shift, off by g·mm", left + 5e-3 * worst, abs(joint["unbalance_g_mm"] - worst))
+
+
 def rings_of(mesh, heights, flat):
     """The closed lines in which a plane meets a welded mesh, a corner on the plane counting as above it."""
     edge_after, above = {}, heights >= 0
@@ -1449,6 +1490,7 @@ def judge(kit):
         table.at_least(f"{part['id']} ({part['part']}) room, mm", 0.0, ballast_room(part, whole, voids))
     judge_pins(table, sheet, parts)
     judge_play(table, sheet, parts)
+    judge_slack(table, sheet, parts, np.concatenate(outer).reshape(-1, 3), density)
     judge_jigs(table, sheet, kit, parts, outer)
     judge_voids(table, sheet, voids, parts)
     judge_dowels(table, sheet, parts)
