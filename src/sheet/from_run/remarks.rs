@@ -199,7 +199,7 @@ mod tests {
             said.starts_with("J1, J2: a shift in the joint can leave an unbalance of 1.1"),
             "{said}"
         );
-        assert!(said.contains("grade G 6.3 allows 1.0"), "{said}");
+        assert!(said.contains("grade G 6.3 allows 1 g·mm"), "{said}");
         assert_eq!(warn_of_slack(&joints[..1], &order, 100.0), None);
     }
 }
