@@ -77,7 +77,9 @@ fn a_tip_that_is_too_short_for_the_lean_is_refused_with_the_one_that_does_it() {
         said.contains("and 30° are asked for") && said.contains("--tip="),
         "{said}"
     );
-    // Without an axis the tip is held against the natural one, and no other is taken for it.
+    // Without an axis the tip is held against the natural one, on which the top leans by 32°, and
+    // no other is taken for it.
+    let rod = "--contact center --tip 4mmx10mmx6mm --least-lean 40";
     let options = format!("{QUICK} --goal top --wall 1mm {rod}");
     let line = [
         &["prepare", ELLIPSOID, "--out", path(&kit)],
