@@ -62,32 +62,27 @@ fn without_a_tip_no_lean_is_promised_and_the_sheet_says_so() {
 fn a_tip_that_is_too_short_for_the_lean_is_refused_with_the_one_that_does_it() {
     let folder = tempfile::tempdir().unwrap();
     let kit = folder.path().join("kit");
-    let rod = "--contact center --tip 4mmx10mmx6mm --least-lean 30";
-    let options = format!("{QUICK} --goal top --wall 1mm --up y {rod}");
-    let line = [
-        &["prepare", ELLIPSOID, "--out", path(&kit)],
-        &words(&options)[..],
-    ]
-    .concat();
-    let output = equipoise(&line);
-    assert_exit(&output, 2);
-    assert!(!kit.exists());
-    let said = printed(&output);
-    assert!(
-        said.contains("and 30° are asked for") && said.contains("--tip="),
-        "{said}"
-    );
+    let refuses = |more: &str, least_deg: u32| {
+        let rod = format!("--contact center --tip 4mmx10mmx6mm --least-lean {least_deg}");
+        let options = format!("{QUICK} --goal top --wall 1mm {rod} {more}");
+        let line = [
+            &["prepare", ELLIPSOID, "--out", path(&kit)],
+            &words(&options)[..],
+        ]
+        .concat();
+        let output = equipoise(&line);
+        assert_exit(&output, 2);
+        assert!(!kit.exists());
+        let said = printed(&output);
+        let asked = format!("and {least_deg}° are asked for");
+        assert!(said.contains(&asked), "{said}");
+        said
+    };
+    let said = refuses("--up y", 30);
+    assert!(said.contains("--tip="), "{said}");
     // Without an axis the tip is held against the natural one, on which the top leans by 32°, and
     // no other is taken for it.
-    let rod = "--contact center --tip 4mmx10mmx6mm --least-lean 40";
-    let options = format!("{QUICK} --goal top --wall 1mm {rod}");
-    let line = [
-        &["prepare", ELLIPSOID, "--out", path(&kit)],
-        &words(&options)[..],
-    ]
-    .concat();
-    assert_exit(&equipoise(&line), 2);
-    assert!(!kit.exists());
+    refuses("", 40);
 }
 
 #[test]

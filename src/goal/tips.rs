@@ -21,8 +21,8 @@ const LEAST_DIAMETER_RATIO: f64 = 0.029;
 /// The greatest length of a tip outside the model, in its diameters. A thinner one bends, and looks
 /// like a stilt.
 const SLENDER_DIAMETERS: f64 = 6.0;
-/// The greatest length of a pin, as a part of the model's longest side. A longer one carries more
-/// weight than the top, and nobody would call it a tip.
+/// The greatest length of a pin, as a part of the model's longest side. Nobody would call a longer
+/// one a tip.
 const LONGEST_RATIO: f64 = 0.5;
 /// The least length outside, in diameters: its end is a half ball, and the rest is seen.
 const LEAST_OUT_DIAMETERS: f64 = 1.0;
@@ -186,7 +186,7 @@ mod tests {
             ..Request::new(GoalKind::Top)
         };
         let refused = place(&slab, 1.0, &with_tip("4mmx9mmx4mm")).unwrap_err();
-        let Some(GoalError::ShortTip { lean_deg, pin, .. }) = Some(&refused) else {
+        let GoalError::ShortTip { lean_deg, pin, .. } = &refused else {
             panic!("{refused}")
         };
         // The corners are 42.43 mm from the axis and 3 mm over the middle of the round end. They

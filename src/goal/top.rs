@@ -34,7 +34,6 @@ const TOUCHING_MM: f64 = 0.01;
 pub(super) struct Order {
     contact: Contact,
     tip: TipChoice,
-    least_lean_rad: f64,
     least_lean_deg: f64,
 }
 
@@ -44,14 +43,17 @@ impl Order {
         Self {
             contact: request.contact.unwrap_or(Contact::Auto),
             tip: request.ordered_tip(),
-            least_lean_rad: request.least_lean_deg.to_radians(),
             least_lean_deg: request.least_lean_deg,
         }
     }
 
+    fn least_lean_rad(&self) -> f64 {
+        self.least_lean_deg.to_radians()
+    }
+
     /// Returns true if nothing is promised of the lean, so that none need be found.
     fn is_unpromised(&self) -> bool {
-        self.tip == TipChoice::None && self.least_lean_rad == 0.0
+        self.tip == TipChoice::None && self.least_lean_rad() == 0.0
     }
 
     /// Returns whether a placement touches the floor at its contact and leans far enough.
@@ -62,7 +64,7 @@ impl Order {
             .as_ref()
             .map(|footing| footing.lean().lean_rad);
         !placement.warnings.iter().any(is_off)
-            && lean_rad.is_none_or(|lean_rad| lean_rad >= self.least_lean_rad)
+            && lean_rad.is_none_or(|lean_rad| lean_rad >= self.least_lean_rad())
     }
 }
 
@@ -89,14 +91,14 @@ fn refuse_short_tip(
     let Some(Footing::Tip { lean, .. }) = placed.footing else {
         return Ok(());
     };
-    if lean.lean_rad >= order.least_lean_rad {
+    if lean.lean_rad >= order.least_lean_rad() {
         return Ok(());
     }
     let origin = contact_point(site, order.contact)?;
     Err(GoalError::ShortTip {
         lean_deg: lean.lean_rad.to_degrees(),
         least_deg: order.least_lean_deg,
-        pin: stock_pins(site, wall_mm, &origin, order.least_lean_rad)
+        pin: stock_pins(site, wall_mm, &origin, order.least_lean_rad())
             .into_iter()
             .next(),
     })
@@ -138,7 +140,7 @@ fn place_on(site: &Site, wall_mm: f64, order: Order) -> Result<Placement, GoalEr
             lean_deg: lean.lean_rad.to_degrees(),
         }));
     }
-    let pins = stock_pins(site, wall_mm, &origin, order.least_lean_rad);
+    let pins = stock_pins(site, wall_mm, &origin, order.least_lean_rad());
     if pins.is_empty() {
         return Ok(with_warning(bare, |_| Warning::NoTip));
     }

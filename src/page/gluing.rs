@@ -207,7 +207,8 @@ fn shaft_advice(sheet: &Checklist) -> Option<String> {
     // A bore that is still to be made holds no shaft.
     (is_needed && turns_on.kind == ShaftKind::Bore).then(|| {
         format!(
-            "Before the glue sets, push a straight shaft through the bore ({}) that just fits. It lines up the parts that the bore runs through. Keep it free of glue.",
+            "Before the glue sets, push a straight shaft through the bore ({}) that just fits. \
+             It lines up the parts that the bore runs through. Keep it free of glue.",
             measured(turns_on.diameter_mm, "mm")
         )
     })

@@ -104,6 +104,32 @@ pub(crate) fn peg(diameter_mm: f64, length_mm: f64, volume_mm3: f64) -> Peg {
     }
 }
 
+/// Returns the sound kit with two pins on the list, at both ends of the box, with 0.1 mm of room.
+pub(crate) fn kit_with_two_pins() -> Evidence {
+    let mut evidence = sound_kit();
+    let at = |id: &str, x: f64, diameter_mm: f64| Peg {
+        id: id.to_owned(),
+        center_mm: [x, SEAT[1], SEAT[2]],
+        ..peg(diameter_mm, 1.0, 0.0)
+    };
+    let both = |diameter_mm| {
+        vec![
+            at("N1", SEAT[0], diameter_mm),
+            at("N2", -SEAT[0], diameter_mm),
+        ]
+    };
+    evidence.promise.parts[0].pins = both(0.6);
+    evidence.promise.parts[1].sockets = both(0.8);
+    evidence.promise.joints = vec![PromisedJoint {
+        id: "J1".to_owned(),
+        parts: ["P01".to_owned(), "P02".to_owned()],
+        clearance_mm: 0.1,
+        held_by: Some(HeldBy::Pins),
+        glue: None,
+    }];
+    evidence
+}
+
 /// Judges a kit without a watch.
 pub(crate) fn judge(evidence: &Evidence) -> Judgement {
     super::judge(evidence, &Watch::silent()).unwrap()

@@ -104,36 +104,10 @@ pub(super) fn worst_joint<'a>(
 
 #[cfg(test)]
 mod tests {
-    use super::super::judge_tests::{SEAT, failures, judge, peg, sound_kit};
+    use super::super::judge_tests::{failures, judge, kit_with_two_pins};
     use super::super::{Evidence, HeldBy};
     use super::*;
     use crate::geom::play::step_bound_mm;
-
-    /// The sound kit with two pins on the list, at both ends of the box.
-    fn kit_with_two_pins() -> Evidence {
-        let mut evidence = sound_kit();
-        let at = |id: &str, x: f64, diameter_mm: f64| Peg {
-            id: id.to_owned(),
-            center_mm: [x, SEAT[1], SEAT[2]],
-            ..peg(diameter_mm, 1.0, 0.0)
-        };
-        let both = |diameter_mm| {
-            vec![
-                at("N1", SEAT[0], diameter_mm),
-                at("N2", -SEAT[0], diameter_mm),
-            ]
-        };
-        evidence.promise.parts[0].pins = both(0.6);
-        evidence.promise.parts[1].sockets = both(0.8);
-        evidence.promise.joints = vec![PromisedJoint {
-            id: "J1".to_owned(),
-            parts: ["P01".to_owned(), "P02".to_owned()],
-            clearance_mm: 0.1,
-            held_by: Some(HeldBy::Pins),
-            glue: None,
-        }];
-        evidence
-    }
 
     #[test]
     fn the_step_follows_from_the_pins_and_the_faces_in_the_files() {

@@ -25,6 +25,9 @@ impl Slack<'_> {
     /// A joint in a ring of parts is held by the others, and states nothing. Several joints between
     /// the same parts shift together: as far as the tightest of them, which alone states it.
     pub(super) fn state(&self, facts: &mut [JointFacts]) {
+        if self.setting.aim.rotor.is_none() {
+            return;
+        }
         let joints = &self.promise.joints;
         let shift_mm = |facts: &JointFacts| facts.play.map(|play| play.shift_mm);
         let shifts_mm: Vec<Option<f64>> = facts.iter().map(shift_mm).collect();
@@ -125,34 +128,13 @@ fn reach<'a>(from: &'a str, left_out: &PromisedJoint, promise: &'a Promise) -> V
 
 #[cfg(test)]
 mod tests {
-    use super::super::judge_tests::{SEAT, judge, peg, sound_kit};
-    use super::super::{Aim, Evidence, HeldBy, Peg, RotorOrder};
-    use super::*;
+    use super::super::judge_tests::{judge, kit_with_two_pins};
+    use super::super::{Aim, Evidence, RotorOrder};
     use crate::goal::GoalKind;
 
-    /// Returns the sound kit as a rotor about z, with two pins that leave 0.1 mm of room.
+    /// Returns a kit with two pins, which leave 0.1 mm of room, as a rotor about z.
     fn rotor() -> Evidence {
-        let mut evidence = sound_kit();
-        let at = |id: &str, x: f64, diameter_mm: f64| Peg {
-            id: id.to_owned(),
-            center_mm: [x, SEAT[1], SEAT[2]],
-            ..peg(diameter_mm, 1.0, 0.0)
-        };
-        let both = |diameter_mm| {
-            vec![
-                at("N1", SEAT[0], diameter_mm),
-                at("N2", -SEAT[0], diameter_mm),
-            ]
-        };
-        evidence.promise.parts[0].pins = both(0.6);
-        evidence.promise.parts[1].sockets = both(0.8);
-        evidence.promise.joints = vec![PromisedJoint {
-            id: "J1".to_owned(),
-            parts: ["P01".to_owned(), "P02".to_owned()],
-            clearance_mm: 0.1,
-            held_by: Some(HeldBy::Pins),
-            glue: None,
-        }];
+        let mut evidence = kit_with_two_pins();
         evidence.promise.goal = Aim {
             rotor: Some(RotorOrder {
                 speed_rpm: 3000.0,
@@ -181,7 +163,7 @@ mod tests {
     #[test]
     fn only_a_rotor_states_it_and_no_joint_of_a_ring() {
         let mut evidence = rotor();
-        evidence.promise.goal = sound_kit().promise.goal;
+        evidence.promise.goal = kit_with_two_pins().promise.goal;
         assert_eq!(judge(&evidence).joints[0].unbalance_g_mm, None);
         // A third part that both halves are glued to.
         let mut evidence = rotor();
