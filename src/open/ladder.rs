@@ -4,9 +4,12 @@ mod fewer;
 mod hidden;
 mod joined;
 mod rungs;
+mod trial;
+mod unseen;
 mod whole;
 
 use joined::{Fewer, Joined};
+use trial::Trial;
 
 use super::aligned::count_unaligned_of;
 use super::bosses::{Bossed, add_bosses};
@@ -44,6 +47,8 @@ pub(super) struct Ladder<'a> {
     hides_seams: bool,
     /// True if a plan with fewer parts is sought.
     joins_parts: bool,
+    /// A draft with hidden seams and walls out of sight that is worth making first.
+    unseen: Option<Trial<'a>>,
 }
 
 impl<'a> Ladder<'a> {
@@ -103,6 +108,7 @@ impl<'a> Ladder<'a> {
             watch: ground.resolver.watch().clone(),
             hides_seams: placed.job.seam.is_hidden(),
             joins_parts: true,
+            unseen: None,
             ground,
             request,
             notes,
@@ -113,6 +119,8 @@ impl<'a> Ladder<'a> {
     ///
     /// The search ends with the first plan of which pins or jigs align every joint. Hidden seams
     /// that nothing aligns give way to others, and are not followed beyond the usual rungs.
+    ///
+    /// A plan with walls out of sight stands first: its kit says whether they hold support.
     pub(super) fn climb(mut self) -> Result<Vec<Candidate<'a>>, Error> {
         let drafted = self.plan_in_walls(&self.ground, &self.request, Rung::Walls, &|_| false)?;
         let shown = Self {
@@ -120,6 +128,19 @@ impl<'a> Ladder<'a> {
             ..self.clone()
         };
         let walls = self.hide_seams(drafted.clone())?;
+        let first = self.finish_unseen()?;
+        let rest = self.climb_from(walls, shown, drafted)?;
+        Ok(first.into_iter().chain(rest).collect())
+    }
+
+    /// Climbs on from the walls of a draft. Takes also the ladder and draft with seams that are
+    /// not hidden.
+    fn climb_from(
+        mut self,
+        walls: Way<'a>,
+        shown: Self,
+        drafted: Way<'a>,
+    ) -> Result<Vec<Candidate<'a>>, Error> {
         let (usual, walls) = self.place_pins(walls)?;
         if self.planner().pins().is_some() {
             return Ok(self.candidates(None, usual, walls, Vec::new()));

@@ -10,7 +10,7 @@ use super::way::Candidate;
 use crate::base::watch::Watch;
 use crate::cut::{self, PlanRequest, SeamNote};
 use crate::error::Error;
-use crate::run::{Opened, Placed, Solved, Tendency};
+use crate::run::{Opened, Placed, Rung, Solved, Tendency};
 
 /// Opens the voids of a solution in several ways, each by another tendency; at most `count` of
 /// them, the usual one first. Of plans with the same cuts only the first is kept.
@@ -44,21 +44,32 @@ fn lean_each<'a>(
     count: usize,
 ) -> Result<Vec<(Tendency, Candidate<'a>)>, Error> {
     let mut found: Vec<(Tendency, Candidate)> = Vec::new();
-    for tendency in Tendency::ALL {
+    for tendency in Tendency::TRIED {
         if found.len() >= count {
             break;
         }
         let candidates = unless_refused(ladder.leaning(tendency).climb())?;
-        let Some(best) = candidates.and_then(|candidates| candidates.into_iter().next()) else {
-            continue;
-        };
-        let plan = &best.opened.plan;
-        let is_known = |(_, known): &(_, Candidate)| have_same_cuts(&known.opened.plan, plan);
-        if !found.iter().any(is_known) {
-            found.push((tendency, best));
+        let candidates = candidates.into_iter().flatten();
+        let (unseen, seen): (Vec<_>, Vec<_>) = candidates.partition(has_unseen_walls);
+        let is_usual = tendency == Tendency::Usual;
+        let unseen = unseen.into_iter().take(usize::from(is_usual));
+        let best = seen.into_iter().take(1).map(|best| (tendency, best));
+        for (tendency, best) in best.chain(unseen.map(|best| (Tendency::UnseenWalls, best))) {
+            let plan = &best.opened.plan;
+            let is_known = |(_, known): &(_, Candidate)| have_same_cuts(&known.opened.plan, plan);
+            if !found.iter().any(is_known) {
+                found.push((tendency, best));
+            }
         }
     }
+    found.truncate(count);
     Ok(found)
+}
+
+/// Returns whether a plan has walls out of sight, of which only a kit says whether they hold
+/// support.
+fn has_unseen_walls(candidate: &Candidate) -> bool {
+    candidate.opened.rung == Rung::UnseenWalls
 }
 
 /// A plan found by a tendency.

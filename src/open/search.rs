@@ -11,7 +11,7 @@ use super::way::Candidate;
 use crate::base::watch::Watch;
 use crate::cut::CutOrder;
 use crate::error::Error;
-use crate::run::{Placed, Solved};
+use crate::run::{Placed, Rung, Solved};
 
 /// Opens the voids of a solution, on the lowest rung that gives every joint its pins.
 ///
@@ -47,6 +47,11 @@ enum Found {
 }
 
 impl Found {
+    /// Returns whether another plan stands behind it that is known to be clean.
+    fn is_trial(&self) -> bool {
+        matches!(self, Self::Searched(found) if found.opened.rung == Rung::UnseenWalls)
+    }
+
     /// Builds it on the body itself; `None` if the body does not bear it out.
     fn build<'a>(&self, bodies: &Bodies<'a>) -> Result<Option<Candidate<'a>>, Error> {
         let order = match self {
@@ -108,6 +113,10 @@ impl<'a> Candidates<'a> {
             self.bodies = Some(bodies);
             return Ok(Some(candidate));
         }
+        if found.is_trial() {
+            self.bodies = Some(bodies);
+            return self.build_next();
+        }
         *self = Self::of_body(bodies)?;
         Ok(self.ready.next())
     }
@@ -128,7 +137,7 @@ mod tests {
     use crate::geom::Point;
     use crate::mesh::primitives;
     use crate::open::resolve::Resolver;
-    use crate::open::scenes::{LEAN, cuboid, solve, standing};
+    use crate::open::scenes::{LEAN, cuboid, lopsided, solve, standing};
     use crate::run::Opened;
 
     /// Returns a ball on a foot: a round body, whose copy has far fewer triangles.
@@ -186,6 +195,34 @@ mod tests {
         assert_eq!(found.plan.pins, again.plan.pins);
         let drawn = |opened: &Opened| opened.voids.hollowed.to_mesh();
         assert_eq!(drawn(&found).vertices(), drawn(&again).vertices());
+    }
+
+    #[test]
+    fn a_trial_that_the_body_does_not_bear_out_gives_way_to_the_next_plan() {
+        let placed = lopsided();
+        let bodies = || Bodies::new(&placed, solve(&placed), &Watch::silent()).unwrap();
+        let of_both = |rung: Rung| {
+            let bodies = bodies();
+            let copy = Ladder::new(bodies.copy().unwrap()).unwrap();
+            let mut usual = copy.climb().unwrap().remove(0);
+            let good = Planned::of(usual.clone());
+            // Nothing opens its void.
+            usual.opened.plan.cuts.clear();
+            usual.opened.rung = rung;
+            let found = [Planned::of(usual), good].map(|plan| Found::Searched(Box::new(plan)));
+            let mut candidates = Candidates {
+                bodies: Some(bodies),
+                found: Vec::from(found).into_iter(),
+                ready: Vec::new().into_iter(),
+            };
+            let built = candidates.next().unwrap().unwrap().opened;
+            (
+                built.voids.solution.is_usable(),
+                candidates.bodies.is_some(),
+            )
+        };
+        assert_eq!(of_both(Rung::UnseenWalls), (true, true));
+        assert_eq!(of_both(Rung::Walls), (true, false), "the body is searched");
     }
 
     #[test]

@@ -6,9 +6,15 @@ use super::plan::are_clean;
 use super::resolve::Resolver;
 use crate::cut::{self, CutError, CutPlan, PlanRequest};
 use crate::error::Error;
+use crate::hollow::{Certificate, Figure};
 use crate::run::{Achieved, CleaningRound, Opened, Policy, Remark, Rung, Voids};
 
+/// Share by which the toppling angle of a draft must exceed the promised one, by our own judgement.
+/// Pins and sockets take some of it, and the coarse copy differs a little from the body.
+const ANGLE_MARGIN_RATIO: f64 = 0.02;
+
 /// An opened body that is worth making, and the resolver that corrects it.
+#[derive(Clone)]
 pub struct Candidate<'a> {
     /// The voids, cuts and pins.
     pub opened: Opened,
@@ -71,6 +77,7 @@ impl<'a> Way<'a> {
         };
         let filled_ratio = usual.achieved().filled_ratio(&self.achieved());
         self.bossed.voids.solution.is_usable()
+            && self.keeps_angle_of(usual)
             && (is_clean(self) || !is_clean(usual))
             && self.loss_ratio(usual) <= max_loss_ratio
             && filled_ratio <= policy.max_void_loss_ratio
@@ -82,13 +89,32 @@ impl<'a> Way<'a> {
         seam_price(&self.bossed.voids, &self.bossed.plan, &self.request)
     }
 
+    /// Returns whether its voids reach the angle that a standing object promises, with a margin, or
+    /// those of another way do not either. True for other goals.
+    pub fn keeps_angle_of(&self, other: &Self) -> bool {
+        let promised_deg = self.resolver.placed().request.promised_angle_deg();
+        let keeps = |way: &Self| {
+            let Certificate { figure, value, .. } = way.achieved().certificate;
+            let is_angle = figure == Figure::TopplingAngleRad;
+            let least_rad = promised_deg.unwrap_or(0.0).to_radians();
+            !is_angle || value >= least_rad * (1.0 + ANGLE_MARGIN_RATIO)
+        };
+        keeps(self) || !keeps(other)
+    }
+
     /// Returns whether its seams are worth what they cost against the usual way: a little of the
     /// figure, and one more part at most.
     pub fn hides_worth(&self, usual: &Self, policy: &Policy) -> bool {
         let is_clean = |way: &Self| are_clean(&way.bossed.plan, &way.request);
+        (is_clean(self) || !is_clean(usual)) && self.costs_little(usual, policy)
+    }
+
+    /// Returns whether it costs no more against the usual way than hidden seams may. That is a
+    /// little of the figure, no promised angle, and one more part at most.
+    pub fn costs_little(&self, usual: &Self, policy: &Policy) -> bool {
         let count = |way: &Self| way.bossed.plan.count_parts();
         self.bossed.voids.solution.is_usable()
-            && (is_clean(self) || !is_clean(usual))
+            && self.keeps_angle_of(usual)
             && self.loss_ratio(usual) <= policy.seam_loss_ratio
             && count(self) <= count(usual) + 1
     }

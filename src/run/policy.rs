@@ -19,6 +19,8 @@ pub enum Rung {
     Bosses,
     /// Cuts run wherever their joints have room for pins, though their seams are seen.
     SeenSeams,
+    /// Seams are hidden, and walls are out of sight that may hold no support.
+    UnseenWalls,
     /// No cut is made for cleaning alone; hidden ends of voids stay solid.
     FewerCuts,
     /// Cuts pass through the widest places.
@@ -48,6 +50,7 @@ impl fmt::Display for Rung {
             Self::Walls => "pins in the walls",
             Self::Bosses => "bosses",
             Self::SeenSeams => "cuts where their seams are seen",
+            Self::UnseenWalls => "hidden seams, with walls out of sight that hold no support",
             Self::FewerCuts => "fewer cuts for cleaning alone",
             Self::WideJoints => "cuts through wider places",
             Self::DearBosses | Self::SomeBosses => "dear bosses",
@@ -127,6 +130,9 @@ pub struct Policy {
     pub clear_rounds: usize,
     /// Price of losing all of the figure, against that of seams, in circles of average weight.
     pub loss_price: f64,
+    /// What a plan must gain in the price of its seams if walls of its voids are out of sight, in
+    /// circles of average weight. It is made first, and kept if these walls hold no support.
+    pub unseen_gain: f64,
     /// Greatest loss for a plan whose seams are seen less.
     pub seam_loss_ratio: f64,
     /// Greatest loss for a plan with fewer parts that is taken unasked.
@@ -207,6 +213,7 @@ impl Policy {
         hidden_rounds: 5,
         clear_rounds: 1,
         loss_price: 0.5,
+        unseen_gain: 0.25,
         seam_loss_ratio: 0.1,
         part_loss_ratio: 0.02,
         offered_loss_ratio: 0.5,

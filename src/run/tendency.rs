@@ -8,6 +8,8 @@ use std::fmt;
 pub enum Tendency {
     /// Seams as the job orders them, each void open as far as it is worth its joint.
     Usual,
+    /// Seams that are seen less, with walls out of sight. Only a kit says if they hold support.
+    UnseenWalls,
     /// No cut for cleaning alone: few parts, and more stays solid.
     FewerParts,
     /// Level cuts only.
@@ -17,14 +19,16 @@ pub enum Tendency {
 }
 
 impl Tendency {
-    /// All tendencies, in the order in which they are tried.
-    pub const ALL: [Self; 4] = [Self::Usual, Self::FewerParts, Self::Level, Self::Short];
+    /// The tendencies that are tried, in their order. What has walls out of sight comes with the
+    /// usual plan.
+    pub const TRIED: [Self; 4] = [Self::Usual, Self::FewerParts, Self::Level, Self::Short];
 }
 
 impl fmt::Display for Tendency {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         f.write_str(match self {
             Self::Usual => "the usual plan",
+            Self::UnseenWalls => "hidden seams, if walls out of sight print without support",
             Self::FewerParts => "fewer parts",
             Self::Level => "level cuts only",
             Self::Short => "short seams, wherever they are seen",

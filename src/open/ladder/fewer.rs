@@ -53,10 +53,11 @@ impl<'a> Ladder<'a> {
         })
     }
 
-    /// Returns whether the voids of a plan are as clean as those of another, and its seams as well
-    /// hidden.
+    /// Returns whether the voids of a plan are as clean as those of another, its seams as well
+    /// hidden, and its promise as well kept.
     pub(super) fn is_as_good(&self, fewer: &Way, usual: &Way) -> Result<bool, Error> {
-        Ok(fault_of_draft(fewer, usual, &self.policy)?.is_none())
+        let is_faultless = fault_of_draft(fewer, usual, &self.policy)?.is_none();
+        Ok(is_faultless && fewer.keeps_angle_of(usual))
     }
 
     /// Returns whether a plan with fewer parts hides a seam that is seen in the other, at a loss

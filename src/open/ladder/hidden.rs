@@ -1,6 +1,7 @@
 //! Hidden seams: plans whose seams are seen less, where they cost little of the goal's figure.
 
 use super::Ladder;
+use super::trial::Trial;
 use crate::base::verdict::Verdict;
 use crate::cut::{Cut, CutError, CutPlan, Draft, Drafts, PlanRequest, SeamWeight, dearest_spot};
 use crate::error::Error;
@@ -58,6 +59,8 @@ struct HiddenChoice<'a> {
     best: Option<Hidden<'a>>,
     /// The least loss of the drafts that are not.
     least_loss_ratio: Option<f64>,
+    /// The best draft with walls out of sight, if walls printed without support need no sight.
+    unseen: Option<Hidden<'a>>,
 }
 
 impl<'a> HiddenChoice<'a> {
@@ -72,6 +75,10 @@ impl<'a> HiddenChoice<'a> {
         if !(other.opens_all() && other.way.hides_worth(&self.usual, policy)) {
             let least = self.least_loss_ratio.unwrap_or(f64::INFINITY);
             self.least_loss_ratio = Some(least.min(other.loss_ratio));
+            let known = self.unseen.as_ref();
+            if self.is_unseen(&other) && known.is_none_or(|known| cost < known.cost(policy)) {
+                self.unseen = Some(other);
+            }
             return false;
         }
         let is_hidden = other.price <= policy.dear_seam_ratio && other.is_clean();
@@ -80,6 +87,23 @@ impl<'a> HiddenChoice<'a> {
             self.best = Some(other);
         }
         is_hidden
+    }
+
+    /// Returns whether a draft is worth taking but for walls out of sight. On this printer they may
+    /// hold no support.
+    fn is_unseen(&self, other: &Hidden) -> bool {
+        other.way.request.cleaning.overhang_deg.is_some()
+            && other.opens_all()
+            && other.way.costs_little(&self.usual, &self.policy)
+    }
+
+    /// Takes the best draft with walls out of sight, if its seams are seen much less than those of
+    /// what was chosen.
+    fn take_unseen(&mut self) -> Option<Hidden<'a>> {
+        let chosen = self.best.as_ref().map(|best| best.cost(&self.policy));
+        let chosen = chosen.unwrap_or(self.usual_price);
+        let unseen = self.unseen.take();
+        unseen.filter(|unseen| unseen.cost(&self.policy) + self.policy.unseen_gain <= chosen)
     }
 
     /// Returns the remark on what was chosen.
@@ -111,22 +135,31 @@ impl<'a> Ladder<'a> {
             usual_price,
             best: None,
             least_loss_ratio: None,
+            unseen: None,
         };
         self.try_hidden(&mut choice, &self.request)?;
         self.try_clear(&mut choice)?;
+        self.unseen = choice.take_unseen().map(|unseen| Trial {
+            loss_ratio: unseen.loss_ratio,
+            draft: self.without_search(unseen.way),
+        });
         self.notes.push(choice.remark());
-        let Some(Hidden { mut way, .. }) = choice.best else {
+        let Some(Hidden { way, .. }) = choice.best else {
             return Ok(choice.usual);
         };
-        way.request.seams.tried.clear();
-        way.request.seams.dearest_ratio = None;
-        // Only the search kept clear of what it found to be seen; nobody ordered it.
-        way.request
-            .seams
-            .keep_clear
-            .clone_from(&self.request.seams.keep_clear);
+        let way = self.without_search(way);
         self.request = way.request.clone();
         Ok(way)
+    }
+
+    /// Returns a way whose request is rid of what only the search for hidden seams asked for.
+    fn without_search(&self, mut way: Way<'a>) -> Way<'a> {
+        let seams = &mut way.request.seams;
+        seams.tried.clear();
+        seams.dearest_ratio = None;
+        // Only the search kept clear of what it found to be seen; nobody ordered it.
+        seams.keep_clear.clone_from(&self.request.seams.keep_clear);
+        way
     }
 
     /// Tries drafts that weigh what they leave unclean against their seams, each unlike the others.
@@ -250,7 +283,8 @@ impl<'a> Ladder<'a> {
         let is_as_clean = are_clean(&seen.bossed.plan, &seen.request)
             || !are_clean(&usual.bossed.plan, &usual.request);
         let is_cheap = seen.loss_ratio(usual) <= self.policy.aligned_loss_ratio;
-        if !(is_as_clean && is_cheap && seen.bossed.voids.solution.is_usable()) {
+        let is_worth = is_as_clean && is_cheap && seen.keeps_angle_of(usual);
+        if !(is_worth && seen.bossed.voids.solution.is_usable()) {
             return Ok(None);
         }
         let seen = self.add_bosses(self.finish(seen)?, Rung::SeenSeams)?;
@@ -264,3 +298,6 @@ impl<'a> Ladder<'a> {
 fn planes(plan: &CutPlan) -> Result<Vec<Plane>, CutError> {
     plan.cuts.iter().map(Cut::plane).collect()
 }
+
+#[cfg(test)]
+mod tests;

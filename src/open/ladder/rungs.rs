@@ -20,7 +20,7 @@ impl<'a> Ladder<'a> {
             return false;
         }
         match rung {
-            Rung::Walls | Rung::Bosses | Rung::SeenSeams => false,
+            Rung::Walls | Rung::Bosses | Rung::SeenSeams | Rung::UnseenWalls => false,
             Rung::FewerCuts => self.is_free() && usual.bossed.plan.cuts.len() > 1,
             Rung::WideJoints | Rung::SolidEnds => self.is_free() && !is_solved,
             Rung::DearBosses => usual.bossed.has_dear() && !solving.any(is_cheap),
@@ -43,7 +43,7 @@ impl<'a> Ladder<'a> {
             ..self.request.clone()
         };
         let way = match rung {
-            Rung::Walls | Rung::Bosses | Rung::SeenSeams => None,
+            Rung::Walls | Rung::Bosses | Rung::SeenSeams | Rung::UnseenWalls => None,
             Rung::FewerCuts => {
                 let fewer = PlanRequest {
                     worth_ratio: 1.0,

@@ -145,3 +145,22 @@ fn the_price_tells_what_the_usual_way_lacked() {
     };
     assert_eq!(price, expected);
 }
+
+#[test]
+fn no_way_is_worth_an_angle_that_is_promised_and_that_the_usual_way_keeps() {
+    let mut placed = thick_box();
+    placed.request.least_angle_deg = 10.0;
+    let policy = Policy::STANDARD;
+    let mut angle = plan_walls(&placed);
+    angle.bossed.voids.solution.certificate.figure = Figure::TopplingAngleRad;
+    let reaching = |angle_deg: f64| with_height(&angle, angle_deg.to_radians());
+    let [usual, kept, near, lost] = [10.5, 10.3, 10.1, 9.7].map(reaching);
+    assert!(kept.is_worth(&usual, &policy) && kept.hides_worth(&usual, &policy));
+    // The written parts have a little less than the copy.
+    for way in [near, lost.clone()] {
+        assert!(!way.is_worth(&usual, &policy) && !way.hides_worth(&usual, &policy));
+    }
+    // Where the usual way misses it too, the other is worth its seams.
+    let missed = reaching(9.9);
+    assert!(lost.hides_worth(&missed, &policy));
+}
