@@ -1405,7 +1405,8 @@ def judge_model(table, sheet, kit, outer):
     """The outside of the uncut body is the surface of the model in the kit, scaled, and nothing of the model is missing.
 
     Where the program was told to change the surface, or bores holes into it, nothing is compared. What of a model lies inside
-    itself or is open is repaired: then the outside alone is held against the model, and not the model against the outside."""
+    itself or is open is repaired: then the outside alone is held against the model, but for what closes its holes, and not the
+    model against the outside."""
     row, files = sheet["model"], sorted((kit / "model").glob("*")) if (kit / "model").is_dir() else []
     changed = [word for word in ("redrawn", "thickened") if word in row] + [word for word in ("hardware", "string_gap_mm") if sheet.get(word)]
     if not files or changed:
@@ -1424,8 +1425,28 @@ def judge_model(table, sheet, kit, outer):
     else:
         print("  the model is open or crosses itself: not looked for in the outside")
     for name, corners, sheets in pairs:
-        cut = same_triangles(corners, sheets) < 0
-        table.at_most(name, ON_SURFACE_MM, farthest_off(corners[cut], sheets)[0].max(initial=0.0))
+        rest = corners[same_triangles(corners, sheets) < 0]
+        off = farthest_off(rest, sheets)[0]
+        if not whole.is_watertight and sheets is model and (off > ON_SURFACE_MM).any():
+            closing = closes_holes(rest[off > ON_SURFACE_MM], whole)
+            print(f"  {closing.sum()} triangles of the outside close holes of the model")
+            off[np.flatnonzero(off > ON_SURFACE_MM)[closing]] = 0.0
+        table.at_most(name, ON_SURFACE_MM, off.max(initial=0.0))
+
+
+def closes_holes(corners, model):
+    """Which triangles belong to patches whose edges are open edges of the model, corner by corner."""
+    from scipy.spatial import cKDTree
+
+    edges, count = np.unique(model.edges_sorted, axis=0, return_counts=True)
+    rims = cKDTree(model.vertices[np.unique(edges[count == 1])])
+    patches = welded(corners)
+    closing = np.zeros(len(corners), bool)
+    for group in trimesh.graph.connected_components(patches.face_adjacency, nodes=np.arange(len(corners)), min_len=1):
+        own, count = np.unique(np.sort(patches.faces[group][:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1), axis=0, return_counts=True)
+        ends = patches.vertices[np.unique(own[count == 1])]
+        closing[group] = len(ends) > 0 and rims.query(ends)[0].max() <= ON_SURFACE_MM
+    return closing
 
 
 def groups_of(mesh):
