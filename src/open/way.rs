@@ -89,17 +89,20 @@ impl<'a> Way<'a> {
         seam_price(&self.bossed.voids, &self.bossed.plan, &self.request)
     }
 
-    /// Returns whether its voids reach the angle that a standing object promises, with a margin, or
-    /// those of another way do not either. True for other goals.
+    /// Returns whether its voids reach the angle that a standing object promises, with a margin.
+    /// True also if those of another way miss it or reach no more, and for other goals.
     pub fn keeps_angle_of(&self, other: &Self) -> bool {
         let promised_deg = self.resolver.placed().request.promised_angle_deg();
-        let keeps = |way: &Self| {
+        let least_rad = promised_deg.unwrap_or(0.0).to_radians();
+        let angle_rad = |way: &Self| {
             let Certificate { figure, value, .. } = way.achieved().certificate;
-            let is_angle = figure == Figure::TopplingAngleRad;
-            let least_rad = promised_deg.unwrap_or(0.0).to_radians();
-            !is_angle || value >= least_rad * (1.0 + ANGLE_MARGIN_RATIO)
+            (figure == Figure::TopplingAngleRad).then_some(value)
         };
-        keeps(self) || !keeps(other)
+        let (Some(own_rad), Some(other_rad)) = (angle_rad(self), angle_rad(other)) else {
+            return true;
+        };
+        let is_safe = own_rad >= least_rad * (1.0 + ANGLE_MARGIN_RATIO);
+        is_safe || own_rad >= other_rad || other_rad < least_rad
     }
 
     /// Returns whether its seams are worth what they cost against the usual way: a little of the

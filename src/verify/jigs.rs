@@ -1,12 +1,15 @@
 //! Facts about jigs: they come off, keep their gap, leave the seam free, and hold the parts.
 
+use std::ops::ControlFlow;
+
 use rayon::prelude::*;
 
 use super::rim::rim_of;
 use super::{Body, Evidence, PartEvidence, PartFacts, Promise, PromisedJig};
 use crate::base::watch::{Cancelled, Watch};
 use crate::geom::play::{Play, Seat, Spot, Stop, Way};
-use crate::geom::{Bvh, Plane, Point, Vector};
+use crate::geom::triangle::{Feature, closest_on_triangle};
+use crate::geom::{Aabb, Bvh, Nearest, Plane, Point, Vector};
 use crate::mesh::{TriMesh, least_distance_mm};
 
 /// Distance within which a jig stops a point of the outside, mm.
@@ -23,6 +26,8 @@ const IN_PLANE_RATIO: f64 = 0.9;
 const WITHIN_MM: f64 = 1e-3;
 /// Least part of the way to the jig that is normal to its face, if it is to stop a point.
 const FACING_RATIO: f64 = 0.99;
+/// Distance within which faces of a jig meet, mm: a hundred steps of f32 coordinates at 10 mm.
+const TOUCHING_MM: f64 = 1e-4;
 
 /// A jig as found in its file.
 #[derive(Debug, Clone, PartialEq)]
@@ -213,14 +218,33 @@ impl<'a> Bench<'a> {
         Ok(stops.concat())
     }
 
+    /// Returns whether a face of the jig lies across the way to its nearest point: beside a corner
+    /// there is room to pass it. Of the faces that meet at an edge any one will do.
+    fn is_faced(&self, way: &Vector, nearest: &Nearest) -> bool {
+        let own = self.mesh.corners(nearest.triangle as usize);
+        if lies_across(&own, way) || nearest.feature == Feature::Face {
+            return lies_across(&own, way);
+        }
+        let mut is_faced = false;
+        let about = Aabb::of_points(&[nearest.point]).inflated(TOUCHING_MM);
+        self.surface.visit_overlapping(&about, |_, corners| {
+            let touching = closest_on_triangle(&nearest.point, corners).point;
+            let touches = (touching - nearest.point).norm() <= TOUCHING_MM;
+            is_faced |= touches && lies_across(corners, way);
+            if is_faced {
+                ControlFlow::Break(())
+            } else {
+                ControlFlow::Continue(())
+            }
+        });
+        is_faced
+    }
+
     /// Returns the stop of a point of the outside; `None` if the jig is far from it, or beside it.
     fn stop(&self, at: &Point) -> Option<Stop> {
         let nearest = self.surface.closest(at, REACH_MM, &[])?;
         let way = nearest.point - at;
-        let [a, b, c] = self.mesh.corners(nearest.triangle as usize);
-        let normal = (b - a).cross(&(c - a));
-        // Beside a corner of the jig there is room to pass it.
-        let is_ahead = way.dot(&normal).abs() >= FACING_RATIO * way.norm() * normal.norm();
+        let is_ahead = self.is_faced(&way, &nearest);
         let flat = self.flat(&nearest.point) - self.flat(at);
         let in_plane = flat.norm();
         (is_ahead && in_plane > IN_PLANE_RATIO * way.norm()).then(|| Stop {
@@ -229,6 +253,13 @@ impl<'a> Bench<'a> {
             room_mm: in_plane,
         })
     }
+}
+
+/// Returns whether a triangle lies across a way.
+fn lies_across([a, b, c]: &[Point; 3], way: &Vector) -> bool {
+    let normal = (b - a).cross(&(c - a));
+    let least = FACING_RATIO * way.norm() * normal.norm();
+    least > 0.0 && way.dot(&normal).abs() >= least
 }
 
 /// Returns points along the sides of a polygon, [`STEP_MM`] apart at most.
@@ -283,4 +314,73 @@ fn clip(polygon: &[Point], excess: impl Fn(&Point) -> f64) -> Vec<Point> {
         }
     }
     kept
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::primitives;
+    use crate::verify::Pose;
+
+    /// Returns two faces that meet in a ridge along x, each so many degrees below the level.
+    fn ridge(left_deg: f64, right_deg: f64) -> [[Point; 3]; 4] {
+        let foot = |side: f64, deg: f64| {
+            let (sin, cos) = deg.to_radians().sin_cos();
+            [-9.0, 9.0].map(|x| Point::new(x, side * 5.0 * cos, -5.0 * sin))
+        };
+        let crest = [-9.0, 9.0].map(|x| Point::new(x, 0.0, 0.0));
+        let (left, right) = (foot(-1.0, left_deg), foot(1.0, right_deg));
+        [
+            [left[0], left[1], crest[1]],
+            [left[0], crest[1], crest[0]],
+            [crest[0], crest[1], right[1]],
+            [crest[0], right[1], right[0]],
+        ]
+    }
+
+    /// Returns the stop of a point over a ridge, whose faces stand in this order in the file.
+    fn stop_over(faces: &[[Point; 3]], at: &Point) -> Option<Stop> {
+        let jig = PromisedJig {
+            id: String::new(),
+            joint: String::new(),
+            file: String::new(),
+            print_from_model: Pose::identity(),
+            out: [0.0, 0.0, 1.0],
+            point_mm: [0.0; 3],
+            normal: [1.0, 0.0, 0.0],
+            gap_mm: 0.1,
+            ribs_mm: [4.0, 8.0],
+            pressed_mm: 0.03,
+        };
+        let corners = |face: u32| [3 * face, 3 * face + 1, 3 * face + 2];
+        let body = Body::of(&primitives::ball(&Point::origin(), 1.0, 1));
+        let bench = Bench {
+            jig: &jig,
+            mesh: TriMesh::new(faces.concat(), (0..4).map(corners).collect()).unwrap(),
+            surface: Bvh::new(faces.iter().copied()),
+            outer: &body.outer,
+            outside: &body.outside,
+        };
+        bench.stop(at)
+    }
+
+    #[test]
+    fn a_ridge_stops_a_point_that_one_of_its_faces_lies_below() {
+        // A way between both normals, 2° from the right one and 13° from the left one.
+        let tilt = 1.0_f64.to_radians();
+        let at = Point::new(0.3, 0.5 * tilt.sin(), 0.5 * tilt.cos());
+        let faces = ridge(12.0, 3.0);
+        let mut turned = faces;
+        turned.reverse();
+        for faces in [faces, turned] {
+            let stop = stop_over(&faces, &at).unwrap();
+            assert!((stop.room_mm - 0.5).abs() < 1e-9);
+        }
+    }
+
+    #[test]
+    fn beside_a_sharp_ridge_there_is_room_to_pass() {
+        let at = Point::new(0.3, 0.0, 0.5);
+        assert_eq!(stop_over(&ridge(30.0, 20.0), &at), None);
+    }
 }

@@ -22,9 +22,12 @@ impl<'a> Ladder<'a> {
         if way.count_unaligned()? > 0 {
             return Ok(None);
         }
-        Ok(Some(way.into_candidate([Remark::Seams {
+        let hidden = Remark::Seams {
             loss_ratio: Some(loss_ratio),
             is_taken: true,
-        }])))
+        };
+        let is_ordered = |note: &&Remark| !matches!(note, Remark::Seams { .. });
+        let notes = self.notes.iter().filter(is_ordered).cloned();
+        Ok(Some(way.into_candidate(notes.chain([hidden]))))
     }
 }

@@ -155,6 +155,8 @@ fn no_way_is_worth_an_angle_that_is_promised_and_that_the_usual_way_keeps() {
     angle.bossed.voids.solution.certificate.figure = Figure::TopplingAngleRad;
     let reaching = |angle_deg: f64| with_height(&angle, angle_deg.to_radians());
     let [usual, kept, near, lost] = [10.5, 10.3, 10.1, 9.7].map(reaching);
+    // A usual way that just keeps it is kept, too.
+    assert!(near.is_worth(&near.clone(), &policy) && !lost.is_worth(&near, &policy));
     assert!(kept.is_worth(&usual, &policy) && kept.hides_worth(&usual, &policy));
     // The written parts have a little less than the copy.
     for way in [near, lost.clone()] {
