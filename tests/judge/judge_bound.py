@@ -10,6 +10,8 @@ no hollowing is better than τ. The moments of the solid are exact. The inside i
 z, deep by the distance to a dense sample of the surface. A top has a point at each of several heights ℓ: its tensor, made linear
 there, is off by s₁(h − ℓ)² if the centre is at h, so a margin of δ s₁ proves the ratio within √δ of ℓ.
 
+Where the grid proves too little, one with four times the cells is looked at.
+
 Exit code 0: no hollowing beats the certificate by more than 1 %; 1: one might; 2: no proof in the kit.
 """
 
@@ -323,7 +325,9 @@ def main():
     parser.add_argument("--cells", type=int, default=600_000, help="number of the grid's cells in the body")
     parser.add_argument("kits", nargs="+", type=Path)
     options = parser.parse_args()
-    results = [judge(kit, options.cells) for kit in options.kits]
+    # A thin wall of a small model takes a finer grid: on a heart of 60 mm 1.1 % are left of 600 000 cells, 0.7 % of 2 000 000.
+    finer = lambda kit, holds: judge(kit, 4 * options.cells) if holds is False else holds
+    results = [finer(kit, judge(kit, options.cells)) for kit in options.kits]
     sys.exit(1 if False in results else 2 if None in results else 0)
 
 
