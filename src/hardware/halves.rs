@@ -4,7 +4,7 @@ use super::bore::is_inside;
 use super::error::FitError;
 use super::workshop::Workshop;
 use crate::geom::{Plane, Point, Vector};
-use crate::mesh::{Csg, TriMesh, move_off_vertices};
+use crate::mesh::{Csg, TriMesh, move_off_vertices, surface_mm2};
 
 /// Pieces below this volume are slivers of a cut that runs along a face, mm³.
 const SHEET_MM3: f64 = 1e-6;
@@ -115,10 +115,4 @@ fn hull(body: &Csg, piece: &TriMesh) -> Result<Csg, FitError> {
     } else {
         Err(FitError::Loose { pieces: 3 })
     }
-}
-
-fn surface_mm2(mesh: &TriMesh) -> f64 {
-    mesh.iter_corners()
-        .map(|[a, b, c]| 0.5 * (b - a).cross(&(c - a)).norm())
-        .sum()
 }

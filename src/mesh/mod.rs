@@ -44,7 +44,7 @@ pub use distance::{MeshDistance, least_distance_mm};
 pub(crate) use ear_clip::ear_clip;
 pub use facts::MeshFacts;
 pub use foot::{BRIM_MM, GOOD_FOOT_MM2, foot_area_mm2};
-pub use sampling::{SurfacePoint, area_mm2, spread_points};
+pub use sampling::{SurfacePoint, area_mm2, spread_points, surface_mm2};
 pub use solid::Solid;
 pub(crate) use tri_mesh::smallest_first;
 pub use tri_mesh::{MeshError, TriMesh, scaled};

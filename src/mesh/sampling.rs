@@ -1,5 +1,6 @@
 //! Points spread evenly over a surface.
 
+use super::TriMesh;
 use crate::geom::{Point, Vector};
 
 /// A point of a surface.
@@ -42,6 +43,11 @@ pub fn spread_points(triangles: &[[Point; 3]], count: usize) -> Vec<SurfacePoint
 /// Returns the area of a triangle, mm².
 pub fn area_mm2([a, b, c]: &[Point; 3]) -> f64 {
     (b - a).cross(&(c - a)).norm() / 2.0
+}
+
+/// Returns the area of all triangles of a mesh, mm².
+pub fn surface_mm2(mesh: &TriMesh) -> f64 {
+    mesh.iter_corners().map(|corners| area_mm2(&corners)).sum()
 }
 
 /// Returns point `index` of the sequence, folded into the triangle.

@@ -130,8 +130,8 @@ pub struct Policy {
     pub clear_rounds: usize,
     /// Price of losing all of the figure, against that of seams, in circles of average weight.
     pub loss_price: f64,
-    /// What a plan must gain in the price of its seams if walls of its voids are out of sight, in
-    /// circles of average weight. It is made first, and kept if these walls hold no support.
+    /// Least gain in the price of seams, in circles of average weight, for a plan with walls out of
+    /// sight. It is made first, and kept if these walls hold no support.
     pub unseen_gain: f64,
     /// Greatest loss for a plan whose seams are seen less.
     pub seam_loss_ratio: f64,

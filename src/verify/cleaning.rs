@@ -13,7 +13,7 @@ use super::{Promise, PromisedCut};
 use crate::base::watch::{Cancelled, Watch};
 use crate::geom::triangle::closest_on_segment;
 use crate::geom::{Bvh, Plane, Point, Vector};
-use crate::mesh::{SurfacePoint, TriMesh, area_mm2, spread_points};
+use crate::mesh::{SurfacePoint, TriMesh, spread_points, surface_mm2};
 use crate::repair::weld;
 
 /// Distance within which triangles belong to a void's wall and points lie in a cut, mm. It is a
@@ -302,11 +302,6 @@ impl Patch<'_> {
             .flat_map(|(cut, points)| points.iter().map(move |point| (cut, *point)));
         all.filter(|(cut, point)| is_own(*cut, point)).collect()
     }
-}
-
-/// Returns the area of a surface, mm².
-fn surface_mm2(mesh: &TriMesh) -> f64 {
-    mesh.iter_corners().map(|corners| area_mm2(&corners)).sum()
 }
 
 /// Returns the edges of a surface with a triangle on one side only.

@@ -356,12 +356,8 @@ fn plans_are_written_beside_the_model_and_not_over_its_kit() {
 
 #[test]
 fn numbers_take_the_units_that_people_type() {
-    let rotor =
-        request("equipoise prepare m.stl --printer a --goal balance --speed 3000rpm --grade G1")
-            .job
-            .goal
-            .rotor
-            .unwrap();
+    let line = "equipoise prepare m.stl --printer a --goal balance --speed 3000rpm --grade G1";
+    let rotor = request(line).job.goal.rotor.unwrap();
     assert_eq!((rotor.speed_rpm, rotor.grade_mm_s), (3000.0, 1.0));
     let apart = ["equipoise", "m.stl", "--size", "100 mm"].map(Into::into);
     let Command::Prepare(args) = Cli::read(apart.to_vec()).unwrap().command else {
@@ -383,10 +379,8 @@ fn the_short_helps_fit_on_a_screen_and_show_three_examples() {
         assert!(help.lines().count() <= 24, "{help}");
         let (_, examples) = help.split_once("Examples:").unwrap();
         assert_eq!(examples.matches("  equipoise ").count(), 3, "{help}");
-        assert!(
-            help.lines().all(|line| line.chars().count() <= 80),
-            "{help}"
-        );
+        let mut widths = help.lines().map(|line| line.chars().count());
+        assert!(widths.all(|width| width <= 80), "{help}");
     }
 }
 
@@ -394,10 +388,8 @@ fn the_short_helps_fit_on_a_screen_and_show_three_examples() {
 fn the_long_help_has_every_option_and_begins_with_what_is_needed() {
     let mut prepare = Cli::program().find_subcommand("prepare").unwrap().clone();
     let help = prepare.render_long_help().to_string();
-    for argument in prepare
-        .get_arguments()
-        .filter_map(|argument| argument.get_long())
-    {
+    let options = prepare.get_arguments().filter_map(clap::Arg::get_long);
+    for argument in options {
         assert!(help.contains(&format!("--{argument}")), "{argument}");
     }
     let at = |option: &str| help.find(&format!("      --{option} ")).unwrap();
