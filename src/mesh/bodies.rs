@@ -1,7 +1,7 @@
 //! Splits a closed mesh into its connected shells and into the bodies that they bound.
 
 use super::{TriMesh, union_find::UnionFind};
-use crate::geom::Point;
+use crate::geom::{Bvh, Point};
 
 /// Returns the connected shells of `mesh`, in the order of their first triangles.
 ///
@@ -36,6 +36,24 @@ pub fn shells(mesh: &TriMesh) -> Vec<TriMesh> {
     parts
         .map(|(vertices, triangles)| TriMesh::from_parts(vertices, triangles))
         .collect()
+}
+
+/// Returns the shell that comes nearest to any of some points; `None` without shells. Of equally
+/// near ones it is the first.
+pub fn nearest_shell<'a>(shells: &'a [TriMesh], points: &[Point]) -> Option<&'a TriMesh> {
+    if let [only] = shells {
+        return Some(only);
+    }
+    let distance_mm = |shell: &TriMesh| {
+        let surface = Bvh::new(shell.iter_corners());
+        points.iter().fold(f64::INFINITY, |least_mm, p| {
+            let nearer = surface.closest(p, least_mm, &[]);
+            nearer.map_or(least_mm, |nearest| (nearest.point - p).norm().min(least_mm))
+        })
+    };
+    let measured = shells.iter().map(|shell| (distance_mm(shell), shell));
+    let nearest = measured.min_by(|a, b| a.0.total_cmp(&b.0));
+    nearest.map(|(_, shell)| shell)
 }
 
 /// Returns the bodies that a closed, oriented mesh bounds, in the order of their outward shells.
@@ -91,4 +109,28 @@ fn shell_of_vertices(mesh: &TriMesh) -> Vec<u32> {
         sets.merge(b, c);
     }
     (0..count as u32).map(|v| sets.root(v)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geom::Vector;
+    use crate::mesh::primitives::ball;
+
+    #[test]
+    fn the_nearest_shell_is_the_one_that_any_of_the_points_comes_near() {
+        let balls = [0.0, 30.0].map(|x| {
+            let ball = ball(&Point::origin(), 10.0, 3);
+            ball.map_vertices(|p| p + Vector::x() * x)
+        });
+        let nearest = |points: &[Point]| {
+            let shell = nearest_shell(&balls, points).unwrap();
+            balls.iter().position(|ball| ball == shell)
+        };
+        let [left, between, right] = [9.0, 14.0, 20.5].map(|x| Point::new(x, 0.0, 0.0));
+        assert_eq!(nearest(&[left]), Some(0));
+        assert_eq!(nearest(&[right, between]), Some(1));
+        assert_eq!(nearest(&[between]), Some(0));
+        assert_eq!(nearest_shell(&[], &[left]), None);
+    }
 }

@@ -34,7 +34,7 @@ pub(crate) mod union_find;
 mod winding;
 
 pub(crate) use axial::{AxialLine, NearAxis, walled_mm};
-pub use bodies::{bodies, shells, winding_number};
+pub use bodies::{bodies, nearest_shell, shells, winding_number};
 pub use broken::Broken;
 pub use crossings::Crossings;
 pub use csg::{ClipError, Csg};

@@ -10,7 +10,7 @@ use crate::base::watch::{Cancelled, Watch};
 use crate::geom::play::{Play, Seat, Spot, Stop, Way};
 use crate::geom::triangle::{Feature, closest_on_triangle};
 use crate::geom::{Aabb, Bvh, Nearest, Plane, Point, Vector};
-use crate::mesh::{TriMesh, least_distance_mm};
+use crate::mesh::{TriMesh, least_distance_mm, nearest_shell};
 
 /// Distance within which a jig stops a point of the outside, mm.
 const REACH_MM: f64 = 1.0;
@@ -61,9 +61,11 @@ pub fn measure_jigs(
     let jigs = promise.jigs.iter().zip(&evidence.jigs);
     let facts = jigs.map(|(jig, read)| {
         let part = PartFacts::of_part(read, &Bvh::new(read.mesh.iter_corners()), watch)?;
-        let bench = Bench::new(jig, read, body);
+        let rim = rim_in(jig, evidence);
+        // The other half of a yo-yo is not there while the glue of this one sets.
+        let own = nearest_shell(&body.shells.outward, &rim);
         watch.check()?;
-        let rim = bench.rim(evidence);
+        let bench = Bench::new(jig, read, own.unwrap_or(&body.outer));
         Ok(JigFacts {
             joint: jig.joint.clone(),
             part,
@@ -89,44 +91,42 @@ struct Bench<'a> {
     mesh: TriMesh,
     surface: Bvh,
     outer: &'a TriMesh,
-    outside: &'a Bvh,
+    outside: Bvh,
+}
+
+/// Returns the plane of a jig's joint.
+fn plane_of(jig: &PromisedJig) -> Plane {
+    Plane::through(&Point::from(jig.point_mm), &Vector::from(jig.normal))
+}
+
+/// Returns points of the rim of a jig's joint; empty if there is no such joint.
+fn rim_in(jig: &PromisedJig, evidence: &Evidence) -> Vec<Point> {
+    let mut joints = evidence.promise.joints.iter();
+    let joint = joints.find(|joint| joint.id == jig.joint);
+    let rim = joint.and_then(|joint| rim_of(joint, &plane_of(jig), &evidence.parts));
+    rim.unwrap_or_default()
 }
 
 impl<'a> Bench<'a> {
-    fn new(jig: &'a PromisedJig, read: &PartEvidence, body: &'a Body) -> Self {
+    fn new(jig: &'a PromisedJig, read: &PartEvidence, outer: &'a TriMesh) -> Self {
         let mesh = read.mesh.map_vertices(|p| read.pose.to_model(p));
         Self {
             jig,
             surface: Bvh::new(mesh.iter_corners()),
             mesh,
-            outer: &body.outer,
-            outside: &body.outside,
+            outside: Bvh::new(outer.iter_corners()),
+            outer,
         }
-    }
-
-    fn plane(&self) -> Plane {
-        Plane::through(
-            &Point::from(self.jig.point_mm),
-            &Vector::from(self.jig.normal),
-        )
     }
 
     fn out(&self) -> Vector {
         Vector::from(self.jig.out)
     }
 
-    /// Returns points of the rim of its joint; empty if there is no such joint.
-    fn rim(&self, evidence: &Evidence) -> Vec<Point> {
-        let mut joints = evidence.promise.joints.iter();
-        let joint = joints.find(|joint| joint.id == self.jig.joint);
-        let rim = joint.and_then(|joint| rim_of(joint, &self.plane(), &evidence.parts));
-        rim.unwrap_or_default()
-    }
-
     fn gap_mm(&self, watch: &Watch) -> Result<f64, Cancelled> {
         watch.check()?;
         let most_mm = 2.0 * self.jig.gap_mm + 1.0;
-        Ok(most_mm.min(least_distance_mm(self.outside, &self.mesh)))
+        Ok(most_mm.min(least_distance_mm(&self.outside, &self.mesh)))
     }
 
     /// Counts the points of the jig that meet the outside on its way off, and those of the outside
@@ -156,7 +156,7 @@ impl<'a> Bench<'a> {
                 .map(meets)
                 .sum::<Result<usize, Cancelled>>()
         };
-        Ok(count(&self.mesh, self.outside, -way)? + count(self.outer, &self.surface, way)?)
+        Ok(count(&self.mesh, &self.outside, -way)? + count(self.outer, &self.surface, way)?)
     }
 
     /// Returns the least distance of the jig from some points, mm; infinite without any.
@@ -198,7 +198,7 @@ impl<'a> Bench<'a> {
 
     /// Returns the stops of the part on one side of the joint, -1 or 1.
     fn stops(&self, side: f64, watch: &Watch) -> Result<Vec<Stop>, Cancelled> {
-        let plane = self.plane();
+        let plane = plane_of(self.jig);
         // Just within the ribs: an edge of a rib would count with the face of its end.
         let [near, far] = self.jig.ribs_mm;
         let [near, far] = [near + WITHIN_MM, far - WITHIN_MM];
@@ -353,13 +353,13 @@ mod tests {
             pressed_mm: 0.03,
         };
         let corners = |face: u32| [3 * face, 3 * face + 1, 3 * face + 2];
-        let body = Body::of(&primitives::ball(&Point::origin(), 1.0, 1));
+        let outer = primitives::ball(&Point::origin(), 1.0, 1);
         let bench = Bench {
             jig: &jig,
             mesh: TriMesh::new(faces.concat(), (0..4).map(corners).collect()).unwrap(),
             surface: Bvh::new(faces.iter().copied()),
-            outer: &body.outer,
-            outside: &body.outside,
+            outside: Bvh::new(outer.iter_corners()),
+            outer: &outer,
         };
         bench.stop(at)
     }

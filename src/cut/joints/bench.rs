@@ -18,7 +18,7 @@ use crate::{
         Plane, Point,
         play::{Spot, Stop, Way, corners_of},
     },
-    mesh::TriMesh,
+    mesh::{TriMesh, nearest_shell},
 };
 
 /// Room on either side of a seam, for a finger with a cloth to wipe off glue, mm.
@@ -96,8 +96,10 @@ struct Trial {
 }
 
 impl<'a> Bench<'a> {
+    /// Sets up a joint of one of some separate bodies. The others, such as the other half of a
+    /// yo-yo, are not there while its glue sets.
     pub(super) fn new(
-        outside: &TriMesh,
+        bodies: &[TriMesh],
         plane: &'a Plane,
         joint: &Joint,
         request: &'a PlanRequest,
@@ -105,6 +107,7 @@ impl<'a> Bench<'a> {
         let chart = Chart::of_plane(plane);
         let rim: Vec<Point2> =
             corners_of(joint.faces.iter().flat_map(|face| face.outline.corners()));
+        let rim: Vec<Point> = rim.iter().map(|corner| chart.lift(plane, corner)).collect();
         let [.., [_, farthest_mm]] = EXTRA_RIBS_MM;
         let reach_mm = farthest_mm + request.pins.snug_gap_mm;
         let is_near = |corners: &[Point; 3]| {
@@ -113,9 +116,13 @@ impl<'a> Bench<'a> {
             low <= reach_mm && high >= -reach_mm
         };
         Self {
-            outside: outside.iter_corners().filter(is_near).collect(),
+            outside: nearest_shell(bodies, &rim)
+                .into_iter()
+                .flat_map(TriMesh::iter_corners)
+                .filter(is_near)
+                .collect(),
             plane,
-            rim: rim.iter().map(|corner| chart.lift(plane, corner)).collect(),
+            rim,
             request,
         }
     }

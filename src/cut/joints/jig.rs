@@ -21,7 +21,7 @@ use crate::{
         Vector,
         play::{Play, Spot},
     },
-    mesh::{ClipError, Csg, Solid},
+    mesh::{ClipError, Csg, Solid, shells},
 };
 
 /// A jig for a joint.
@@ -61,6 +61,7 @@ pub fn jigs(
     }
     let tree = plan.tree()?;
     let pieces = pieces(hollowed, plan, &tree, &request.watch)?;
+    let bodies = shells(hollowed.outer.mesh());
     let mut made = Vec::new();
     for joint in joints(&pieces, &tree) {
         let (cut, parts) = (&plan.cuts[joint.cut].id, joint.parts());
@@ -68,12 +69,7 @@ pub fn jigs(
         let index = plan.joints.iter().position(is_own);
         let index = index.filter(|&index| !plan.joints[index].is_aligned());
         if let Some(index) = index {
-            let bench = Bench::new(
-                hollowed.outer.mesh(),
-                &tree.planes[joint.cut],
-                &joint,
-                request,
-            );
+            let bench = Bench::new(&bodies, &tree.planes[joint.cut], &joint, request);
             let held = bench.best()?;
             let jig = held.map(|held| bench.build(&held, index, parts));
             made.extend(jig.transpose()?);
@@ -198,6 +194,25 @@ mod tests {
         let height = |p: &Point| z[0] * p.x + z[1] * p.y + z[2] * p.z + z[3];
         let heights = jig.solid.mesh().vertices().iter().map(height);
         assert!(heights.fold(f64::INFINITY, f64::min).abs() < 1e-9);
+    }
+
+    #[test]
+    fn a_separate_body_beside_the_joint_changes_no_jig() {
+        let alone = tube();
+        // As near as the other half of a yo-yo: 3 mm beside the upper rib, where a cheek stands.
+        let beside = Csg::of_solid(&cuboid([33.0, 0.0, 27.0], [45.0, 20.0, 60.0])).unwrap();
+        let outer = Csg::of_solid(&alone.outer).unwrap().union(&beside).unwrap();
+        let voids = alone.voids.iter().map(|void| void.body.clone());
+        let both = Hollowed::new(outer.to_solid().unwrap(), voids.collect());
+        let [jigs_alone, jigs_beside] = [&alone, &both].map(|body| {
+            let plan = cut_across(body, 26.0);
+            jigs(body, &plan, &request()).unwrap()
+        });
+        let ([alone], [beside]) = (&jigs_alone[..], &jigs_beside[..]) else {
+            panic!("{} and {} jigs", jigs_alone.len(), jigs_beside.len())
+        };
+        assert_eq!(alone.play, beside.play);
+        assert!(alone.solid == beside.solid, "another shape");
     }
 
     #[test]
