@@ -1,6 +1,8 @@
 //! The search for the parts and their places: one part after the other where it acts most, then
 //! each placed again.
 
+use std::ops::RangeInclusive;
+
 use super::error::BallastError;
 use super::load::{Load, PlacedPart};
 use super::order::{MOST_PARTS, Order};
@@ -32,6 +34,8 @@ const PASSES: usize = 150;
 const SURE_RATIO: f64 = 0.9;
 /// The number of sweeps in which each part is placed again. The second seldom finds anything.
 const SWEEPS: usize = 2;
+/// The balls beyond those that suffice for a bare body, where its cuts and its glue take too much.
+const MORE_BALLS: u32 = 2;
 /// The shares of the way to the place that acts most. A part heavier than needed overshoots there.
 /// Less than an eighth of the way gains nothing that the interior could not do as well.
 const STEPS: [f64; 4] = [1.0, 0.5, 0.25, 0.125];
@@ -97,7 +101,7 @@ impl<'a> Search<'a> {
     pub fn of_order(&self, order: &Order) -> Result<Option<Found>, BallastError> {
         let found = match order {
             Order::None => None,
-            Order::Auto => self.fewest_balls(&catalogue()?, MOST_PARTS),
+            Order::Auto => self.fewest_balls(&catalogue()?, 1..=MOST_PARTS),
             Order::Parts {
                 id,
                 count: Some(count),
@@ -117,7 +121,19 @@ impl<'a> Search<'a> {
     /// # Errors
     /// The catalogue is at fault, or the watch was stopped.
     pub fn of_few_balls(&self, most: u32) -> Result<Option<Found>, BallastError> {
-        let found = self.fewest_balls(&catalogue()?, most.min(MOST_PARTS));
+        let found = self.fewest_balls(&catalogue()?, 1..=most.min(MOST_PARTS));
+        self.watch.check()?;
+        Ok(found)
+    }
+
+    /// Returns what an order for as few steel balls as do would find among loads of more balls than
+    /// this. `None` if one or two more make nothing possible.
+    ///
+    /// # Errors
+    /// The catalogue is at fault, or the watch was stopped.
+    pub fn of_more_balls(&self, than: u32) -> Result<Option<Found>, BallastError> {
+        let most = MOST_PARTS.min(than.saturating_add(MORE_BALLS));
+        let found = self.fewest_balls(&catalogue()?, than.saturating_add(1)..=most);
         self.watch.check()?;
         Ok(found)
     }
@@ -125,10 +141,10 @@ impl<'a> Search<'a> {
     /// Returns the fewest steel balls that make the goal possible, and of as many the lightest.
     ///
     /// Loads below the proved bound on the mass of steel are not tried.
-    fn fewest_balls(&self, parts: &[Part], most: u32) -> Option<Found> {
+    fn fewest_balls(&self, parts: &[Part], mut counts: RangeInclusive<u32>) -> Option<Found> {
         let balls: Vec<&Part> = parts.iter().filter(|part| part.shape.is_ball()).collect();
         let least_mass_g = self.least_mass_g(balls.first()?)?;
-        (1..=most).find_map(|count| {
+        counts.find_map(|count| {
             let heavy_enough = |ball: &&&Part| ball.mass_g * f64::from(count) >= least_mass_g;
             let found = balls
                 .iter()

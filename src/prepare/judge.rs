@@ -1,5 +1,6 @@
 //! Judge: what is to be written, held against its promise. The pictures are taken meanwhile.
 
+use super::reason::follows_from_hollowing;
 use crate::base::watch::{Phase, Watch};
 use crate::error::Error;
 use crate::geom::Parting;
@@ -38,6 +39,12 @@ impl Draft {
     /// Returns whether every promise is kept.
     pub fn passes(&self) -> bool {
         Verdict::of(&self.judgement.checks) == Verdict::Pass
+    }
+
+    /// Returns whether a promise is broken that depends on how much is hollow.
+    pub fn lacks_hollow(&self) -> bool {
+        let mut broken = self.judgement.checks.iter().filter(|check| !check.pass);
+        broken.any(|check| follows_from_hollowing(&check.kind))
     }
 
     /// Returns what pictures are taken of: the files as they are written.

@@ -21,12 +21,14 @@ mod waterline;
 pub use outcome::{Failure, Impossible, Outcome, Prepared};
 pub use slice::time_kit;
 
+use crate::ballast::Order;
 use crate::base::verdict::Verdict;
 use crate::base::watch::Watch;
 use crate::error::Error;
 use crate::job::Job;
 use crate::make::make;
 use crate::open::{Candidate, climb};
+use crate::run::{Placed, Solved};
 use judge::Draft;
 
 /// Prepares a job to its end: a kit with its checklist, or the proof that the goal cannot be met.
@@ -50,14 +52,32 @@ pub fn prepare(job: &Job, watch: &Watch) -> Result<Outcome, Error> {
             return Ok(Outcome::Impossible(Box::new(impossible)));
         }
     };
-    let candidates = climb(&placed, solved, watch)?;
-    let draft = first_that_passes(candidates, |candidate| {
-        let made = make(&placed, candidate, watch)?;
-        judge::draft(&placed, made, watch)
-    })?;
+    let draft = draft_of(&placed, solved, watch)?;
+    let draft = with_more_balls(&placed, draft, watch)?;
     let prepared = papers::finish(&placed, draft, slicer.as_ref(), watch)?;
     let prepared = failure::on_failure(&placed, prepared, watch)?;
     Ok(Outcome::Prepared(Box::new(prepared)))
+}
+
+/// Drafts the kit of a solution.
+fn draft_of(placed: &Placed, solved: Solved, watch: &Watch) -> Result<Draft, Error> {
+    let candidates = climb(placed, solved, watch)?;
+    first_that_passes(candidates, |candidate| {
+        let made = make(placed, candidate, watch)?;
+        judge::draft(placed, made, watch)
+    })
+}
+
+/// Lays in more balls where a job leaves their number open and a kit breaks its promise because of
+/// what cuts, cleaning and glue take. Returns the kit with more of them if it keeps its promise.
+fn with_more_balls(placed: &Placed, draft: Draft, watch: &Watch) -> Result<Draft, Error> {
+    if placed.job.ballast != Order::Auto || !draft.lacks_hollow() {
+        return Ok(draft);
+    }
+    let more = solve::with_more_balls(placed, draft.made.load.parts.len(), watch)?;
+    let Some(more) = more else { return Ok(draft) };
+    let heavier = draft_of(placed, more, watch)?;
+    Ok(if heavier.passes() { heavier } else { draft })
 }
 
 /// Drafts kits in order until one keeps every promise; else returns the last.

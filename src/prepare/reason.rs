@@ -63,7 +63,7 @@ fn is_shaky(sheet: &Checklist, check: &Check) -> bool {
 }
 
 /// Returns true if what pins, cuts and cleaning take can break this promise.
-fn follows_from_hollowing(kind: &CheckKind) -> bool {
+pub fn follows_from_hollowing(kind: &CheckKind) -> bool {
     matches!(
         kind,
         CheckKind::AxisOffset

@@ -7,7 +7,7 @@ use crate::base::setting::{Key, Setting};
 use crate::base::verdict::Verdict;
 use crate::base::watch::{Phase, Watch};
 use crate::error::Error;
-use crate::run::Placed;
+use crate::run::{Placed, Solved};
 
 /// Solves for the best void, with the ballast that the job orders or needs.
 pub fn best(placed: &Placed, watch: &Watch) -> Result<Answer, Error> {
@@ -51,6 +51,22 @@ fn with_ballast(
             order: order.clone(),
         }),
     }
+}
+
+/// Solves with more steel balls than some number, as few as do; `None` if they find no places.
+pub fn with_more_balls(
+    placed: &Placed,
+    than: usize,
+    watch: &Watch,
+) -> Result<Option<Solved>, Error> {
+    watch.enter(Phase::Ballast);
+    let than = u32::try_from(than).unwrap_or(u32::MAX);
+    let found = Search::new(workshop(placed), watch)?.of_more_balls(than)?;
+    let Some(found) = found else { return Ok(None) };
+    Ok(match with_load(placed, found.load, watch)? {
+        Verdict::Found(solved) => Some(solved),
+        Verdict::No(_) => None,
+    })
 }
 
 /// Returns the model of a run as one in which ballast is searched.
