@@ -1,5 +1,6 @@
 //! The ladder: rungs are tried in order until one gives every joint its pins; the best are kept.
 
+mod angle;
 mod fewer;
 mod hidden;
 mod joined;
@@ -123,6 +124,7 @@ impl<'a> Ladder<'a> {
     /// A plan with walls out of sight stands first: its kit says whether they hold support.
     pub(super) fn climb(mut self) -> Result<Vec<Candidate<'a>>, Error> {
         let drafted = self.plan_in_walls(&self.ground, &self.request, Rung::Walls, &|_| false)?;
+        let drafted = self.keep_angle(drafted)?;
         let shown = Self {
             hides_seams: false,
             ..self.clone()

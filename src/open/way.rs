@@ -13,6 +13,11 @@ use crate::run::{Achieved, CleaningRound, Opened, Policy, Remark, Rung, Voids};
 /// Pins and sockets take some of it, and the coarse copy differs a little from the body.
 const ANGLE_MARGIN_RATIO: f64 = 0.02;
 
+/// Returns the toppling angle of a proof, radians; `None` for other figures.
+pub fn toppling_rad(proof: &Certificate) -> Option<f64> {
+    (proof.figure == Figure::TopplingAngleRad).then_some(proof.value)
+}
+
 /// An opened body that is worth making, and the resolver that corrects it.
 #[derive(Clone)]
 pub struct Candidate<'a> {
@@ -90,19 +95,30 @@ impl<'a> Way<'a> {
     }
 
     /// Returns whether its voids reach the angle that a standing object promises, with a margin.
-    /// True also if those of another way miss it or reach no more, and for other goals.
+    /// True for other goals.
+    pub fn keeps_angle(&self) -> bool {
+        let least_rad = self.promised_angle_rad() * (1.0 + ANGLE_MARGIN_RATIO);
+        self.angle_rad().is_none_or(|angle| angle >= least_rad)
+    }
+
+    /// Returns whether it keeps the promised angle. True also if another way misses that or reaches
+    /// no more.
     pub fn keeps_angle_of(&self, other: &Self) -> bool {
-        let promised_deg = self.resolver.placed().request.promised_angle_deg();
-        let least_rad = promised_deg.unwrap_or(0.0).to_radians();
-        let angle_rad = |way: &Self| {
-            let Certificate { figure, value, .. } = way.achieved().certificate;
-            (figure == Figure::TopplingAngleRad).then_some(value)
-        };
-        let (Some(own_rad), Some(other_rad)) = (angle_rad(self), angle_rad(other)) else {
+        let (Some(own_rad), Some(other_rad)) = (self.angle_rad(), other.angle_rad()) else {
             return true;
         };
-        let is_safe = own_rad >= least_rad * (1.0 + ANGLE_MARGIN_RATIO);
-        is_safe || own_rad >= other_rad || other_rad < least_rad
+        self.keeps_angle() || own_rad >= other_rad || other_rad < self.promised_angle_rad()
+    }
+
+    /// Returns the angle that a standing object promises, radians; 0 without one.
+    pub fn promised_angle_rad(&self) -> f64 {
+        let promised_deg = self.resolver.placed().request.promised_angle_deg();
+        promised_deg.unwrap_or(0.0).to_radians()
+    }
+
+    /// Returns the toppling angle that its voids reach, radians; `None` for other goals.
+    fn angle_rad(&self) -> Option<f64> {
+        toppling_rad(&self.achieved().certificate)
     }
 
     /// Returns whether its seams are worth what they cost against the usual way: a little of the

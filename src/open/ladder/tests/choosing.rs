@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::cut::CutOrder;
+use crate::hollow::Figure;
 use crate::job::Job;
 use crate::open::scenes::{across, order, thick_box, towers};
 use crate::run::BossRound;
@@ -32,6 +33,31 @@ fn with_value<'a>(way: &Way<'a>, value: f64) -> Way<'a> {
     let mut way = way.clone();
     way.bossed.voids.solution.certificate.value = value;
     way
+}
+
+#[test]
+fn a_draft_that_misses_a_promised_angle_gives_way_to_one_that_keeps_it() {
+    let mut placed = thick_box();
+    placed.request.least_angle_deg = 10.0;
+    let mut ladder = ladder_of(&placed);
+    let reach = |voids: &mut Voids, angle_deg: f64| {
+        let proof = &mut voids.solution.certificate;
+        (proof.figure, proof.value) = (Figure::TopplingAngleRad, angle_deg.to_radians());
+    };
+    reach(&mut ladder.ground.voids, 12.0);
+    let mut drafted = usual_of(&ladder);
+    let mut chosen_deg = |ladder: &Ladder, angle_deg: f64| {
+        reach(&mut drafted.bossed.voids, angle_deg);
+        let chosen = ladder.keep_angle(drafted.clone()).unwrap();
+        value(&chosen).to_degrees().round()
+    };
+    assert_eq!(chosen_deg(&ladder, 8.0), 12.0);
+    assert_eq!(chosen_deg(&ladder, 11.0), 11.0);
+    // Neither does what a person ordered, nor where no hollowing keeps the promise.
+    let ordered = ladder.by_order(order(vec![across(12.0)]));
+    assert_eq!(chosen_deg(&ordered, 8.0), 8.0);
+    reach(&mut ladder.ground.voids, 9.0);
+    assert_eq!(chosen_deg(&ladder, 8.0), 8.0);
 }
 
 #[test]
