@@ -516,6 +516,29 @@ mod tests {
     }
 
     #[test]
+    fn more_balls_are_the_fewest_beyond_a_number_and_still_make_the_goal_possible() {
+        let (solid, mut request) = rotor();
+        // One ball balances this block.
+        request.spin_point = Some(SpinPoint::At([20.0, 8.0, 17.0]));
+        let placement = place(&solid, WALL_MM, request);
+        let shop = Workshop {
+            solid: &solid,
+            placement: &placement,
+            wall_mm: WALL_MM,
+            fit: Fit {
+                clearance_mm: 0.2,
+                web_mm: WEB_MM,
+            },
+            density_g_cm3: DENSITY_G_CM3,
+        };
+        let search = Search::new(shop, &Watch::silent()).unwrap();
+        let found = search.of_more_balls(1).unwrap().unwrap();
+        assert!(found.load.parts.len() == 2 && found.solution.is_usable());
+        assert_sound(&solid, WALL_MM, &found.load);
+        assert_eq!(search.of_more_balls(MOST_PARTS).unwrap(), None);
+    }
+
+    #[test]
     fn no_ballast_is_placed_if_no_steel_inside_helps() {
         // A pole on its edge: the axis lies 6 mm outside the block.
         let solid = testing::block([0.0; 3], [40.0, 16.0, 30.0]);
