@@ -6,7 +6,7 @@ use super::fields::{residue, residue_density_ratio};
 use crate::base::numbers::{measured, quantity};
 use crate::base::units::MM3_PER_CM3;
 use crate::sheet::{Checklist, Process, VoidRow, checks_of_void};
-use crate::verify::{Check, CheckKind};
+use crate::verify::{Check, CheckKind, CleaningRule};
 
 /// Least volume kept solid that is reported, mm³. Less changes no figure that is shown: other
 /// differences come from solving again with pins and on the printer's own columns.
@@ -66,14 +66,33 @@ fn broken(check: &Check) -> Markup {
     html! { strong class="fail" { (word) } }
 }
 
-/// Words how to reach what is out of sight, if the cleaning rule needs sight; else empty.
+/// Words how to reach what is out of sight and must be cleaned, if the cleaning rule needs sight;
+/// else empty. Walls that print without support have nothing on them to clean.
 fn hidden_rest(sheet: &Checklist, void: &VoidRow) -> String {
-    match void.sight_ratio {
-        Some(sight) if sheet.printer.cleaning.rule.needs_sight() && sight < ALL_IN_SIGHT_RATIO => {
-            let rest = 100.0 * (1.0 - sight);
-            format!(" The last {rest:.0}\u{a0}% cannot be seen: use a bent tool.")
+    let Some(sight) = void.sight_ratio else {
+        return String::new();
+    };
+    let rule = sheet.printer.cleaning.rule;
+    if !rule.needs_sight() || sight >= ALL_IN_SIGHT_RATIO {
+        return String::new();
+    }
+    let percent = |ratio: f64| format!("{:.0}\u{a0}%", 100.0 * (1.0 - ratio));
+    if rule != CleaningRule::InSightOrSelfSupporting {
+        let rest = percent(sight);
+        return format!(" The last {rest} cannot be seen: use a bent tool.");
+    }
+    let is_clean_share = |check: &&Check| matches!(check.kind, CheckKind::VoidClean { .. });
+    let mut checks = checks_of_void(&sheet.checks, &void.id);
+    let clean = checks.find(is_clean_share).and_then(|check| check.value);
+    match clean.unwrap_or(sight) {
+        clean if clean >= ALL_IN_SIGHT_RATIO => {
+            let hidden = percent(sight);
+            format!(" {hidden} of its wall cannot be seen, and prints without support.")
         }
-        _ => String::new(),
+        clean => {
+            let rest = percent(clean);
+            format!(" {rest} of its wall cannot be seen and may hold support: use a bent tool.")
+        }
     }
 }
 
@@ -148,6 +167,34 @@ fn by_plan(sheet: &Checklist) -> &'static str {
 mod tests {
     use super::*;
     use crate::testing::sample;
+    use crate::verify::Limit;
+
+    #[test]
+    fn a_hidden_wall_that_prints_without_support_needs_no_tool() {
+        let mut sheet = sample().0;
+        let mut void = sheet.voids[0].clone();
+        void.sight_ratio = Some(0.71);
+        let words = |sheet: &Checklist| hidden_rest(sheet, &void);
+        assert!(words(&sheet).contains("The last 29\u{a0}% cannot be seen: use a bent tool"));
+        sheet.printer.cleaning.rule = CleaningRule::InSightOrSelfSupporting;
+        for (clean, said) in [
+            (
+                0.97,
+                "3\u{a0}% of its wall cannot be seen and may hold support",
+            ),
+            (
+                0.998,
+                "29\u{a0}% of its wall cannot be seen, and prints without",
+            ),
+        ] {
+            let kind = CheckKind::VoidClean {
+                void: void.id.clone(),
+            };
+            let limit = Limit::at_least(0.95, "");
+            sheet.checks = vec![Check::new(kind, "clean", Some(clean), limit)];
+            assert!(words(&sheet).contains(said), "{}", words(&sheet));
+        }
+    }
 
     #[test]
     fn a_void_in_several_parts_has_a_box_for_each() {
