@@ -76,8 +76,12 @@ fn with_more_balls(placed: &Placed, draft: Draft, watch: &Watch) -> Result<Draft
     }
     let more = solve::with_more_balls(placed, draft.made.load.parts.len(), watch)?;
     let Some(more) = more else { return Ok(draft) };
-    let heavier = draft_of(placed, more, watch)?;
-    Ok(if heavier.passes() { heavier } else { draft })
+    match draft_of(placed, more, watch) {
+        Ok(heavier) if heavier.passes() => Ok(heavier),
+        Err(Error::Cancelled) => Err(Error::Cancelled),
+        // The kit with fewer balls is an answer, whatever keeps the other from being made.
+        _ => Ok(draft),
+    }
 }
 
 /// Drafts kits in order until one keeps every promise; else returns the last.
