@@ -124,7 +124,8 @@ impl<'a> Ladder<'a> {
     /// A plan with walls out of sight stands first: its kit says whether they hold support.
     pub(super) fn climb(mut self) -> Result<Vec<Candidate<'a>>, Error> {
         let drafted = self.plan_in_walls(&self.ground, &self.request, Rung::Walls, &|_| false)?;
-        let drafted = self.keep_angle(drafted)?;
+        let (drafted, missed) = self.keep_angle(drafted)?;
+        let missed = missed.map(|missed| self.climb_missed(missed)).transpose()?;
         let shown = Self {
             hides_seams: false,
             ..self.clone()
@@ -132,7 +133,8 @@ impl<'a> Ladder<'a> {
         let walls = self.hide_seams(drafted.clone())?;
         let first = self.finish_unseen()?;
         let rest = self.climb_from(walls, shown, drafted)?;
-        Ok(first.into_iter().chain(rest).collect())
+        let last = missed.into_iter().flatten();
+        Ok(first.into_iter().chain(rest).chain(last).collect())
     }
 
     /// Climbs on from the walls of a draft. Takes also the ladder and draft with seams that are

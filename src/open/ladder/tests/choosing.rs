@@ -48,7 +48,8 @@ fn a_draft_that_misses_a_promised_angle_gives_way_to_one_that_keeps_it() {
     let mut drafted = usual_of(&ladder);
     let mut chosen_deg = |ladder: &Ladder, angle_deg: f64| {
         reach(&mut drafted.bossed.voids, angle_deg);
-        let chosen = ladder.keep_angle(drafted.clone()).unwrap();
+        let (chosen, missed) = ladder.keep_angle(drafted.clone()).unwrap();
+        assert_eq!(missed.is_some(), value(&chosen) != value(&drafted));
         value(&chosen).to_degrees().round()
     };
     assert_eq!(chosen_deg(&ladder, 8.0), 12.0);
