@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use rayon::prelude::*;
 
 use super::rim::rim_of;
-use super::{Body, Evidence, PartEvidence, PartFacts, Promise, PromisedJig};
+use super::{Body, Evidence, PartFacts, Promise, PromisedJig};
 use crate::base::watch::{Cancelled, Watch};
 use crate::geom::play::{Play, Seat, Spot, Stop, Way};
 use crate::geom::triangle::{Feature, closest_on_triangle};
@@ -63,9 +63,18 @@ pub fn measure_jigs(
         let part = PartFacts::of_part(read, &Bvh::new(read.mesh.iter_corners()), watch)?;
         let rim = rim_in(jig, evidence);
         // The other half of a yo-yo is not there while the glue of this one sets.
-        let own = nearest_shell(&body.shells.outward, &rim);
+        let own = nearest_shell(&body.shells.outward, &rim).unwrap_or(&body.outer);
+        let is_whole = own.triangles().len() == body.outer.triangles().len();
+        let apart = (!is_whole).then(|| Bvh::new(own.iter_corners()));
         watch.check()?;
-        let bench = Bench::new(jig, read, own.unwrap_or(&body.outer));
+        let mesh = read.mesh.map_vertices(|p| read.pose.to_model(p));
+        let bench = Bench {
+            jig,
+            surface: Bvh::new(mesh.iter_corners()),
+            mesh,
+            outer: own,
+            outside: apart.as_ref().unwrap_or(&body.outside),
+        };
         Ok(JigFacts {
             joint: jig.joint.clone(),
             part,
@@ -91,7 +100,7 @@ struct Bench<'a> {
     mesh: TriMesh,
     surface: Bvh,
     outer: &'a TriMesh,
-    outside: Bvh,
+    outside: &'a Bvh,
 }
 
 /// Returns the plane of a jig's joint.
@@ -107,18 +116,7 @@ fn rim_in(jig: &PromisedJig, evidence: &Evidence) -> Vec<Point> {
     rim.unwrap_or_default()
 }
 
-impl<'a> Bench<'a> {
-    fn new(jig: &'a PromisedJig, read: &PartEvidence, outer: &'a TriMesh) -> Self {
-        let mesh = read.mesh.map_vertices(|p| read.pose.to_model(p));
-        Self {
-            jig,
-            surface: Bvh::new(mesh.iter_corners()),
-            mesh,
-            outside: Bvh::new(outer.iter_corners()),
-            outer,
-        }
-    }
-
+impl Bench<'_> {
     fn out(&self) -> Vector {
         Vector::from(self.jig.out)
     }
@@ -126,7 +124,7 @@ impl<'a> Bench<'a> {
     fn gap_mm(&self, watch: &Watch) -> Result<f64, Cancelled> {
         watch.check()?;
         let most_mm = 2.0 * self.jig.gap_mm + 1.0;
-        Ok(most_mm.min(least_distance_mm(&self.outside, &self.mesh)))
+        Ok(most_mm.min(least_distance_mm(self.outside, &self.mesh)))
     }
 
     /// Counts the points of the jig that meet the outside on its way off, and those of the outside
@@ -156,7 +154,7 @@ impl<'a> Bench<'a> {
                 .map(meets)
                 .sum::<Result<usize, Cancelled>>()
         };
-        Ok(count(&self.mesh, &self.outside, -way)? + count(self.outer, &self.surface, way)?)
+        Ok(count(&self.mesh, self.outside, -way)? + count(self.outer, &self.surface, way)?)
     }
 
     /// Returns the least distance of the jig from some points, mm; infinite without any.
@@ -354,11 +352,12 @@ mod tests {
         };
         let corners = |face: u32| [3 * face, 3 * face + 1, 3 * face + 2];
         let outer = primitives::ball(&Point::origin(), 1.0, 1);
+        let outside = Bvh::new(outer.iter_corners());
         let bench = Bench {
             jig: &jig,
             mesh: TriMesh::new(faces.concat(), (0..4).map(corners).collect()).unwrap(),
             surface: Bvh::new(faces.iter().copied()),
-            outside: Bvh::new(outer.iter_corners()),
+            outside: &outside,
             outer: &outer,
         };
         bench.stop(at)

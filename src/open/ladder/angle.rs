@@ -12,11 +12,13 @@ impl<'a> Ladder<'a> {
     /// this one beside it.
     ///
     /// The cuts of a draft are a choice between seams, parts and what cannot be cleaned. Without
-    /// the seams the others weigh more. A draft stays if the other one misses the angle, too.
+    /// the seams the others weigh more. A draft stays if the other one misses the angle, too. It
+    /// also stays where a person or a tendency asks for its seams or parts.
     pub(super) fn keep_angle(&self, drafted: Way<'a>) -> Result<(Way<'a>, Option<Way<'a>>), Error> {
         let possible_rad = toppling_rad(&self.ground.voids.solution.certificate);
         let is_possible = possible_rad.is_some_and(|angle| angle >= drafted.promised_angle_rad());
-        if !self.is_free() || drafted.keeps_angle() || !is_possible {
+        let is_ours = self.is_free() && self.hides_seams && self.joins_parts;
+        if !is_ours || drafted.keeps_angle() || !is_possible {
             return Ok((drafted, None));
         }
         let request = lean(self.request.clone(), Tendency::Short);

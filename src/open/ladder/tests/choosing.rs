@@ -44,6 +44,7 @@ fn a_draft_that_misses_a_promised_angle_gives_way_to_one_that_keeps_it() {
         let proof = &mut voids.solution.certificate;
         (proof.figure, proof.value) = (Figure::TopplingAngleRad, angle_deg.to_radians());
     };
+    (ladder.hides_seams, ladder.joins_parts) = (true, true);
     reach(&mut ladder.ground.voids, 12.0);
     let mut drafted = usual_of(&ladder);
     let mut chosen_deg = |ladder: &Ladder, angle_deg: f64| {
@@ -54,9 +55,13 @@ fn a_draft_that_misses_a_promised_angle_gives_way_to_one_that_keeps_it() {
     };
     assert_eq!(chosen_deg(&ladder, 8.0), 12.0);
     assert_eq!(chosen_deg(&ladder, 11.0), 11.0);
-    // Neither does what a person ordered, nor where no hollowing keeps the promise.
+    // What a person ordered stays, and what a tendency asks for.
     let ordered = ladder.by_order(order(vec![across(12.0)]));
     assert_eq!(chosen_deg(&ordered, 8.0), 8.0);
+    for tendency in [Tendency::Level, Tendency::Short, Tendency::FewerParts] {
+        assert_eq!(chosen_deg(&ladder.leaning(tendency), 8.0), 8.0);
+    }
+    // So does a draft where no hollowing keeps the promise.
     reach(&mut ladder.ground.voids, 9.0);
     assert_eq!(chosen_deg(&ladder, 8.0), 8.0);
 }
