@@ -29,6 +29,10 @@ pub(super) const CONFIRMING_COLUMNS: usize = 200;
 /// The number of waterlines that are tried if the waterline is free.
 const WATERLINES: usize = 12;
 
+/// The fastest speed of a top that is offered, rpm. Nobody throws a top faster, in our judgement.
+/// Above it the moments are nearly equal, and the rounding of parts makes it wobble.
+const MOST_SPEED_RPM: f64 = 6000.0;
+
 /// A model with samples of its depths. Once its watch is stopped, no request can be placed.
 pub(super) struct SampledModel<'a> {
     pub case: Case<'a>,
@@ -66,6 +70,12 @@ impl Trial {
         let is_unheld =
             |warning: &Warning| matches!(warning, Warning::NoTip | Warning::ContactInAir { .. });
         !(is_promised && self.placement.warnings.iter().any(is_unheld))
+    }
+
+    /// Returns true unless it is a top that nobody throws fast enough.
+    fn is_within_reach(&self) -> bool {
+        let reached = Reached::of(&self.solution.certificate);
+        reached.figure != Figure::CriticalSpeedRpm || reached.value <= MOST_SPEED_RPM
     }
 
     /// Returns true if the spin axis passes through the model above its contact. Advice never moves
@@ -124,7 +134,9 @@ impl<'a> SampledModel<'a> {
     pub fn confirm(&self, request: &Request, wall_mm: f64) -> Option<Trial> {
         let (placement, columns) = self.exact_columns(request, wall_mm, CONFIRMING_COLUMNS)?;
         let trial = self.best_trial(&placement, &columns, solve)?;
-        let keeps = trial.stands_as_promised(request) && trial.spins_as_promised(request);
+        let keeps = trial.stands_as_promised(request)
+            && trial.spins_as_promised(request)
+            && trial.is_within_reach();
         (trial.is_possible() && keeps).then_some(trial)
     }
 

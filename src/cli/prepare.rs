@@ -135,17 +135,21 @@ fn check_arguments(job: &Job) -> Result<(), Error> {
 }
 
 /// Returns a remark if the model is longer than the printer's build volume; `None` if it is not, or
-/// if that is not known yet.
+/// if that cannot be known.
 fn beyond_plate(job: &Job) -> Option<String> {
-    let Scaling::Size(size) = job.model.scaling else {
-        return None;
-    };
     let volume_mm = Printer::find(&job.printer.id).ok()?.build_volume_mm?.value;
     let longest_mm = volume_mm.into_iter().fold(0.0, f64::max);
-    (size.mm() > longest_mm).then(|| {
+    let size_mm = match job.model.scaling {
+        Scaling::Size(size) => size.mm(),
+        scaling => {
+            let drawn_mm = read_model(&job.model.path).ok()?.longest_side_mm();
+            scaling.factor(drawn_mm) * drawn_mm
+        }
+    };
+    (size_mm > longest_mm).then(|| {
         format!(
             "note: {} is longer than the printer ({}); its parts are cut to fit, or refused",
-            show_mm(size.mm()),
+            show_mm(size_mm),
             show_box(volume_mm)
         )
     })

@@ -439,7 +439,7 @@ mod tests {
         sheet.hardware.push(steel_tip());
         let said = parts(&sheet);
         assert!(said.contains("1 glue joint"), "{said}");
-        assert!(said.ends_with("; not printed: tip"), "{said}");
+        assert!(said.contains("; to buy: tip (steel rod, "), "{said}");
     }
 
     #[test]

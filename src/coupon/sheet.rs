@@ -22,6 +22,7 @@ pub(super) fn page(set: &CouponSet, coupons: &[Coupon], commands: &Commands) -> 
     let body = html! {
         h1 { "Coupons for " (set.printer_name) ", " (set.material_name) }
         p { "Machine " (blank()) " Lot " (blank()) " Date " (blank()) " Name " (blank()) }
+        p { "Room: " (blank()) " °C, humidity " (blank()) " %" }
         (print(set, coupons))
         (weigh(set))
         (fits(set))
@@ -37,7 +38,8 @@ fn print(set: &CouponSet, coupons: &[Coupon]) -> Markup {
         p {
             "Print them in this orientation, solid (100 % infill), unscaled, in layers of "
             (show_mm(set.layer_mm)) ". Use the settings and the lot of your kits. "
-            "Clean, cure and dry them like kits."
+            "Clean, cure and dry them like kits. "
+            "Spread copies over the plate: its corners and its middle do not print alike."
         }
         table {
             tr { th { "File" } th class="n" { "Print" } th { "What it is" } th { "Done" } }

@@ -82,6 +82,7 @@ pub use pieces::pose::{Lie, Pose, apply};
 pub use access::uncleanable::{
     Unclean, find_closed, find_ends_beyond_unpinned_joints, find_ends_in_small_parts, find_unclean,
 };
+pub use access::uncut::find_ends_at_uncut_faces;
 pub use access::void_access::VoidAccess;
 pub use geometry::chart::Point2;
 pub use geometry::section::{Ring, Section};

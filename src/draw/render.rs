@@ -9,6 +9,9 @@ use super::scene::{Camera, Item, Scene};
 use super::visibility::Visibility;
 use crate::geom::{Plane, Point, Vector};
 
+/// Share of a triangle by which it reaches over its edges. Without it rounding leaves specks along
+/// an edge that two triangles share.
+const SHARED_EDGE_RATIO: f64 = 1e-9;
 /// The colour of paper.
 const BACKGROUND: Color = [255, 255, 255];
 
@@ -184,7 +187,8 @@ impl Canvas {
         let side = |p: Corner, q: Corner| (q[0] - p[0]) * (py - p[1]) - (q[1] - p[1]) * (px - p[0]);
         let (u, v, w) = (side(b, c), side(c, a), side(a, b));
         let sum = u + v + w;
-        if (u < 0.0 || v < 0.0 || w < 0.0) && (u > 0.0 || v > 0.0 || w > 0.0) || sum == 0.0 {
+        let is_outside = |share: f64| share * sum.signum() < -SHARED_EDGE_RATIO * sum.abs();
+        if sum == 0.0 || [u, v, w].into_iter().any(is_outside) {
             return;
         }
         let mix = |i: usize| (u * a[i] + v * b[i] + w * c[i]) / sum;

@@ -47,6 +47,8 @@ pub enum Label {
     At(Point, String),
     /// A name at the side, with a line to the middle of the visible part of this item.
     On(usize, String),
+    /// A name as [`Label::On`] has it; none if no part of the item is visible.
+    Seen(usize, String),
     /// A dashed line between two points.
     Between([Point; 2]),
     /// A length between two points, drawn this many pixels aside.
@@ -91,6 +93,10 @@ impl Shot<'_> {
                 }
                 Label::On(item, words) => {
                     marks.push(self.mark_item(*item, words, &projection, visibility));
+                }
+                Label::Seen(item, words) => {
+                    let spot = visibility.middle_of(*item);
+                    marks.extend(spot.map(|spot| Mark::new(spot, words.clone())));
                 }
                 Label::Between(ends) => {
                     drawing.dashed_line(ends.each_ref().map(|end| projection.at(end)));

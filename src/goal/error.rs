@@ -78,6 +78,18 @@ pub enum GoalError {
         /// A stock pin that keeps it; `None` if none does.
         pin: Option<Rod>,
     },
+    /// A top that was ordered without a tip, and whose contact hangs in the air.
+    #[error(
+        "the point it should spin on is {missing_mm:.1} mm below the model, and `{}` leaves the \
+         tip out; remedy: type `{}`, or give another contact (`{}`)",
+        Setting::new(Key::Tip, "none"),
+        Setting::new(Key::Tip, "auto"),
+        Setting::open(Key::Contact)
+    )]
+    NothingToSpinOn {
+        /// The distance from the contact up along the axis to the surface, mm.
+        missing_mm: f64,
+    },
     /// A rotor without a bore, a shaft end or an order for a bore.
     #[error(
         "the model has no round bore and no shaft end to turn on; remedy: give the diameter of \

@@ -140,7 +140,10 @@ mod tests {
             tip: TipChoice::None,
             ..request(GoalKind::Top)
         };
-        let placed = place(&table, 1.0, &request).unwrap();
+        // Without a tip it spins on nothing, and is refused. A trial asks no more than a void.
+        let refused = place(&table, 1.0, &request).unwrap_err().to_string();
+        assert!(refused.contains("6.0 mm below the model"), "{refused}");
+        let placed = place(&table, 1.0, &request.unpromised()).unwrap();
         assert_eq!(placed.goal.frame.origin.z, 0.0);
         let [Warning::ContactInAir { missing_mm }] = placed.warnings[..] else {
             panic!("{:?}", placed.warnings)

@@ -121,8 +121,8 @@ pub enum Warning {
     #[error(
         "it stands still on its foot without spinning, and rights itself when tilted by \
          {rights_to_deg:.0}°. Its contact moves as that of a ball of {radius_mm:.0} mm radius, and \
-         its centre of mass is only {center_height_mm:.1} mm up. It spins upright as promised, but \
-         rubs, and does not fall when it is slow. For a top that falls put in a tip piece (`{}`)",
+         its centre of mass is only {center_height_mm:.1} mm up. On such a foot it rubs, and does \
+         not fall when it is slow. For a top that falls put in a tip piece (`{}`)",
         any_tip()
     )]
     FlatFoot {

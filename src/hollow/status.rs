@@ -180,21 +180,25 @@ impl Status {
                 "make the model larger with the same wall, or the wall thinner",
             ],
             (Self::Sinks { .. }, _) => &[
-                "let it lie deeper, or leave the waterline free (waterline auto)",
+                "let it lie deeper",
+                "leave the waterline free (waterline auto)",
                 "make the model larger with the same wall, or the wall thinner",
                 "use a lighter material or a denser liquid",
             ],
             (Self::RidesHigh { .. }, _) => &[
-                "let it float higher, or leave the waterline free (waterline auto)",
+                "let it float higher",
+                "leave the waterline free (waterline auto)",
                 "use a denser material, or put ballast in it",
             ],
             (Self::CannotTrim { .. }, _) => &[
-                "turn the model, or leave the waterline free (waterline auto)",
+                "turn the model",
+                "leave the waterline free (waterline auto)",
                 "make the model larger with the same wall, or the wall thinner",
                 "put ballast in it, on the side that floats high",
             ],
             (Self::Capsizes { .. }, _) => &[
-                "leave the waterline free (waterline auto), or turn the model",
+                "leave the waterline free (waterline auto)",
+                "turn the model",
                 "put ballast in it, as low as possible",
                 "make the model larger with the same wall, or the wall thinner",
             ],
@@ -255,11 +259,11 @@ fn explain_imbalance(obstacle: Obstacle, least_miss: f64, kind: GoalKind) -> Str
     let miss = format!("it misses by {:.1} %", 100.0 * least_miss);
     match kind {
         GoalKind::Stand | GoalKind::Float => {
-            format!("Impossible: no hollowing with this wall can {task} ({miss}).")
+            format!("Impossible: however it is hollowed with this wall, it cannot {task} ({miss}).")
         }
         _ => explain_spin(
             WOBBLES,
-            &format!("No hollowing with this wall can {task}; {miss}"),
+            &format!("However it is hollowed with this wall, it cannot {task}; {miss}"),
         ),
     }
 }

@@ -25,7 +25,7 @@ use super::resolve::{Kept, Resolver};
 use super::tendency::lean;
 use super::way::{Candidate, Way};
 use crate::base::watch::{Phase, Watch};
-use crate::cut::{CutError, CutOrder, CutPlan, PlanRequest};
+use crate::cut::{CutError, CutOrder, CutPlan, PlanRequest, SolidEnd, find_ends_at_uncut_faces};
 use crate::error::Error;
 use crate::run::{KeptCause, Opened, Policy, Remark, Rung, Tendency, Untried, Voids};
 
@@ -33,6 +33,37 @@ use crate::run::{KeptCause, Opened, Policy, Remark, Rung, Tendency, Untried, Voi
 fn count_unaligned_in_best(candidates: &[Candidate]) -> Result<usize, CutError> {
     let best = candidates.first().map(|candidate| &candidate.opened);
     best.map_or(Ok(0), count_unaligned_of)
+}
+
+/// Keeps solid what an order says: its own regions, and the ends of voids at faces that it leaves
+/// whole. Returns a remark if the goal is lost with them; then they are not kept.
+fn keep_ordered<'a>(
+    ground: Ground<'a>,
+    order: &CutOrder,
+    request: &PlanRequest,
+) -> Result<(Ground<'a>, Option<Remark>), Error> {
+    let kept = keep_solid(ground, &order.solid)?;
+    let (ground, None) = kept else {
+        return Ok(kept);
+    };
+    let margin_mm = ground.resolver.placed().policy.ends_margin_openings * request.min_opening_mm;
+    let hollowed = &ground.voids.hollowed;
+    let ends = find_ends_at_uncut_faces(hollowed, order, margin_mm, &request.watch)?;
+    keep_solid(ground, &ends)
+}
+
+/// Keeps regions solid by order; leaves the voids as they are, with a remark, if the goal is lost.
+fn keep_solid<'a>(
+    ground: Ground<'a>,
+    solid: &[SolidEnd],
+) -> Result<(Ground<'a>, Option<Remark>), Error> {
+    if solid.is_empty() {
+        return Ok((ground, None));
+    }
+    Ok(match ground.without(solid, &KeptCause::Ordered)? {
+        Some(less) => (less, None),
+        None => (ground, Some(Remark::OrderTooSolid)),
+    })
 }
 
 /// The ladder from one set of voids.
@@ -67,12 +98,8 @@ impl<'a> Ladder<'a> {
             rounds: Vec::new(),
         };
         let planner = ground.resolver.planner().clone();
-        let ordered = planner.order().map(|order| &order.solid[..]);
-        let (ground, note) = match ordered.filter(|solid| !solid.is_empty()) {
-            Some(solid) => match ground.without(solid, &KeptCause::Ordered)? {
-                Some(less) => (less, None),
-                None => (ground, Some(Remark::OrderTooSolid)),
-            },
+        let (ground, note) = match planner.order() {
+            Some(order) => keep_ordered(ground, order, &request)?,
             None => (ground, None),
         };
         Ok(Self::from(ground, request, note.into_iter().collect()))

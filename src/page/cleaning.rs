@@ -25,7 +25,7 @@ pub(super) fn clean_one(sheet: &Checklist, void: &VoidRow) -> Markup {
             @if let [part] = &void.parts[..] { " in " (part) } ": "
             @if void.opened_by.is_empty() { strong class="fail" { "opened by no cut. " } }
             @else {
-                (measured(void.opening_mm, "mm")) " wide and " (measured(void.depth_mm, "mm")) " deep, open at the cut face. "
+                (measured(void.opening_mm, "mm")) " wide at its narrowest opening and " (measured(void.depth_mm, "mm")) " deep, open at the cut face. "
             }
             @for check in checks_of_void(&sheet.checks, &void.id) {
                 @if !check.pass { (broken(check)) " " }

@@ -9,6 +9,10 @@ use crate::base::units::format_count;
 use crate::goal::GoalKind;
 use crate::sheet::{Checklist, GlueRow, JigRow, JointRow, ShaftKind};
 
+/// Share of a wall that a filed step must leave. With less, a knock breaks the seam, in our
+/// judgement.
+const LEAST_FILED_RATIO: f64 = 0.6;
+
 /// Returns how the joints are aligned: their pins, and their notes.
 fn alignment(sheet: &Checklist, closing: &Closing) -> Markup {
     let is_one = closing.joints.len() == 1;
@@ -36,7 +40,10 @@ fn alignment(sheet: &Checklist, closing: &Closing) -> Markup {
 pub(super) fn dry_fit(sheet: &Checklist) -> Markup {
     html! {
         (cut_list(sheet))
-        p { "Put everything together without glue first. There must be no gap at a seam. A step no larger than stated below may be filed off after gluing." }
+        p {
+            "Put everything together without glue first. There must be no gap at a seam. "
+            (of_steps(sheet))
+        }
         ul class="ticks" {
             @for closing in closings(sheet) {
                 li {
@@ -47,6 +54,18 @@ pub(super) fn dry_fit(sheet: &Checklist) -> Markup {
                 }
             }
         }
+    }
+}
+
+/// Words what to do with a step at a seam. Filing it off takes as much of the wall.
+fn of_steps(sheet: &Checklist) -> &'static str {
+    let steps = sheet.joints.iter().filter_map(|joint| joint.play);
+    let step_mm = steps.map(|play| play.step_mm).fold(0.0, f64::max);
+    let wall_mm = sheet.wall.measured_min_mm.unwrap_or(f64::INFINITY);
+    if wall_mm - step_mm >= LEAST_FILED_RATIO * wall_mm {
+        "A step no larger than stated below may be filed off after gluing."
+    } else {
+        "Fill a step after gluing, and sand it smooth. Do not file it off: the wall is thin."
     }
 }
 

@@ -49,7 +49,7 @@ pub(super) fn card(sheet: &Checklist) -> Markup {
             p {
                 "Made of " (sheet.material.name) ", " (measured(sheet.assembly.mass_g, "g"))
                 ", hollow and glued. Keep it out of the sun and away from heat. Wipe it with a damp cloth. "
-                "Do not drop it. It is no toy for children under three: small parts can come off."
+                "Do not drop it. It is not a toy for children under three: small parts can come off."
             }
         }
     }
@@ -84,7 +84,12 @@ fn use_lines(sheet: &Checklist) -> Vec<String> {
         GoalKind::Top => {
             let turns = body.critical_speed_rpm.map(|rpm| format!("{:.1}", rpm / S_PER_MIN));
             let turns = turns.map_or(String::new(), |turns| format!(", {turns} turns a second"));
-            format!("Hold it upright on a hard, smooth table and spin it fast{turns} or more. It stays up until it slows down.")
+            let hold = if sheet.goal.spins_on.is_some_and(|spin| spin.has_tip) {
+                "Hold it with its tip straight down"
+            } else {
+                "Hold it upright"
+            };
+            format!("{hold} on a hard, smooth table and spin it fast{turns} or more. It stays up until it slows down.")
         }
         GoalKind::Yoyo => "Tie the string around the axle, wind it up and let it fall. It runs down and up without leaning.".to_owned(),
         GoalKind::Stand => "Set it on a table. It stands on its own, with nothing to hold it.".to_owned(),

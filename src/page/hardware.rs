@@ -65,8 +65,8 @@ fn description(sheet: &Checklist, piece: &Hardware) -> String {
             quantity(piece.diameter_mm, "mm")
         ),
         HardwareKind::Tip => format!(
-            "{rod}. File its lower end to a half ball. Glue it {depth} deep into the {socket} socket at the contact; {out} stand out, \
-             and its end is the contact point."
+            "{rod}. File its lower end to a half ball. Glue it {depth} deep into the {socket} socket at the contact, with glue that fills \
+             the gap (gel). Centre it and hold it upright until the glue sets; {out} stand out, and its end is the contact point."
         ),
         HardwareKind::Stem | HardwareKind::Dowel(_) => {
             format!("{rod}: glued {depth} deep into the {socket} socket on top; {out} stand out.")

@@ -69,10 +69,11 @@ fn draft<'a>(promised: &PromisedJig, jig: &'a TriMesh, held: Vec<(&str, Item<'a>
             },
             camera: view.camera.with_label_margins(),
             text_px: TEXT_PX,
+            // A part behind another one would be named at a place where the other is seen.
             labels: names
                 .into_iter()
                 .enumerate()
-                .map(|(index, name)| Label::On(index, name.to_owned()))
+                .map(|(index, name)| Label::Seen(index, name.to_owned()))
                 .collect(),
             keys: Vec::new(),
         },

@@ -103,12 +103,25 @@ fn method_words(sheet: &Checklist) -> String {
             "off for every part: nothing hangs in the air as they lie.".to_owned()
         }
         Some(places) if places.contains(&0) => {
-            "on for the parts marked below, off for the others. None in the pin holes. Support inside a hollow is removed in the next step."
-                .to_owned()
+            format!(
+                "on for the parts marked below, off for the others. {}Support inside a hollow is removed in the next step.",
+                of_holes(sheet)
+            )
         }
-        Some(_) => "on for every part, none in the pin holes. Support inside a hollow is removed in the next step."
-            .to_owned(),
+        Some(_) => format!(
+            "on for every part. {}Support inside a hollow is removed in the next step.",
+            of_holes(sheet)
+        ),
         None => by_process(sheet).to_owned(),
+    }
+}
+
+/// Words that pin holes hold no support; empty without pins.
+fn of_holes(sheet: &Checklist) -> &'static str {
+    if sheet.joints.iter().any(|joint| joint.pins > 0) {
+        "None in the pin holes. "
+    } else {
+        ""
     }
 }
 

@@ -331,7 +331,7 @@ fn card(sheet: &TelescopeSheet) -> Markup {
             h2 { (sheet.job) }
             p class="promise" { (promise(sheet)) }
             p { "Pull the shells out " (sheet.order_words) ", and turn each as far as it goes. Push them in the other way round." }
-            p { "Made of " (sheet.material.name) ", " (measured(sheet.mass_g, "g")) ". It is no toy for children under three: small parts can come off." }
+            p { "Made of " (sheet.material.name) ", " (measured(sheet.mass_g, "g")) ". It is not a toy for children under three: small parts can come off." }
         }
     }
 }

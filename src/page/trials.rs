@@ -7,6 +7,7 @@ use super::figure::{Picture, Role, figure};
 use crate::base::numbers::{measured, measured_extent, number, quantity};
 use crate::goal::GoalKind;
 use crate::sheet::{Checklist, FootRow, ShaftKind, ShaftRow};
+use crate::verify::CONTACT_LIMIT_MM;
 
 /// Frames per second of slow motion, which most telephones can film. At 30 the turns of a fast top
 /// cannot be counted.
@@ -259,7 +260,7 @@ fn level_line(turns_on: &[ShaftRow]) -> String {
                  knife edges"
             )
         }
-        None => "Lay its shaft on two level knife edges".to_owned(),
+        None => "Put a straight shaft on its axis, and lay it on two level knife edges".to_owned(),
     };
     format!("{on_edges}: it stays in any position.")
 }
@@ -267,7 +268,7 @@ fn level_line(turns_on: &[ShaftRow]) -> String {
 /// Words the tip to add under a top whose contact point is in the air.
 fn tip_line(sheet: &Checklist) -> Option<String> {
     let gap_mm = sheet.goal.contact_gap_mm;
-    (gap_mm > 0.0).then(|| {
+    (gap_mm > CONTACT_LIMIT_MM).then(|| {
         let gap = measured(gap_mm, "mm");
         format!("It has no tip: its contact point is {gap} below it. It spins as stated only on a support of that height.")
     })

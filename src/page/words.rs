@@ -1,13 +1,15 @@
 //! Goals, promises and proofs in words.
 
-use super::hardware::word;
+use super::hardware::{rod, word};
 use crate::base::numbers::{coordinates, measured, number, quantity, quantity_or_dash, rough};
 use crate::base::units::{format_count, show_wobble};
 use crate::goal::GoalKind;
 use crate::sheet::{
     Certificate, Checklist, GoalRow, ObjectiveName, Process, Taken, Taker, WallRow,
 };
-use crate::verify::{CONTACT_LIMIT_MM, Check, Comparison, Figures, SpinFacts};
+use crate::verify::{
+    CONTACT_LIMIT_MM, Check, Comparison, Figures, Hardware, HardwareKind, SpinFacts,
+};
 
 /// Relative difference up to which the ordered and the printed wall count as equal.
 const SAME_WALL_RATIO: f64 = 1e-3;
@@ -86,7 +88,7 @@ pub fn promise(sheet: &Checklist) -> String {
         (GoalKind::Yoyo, _, _, Some(ratio)) if ratio < 1.0 => {
             format!("Spins steadily as a yo-yo: {}.", show_wobble(ratio))
         }
-        (GoalKind::Yoyo, ..) => "Does not spin stably about its axis.".to_owned(),
+        (GoalKind::Yoyo, ..) => "Does not spin steadily about its axis.".to_owned(),
         (GoalKind::Stand, _, Some(tilt), _) if tilt > 0.0 => {
             format!("Stands until tilted by {}.", measured(tilt, "°"))
         }
@@ -125,11 +127,14 @@ pub fn axis_off(off_deg: f64) -> String {
     )
 }
 
-/// Words what is bought and not printed; `None` if that is nothing.
+/// Words what is bought and not printed, and what it is cut to; `None` if that is nothing.
 pub fn bought(sheet: &Checklist) -> Option<String> {
-    let pieces = sheet.hardware.iter().map(|piece| word(&piece.kind));
-    let names = pieces.collect::<Vec<_>>().join(", ");
-    (!names.is_empty()).then(|| format!("not printed: {names}"))
+    let name = |piece: &Hardware| match piece.kind {
+        HardwareKind::Ring => rod(piece),
+        _ => format!("{} ({})", word(&piece.kind), rod(piece)),
+    };
+    let names: Vec<String> = sheet.hardware.iter().map(name).collect();
+    (!names.is_empty()).then(|| format!("to buy: {}", names.join("; ")))
 }
 
 /// The last words of a promise that its value completes, such as "it stands until tilted by".
@@ -176,17 +181,17 @@ pub fn spins_on(sheet: &Checklist) -> Option<String> {
     let part = if has_tip {
         format!(
             "a tip with a round end of {} radius",
-            quantity(radius_mm, "mm")
+            measured(radius_mm, "mm")
         )
     } else if gap_mm > CONTACT_LIMIT_MM {
         return Some(format!(
             "nothing yet: its contact is {} off it",
-            quantity(gap_mm, "mm")
+            measured(gap_mm, "mm")
         ));
     } else if radius_mm > 0.0 {
         format!(
             "its own foot, round as a ball of {} radius",
-            quantity(radius_mm, "mm")
+            measured(radius_mm, "mm")
         )
     } else {
         "its own foot".to_owned()
@@ -293,7 +298,11 @@ pub fn shortfall(sheet: &Checklist) -> Option<String> {
             Taker::Bosses => "to bosses around pins",
             Taker::Making => "to cuts, pins and rounding",
         };
-        format!("{:.0}\u{a0}% {what}", 100.0 * taken.ratio)
+        // A figure that should be small can lose more than all of it.
+        match taken.ratio {
+            ratio if ratio > 1.0 => format!("most {what}"),
+            ratio => format!("{:.0}\u{a0}% {what}", 100.0 * ratio),
+        }
     };
     let taken: Vec<String> = shortfall.taken.iter().map(words).collect();
     Some(format!(

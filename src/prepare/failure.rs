@@ -16,6 +16,8 @@ use crate::verify::{Check, CheckKind, FigureName};
 
 /// Steps of a degree in which a smaller promise is advised: it is rounded down to tenths.
 const PROMISES_PER_DEG: f64 = 10.0;
+/// The least promise that is offered, degrees: with less, an object falls at a touch.
+const LEAST_PROMISE_DEG: f64 = 1.0;
 
 /// Adds the reason why a kit breaks a promise, and what helps.
 pub fn on_failure(placed: &Placed, prepared: Prepared, watch: &Watch) -> Result<Prepared, Error> {
@@ -81,7 +83,7 @@ fn smaller_promise(broken: &Check) -> Option<String> {
     };
     let kept_deg = (broken.value? * PROMISES_PER_DEG).floor() / PROMISES_PER_DEG;
     let setting = Setting::new(key, kept_deg);
-    (kept_deg > 0.0).then(|| format!("promise no more than it keeps (`{setting}`)"))
+    (kept_deg >= LEAST_PROMISE_DEG).then(|| format!("promise no more than it keeps (`{setting}`)"))
 }
 
 /// Returns the request that a hint for a broken check calls for; `None` if the hint changes none.

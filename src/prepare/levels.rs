@@ -6,6 +6,7 @@ use crate::ballast::Load;
 use crate::base::verdict::Verdict;
 use crate::base::watch::{Phase, Watch};
 use crate::error::Error;
+use crate::goal::{Contact, Request, Up, Water, Waterline};
 use crate::hollow::{
     Certificate, Fill, Pass, Problem, Settings, Solution, TopCourse, prove, top_course,
 };
@@ -142,6 +143,25 @@ fn pitches(placed: &Placed, shell: &Shell) -> Vec<[f64; 2]> {
     coarse.chain([finest_mm]).collect()
 }
 
+/// Returns the hints that do not call for what was ordered already.
+fn new_hints(request: &Request, hints: &[&str]) -> Vec<String> {
+    let is_free = |water: Water| water.waterline == Waterline::Auto;
+    let ordered = [
+        ("(contact center)", request.contact == Some(Contact::Center)),
+        ("(up principal)", request.up == Up::Principal),
+        ("(waterline auto)", request.water.is_some_and(is_free)),
+    ];
+    let is_new = |hint: &&&str| {
+        let mut ordered = ordered.iter();
+        !ordered.any(|(option, is_ordered)| *is_ordered && hint.contains(option))
+    };
+    hints
+        .iter()
+        .filter(is_new)
+        .map(ToString::to_string)
+        .collect()
+}
+
 /// Returns the answer for a goal that no hollowing meets.
 fn impossible(placed: &Placed, solution: &Solution) -> Impossible {
     let goal = placed.goal();
@@ -151,7 +171,7 @@ fn impossible(placed: &Placed, solution: &Solution) -> Impossible {
         verdict: "impossible",
         reason: solution.status.explain(goal),
         remedies: Vec::new(),
-        hints: hints.iter().map(ToString::to_string).collect(),
+        hints: new_hints(&placed.request, hints),
         choice: placed.choice.as_ref().map(ToString::to_string),
         proof_quadric: solution.status.separator().unwrap_or(solution.quadric).0,
         origin_mm: goal.frame.origin.into(),

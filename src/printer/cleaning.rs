@@ -34,9 +34,9 @@ impl CleaningRule {
     pub fn description(self) -> &'static str {
         match self {
             Self::MeltOut => "support melts or dissolves out through any opening",
-            Self::InSight => "support is broken or flushed out in sight of the opening",
+            Self::InSight => "support comes out through the opening, as far as it is seen",
             Self::InSightOrSelfSupporting => {
-                "support is broken out in sight of the opening; self-supporting walls hold none"
+                "support comes out through the opening, as far as it is seen; steep walls hold none"
             }
             Self::PowderEscape => "powder falls out through an escape opening",
         }
@@ -140,7 +140,7 @@ mod tests {
     fn a_printer_with_a_vat_says_that_resin_drains() {
         let method = |id: &str| Printer::find(id).unwrap().cleaning_method();
         assert!(method("formlabs-form3").starts_with("resin drains"));
-        assert!(method("objet-connex350").starts_with("support is broken"));
+        assert!(method("objet-connex350").starts_with("support comes out"));
     }
 
     #[test]

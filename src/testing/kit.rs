@@ -132,7 +132,7 @@ fn checklist(evidence: &Evidence, found: &Judgement) -> Checklist {
             aim: evidence.promise.goal,
             objective: ObjectiveName::CriticalSpeed,
             spin_it_weights: None,
-            contact_gap_mm: 10.0,
+            contact_gap_mm: 0.0,
             turns_on: Vec::new(),
             spins_on: found.spin,
             choice: None,

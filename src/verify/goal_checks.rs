@@ -64,18 +64,16 @@ fn standing_check(aim: &Aim, assembly: &Figures) -> Check {
 
 /// Checks that a top spins on its contact: nothing is lower, and it leans as far as it promises.
 ///
-/// If the lean is waived, a contact in the air is the maker's own wish. Kits of older versions
-/// promise nothing of the contact.
+/// Kits of older versions promise nothing of the contact.
 fn contact_checks(aim: &Aim, found: Option<&SpinFacts>) -> Vec<Check> {
     let Some(least_deg) = aim.least_lean_deg else {
         return Vec::new();
     };
     let is_waived = least_deg == 0.0;
-    let gap_mm = |spin: &SpinFacts| if is_waived { 0.0 } else { spin.gap_mm };
     let contact = Check::new(
         CheckKind::Contact,
         "its contact is its lowest point",
-        found.map(|spin| spin.below_mm.max(gap_mm(spin))),
+        found.map(|spin| spin.below_mm.max(spin.gap_mm)),
         Limit::at_most(CONTACT_LIMIT_MM, "mm"),
     );
     let promise = if found.is_some_and(|spin| spin.has_tip) {

@@ -15,6 +15,7 @@ mod map;
 mod names;
 mod prose;
 mod scanner;
+mod wording;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;

@@ -4,4 +4,5 @@ pub(crate) mod chamber;
 pub(crate) mod eyes;
 pub(crate) mod sight;
 pub(crate) mod uncleanable;
+pub(crate) mod uncut;
 pub(crate) mod void_access;

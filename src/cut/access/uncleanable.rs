@@ -231,7 +231,7 @@ pub fn find_ends_in_small_parts(
 }
 
 /// Returns the corner of a void's piece that is farthest from all cuts.
-fn farthest_corner(piece: &TriMesh, tree: &CutTree) -> Option<Point> {
+pub(super) fn farthest_corner(piece: &TriMesh, tree: &CutTree) -> Option<Point> {
     let off_cuts_mm = |p: &Point| {
         tree.planes
             .iter()
