@@ -152,6 +152,8 @@ pub mod poses;
 #[doc(hidden)]
 pub mod press;
 #[doc(hidden)]
+pub mod raster;
+#[doc(hidden)]
 pub mod repair;
 #[doc(hidden)]
 pub mod run;

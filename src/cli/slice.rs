@@ -12,9 +12,13 @@ use super::signals::Stop;
 use super::toolpaths::toolpaths_text;
 use super::voice::{Manner, Voice};
 use crate::base::numbers::quantity;
+use crate::base::units::show_mm3;
 use crate::base::watch::Watch;
+use crate::io::layers::StackRow;
 use crate::kit::{Existing, KitError};
-use crate::slice::{SliceError, SliceOrder, Slices, slice_kit};
+use crate::slice::{
+    ImageOrder, Imaged, SliceError, SliceFormat, SliceOrder, Slices, image_kit, slice_kit,
+};
 use crate::verify::{PrintedError, PrintedJudgement, verify_printed};
 
 /// A reason why no toolpaths were written.
@@ -46,19 +50,36 @@ struct Found<'a> {
     judgement: &'a PrintedJudgement,
 }
 
-/// Slices a kit, writes its toolpaths and judges them; prints the findings to `out`.
+/// The findings about images as they are printed as JSON.
+#[derive(Serialize)]
+struct FoundImages<'a> {
+    folder: &'a Path,
+    layers: &'a StackRow,
+    judgement: &'a PrintedJudgement,
+}
+
+/// Slices a kit, writes what its machine reads and judges it; prints the findings to `out`.
 pub fn slice(
     args: &SliceArgs,
     voice: Voice,
     stop: &Stop,
     out: &mut dyn Write,
 ) -> Result<Exit, SliceCommandError> {
-    let target = args.out.clone().unwrap_or_else(|| folder_beside(&args.kit));
-    let existing = if args.force {
-        Existing::Replace
-    } else {
-        Existing::Keep
-    };
+    match args.format {
+        None | Some(SliceFormat::Gcode) => slice_toolpaths(args, voice, stop, out),
+        Some(_) => slice_images(args, voice, stop, out),
+    }
+}
+
+/// Slices a kit into toolpaths by a slicer.
+fn slice_toolpaths(
+    args: &SliceArgs,
+    voice: Voice,
+    stop: &Stop,
+    out: &mut dyn Write,
+) -> Result<Exit, SliceCommandError> {
+    let target = target(args, "gcode");
+    let existing = existing(args);
     existing.allows(&target)?;
     let watch = Watch::silent_until(stop.flag());
     let order = SliceOrder {
@@ -100,15 +121,91 @@ pub fn slice(
     })
 }
 
-/// Returns the folder of the toolpaths beside a kit.
-fn folder_beside(kit: &Path) -> PathBuf {
-    let name = kit
-        .file_name()
-        .map(|name| name.to_string_lossy().into_owned());
-    kit.with_file_name(format!(
-        "{}-gcode",
-        name.unwrap_or_else(|| "kit".to_owned())
-    ))
+/// Slices a kit into layer images at the pixels of its printer.
+fn slice_images(
+    args: &SliceArgs,
+    voice: Voice,
+    stop: &Stop,
+    out: &mut dyn Write,
+) -> Result<Exit, SliceCommandError> {
+    let target = target(args, "layers");
+    let existing = existing(args);
+    existing.allows(&target)?;
+    let watch = Watch::silent_until(stop.flag());
+    let order = ImageOrder {
+        kit: args.kit.clone(),
+        format: args.format.unwrap_or(SliceFormat::Stack),
+        profile: args.profile.clone(),
+    };
+    let written = image_kit(&order, &watch)
+        .map_err(SliceCommandError::from)
+        .and_then(|imaged| {
+            imaged.files.write_watched(&target, existing, &watch)?;
+            Ok(imaged)
+        });
+    if written.is_err()
+        && let Some(exit) = stop.end()
+    {
+        return Ok(exit);
+    }
+    let imaged = written?;
+    let files: Vec<PathBuf> = imaged.judged.iter().map(|file| target.join(file)).collect();
+    let judgement = verify_printed(&args.kit, &files, &watch)?;
+    if voice.json {
+        let found = FoundImages {
+            folder: &target,
+            layers: &imaged.row,
+            judgement: &judgement,
+        };
+        writeln!(out, "{}", serde_json::to_string_pretty(&found)?)?;
+    } else if !voice.manner.quiet {
+        let said = toolpaths_text(&judgement, voice.manner);
+        write!(out, "{}{said}", images_text(&imaged, &target))?;
+    } else if !judgement.passes() {
+        say(toolpaths_text(&judgement, voice.manner).trim_end());
+    }
+    Ok(if judgement.passes() {
+        Exit::Kept
+    } else {
+        Exit::NotKept
+    })
+}
+
+/// Returns whether a folder may be replaced.
+fn existing(args: &SliceArgs) -> Existing {
+    if args.force {
+        Existing::Replace
+    } else {
+        Existing::Keep
+    }
+}
+
+/// Returns the folder to write: the one that was asked for, or one beside the kit.
+fn target(args: &SliceArgs, ending: &str) -> PathBuf {
+    args.out.clone().unwrap_or_else(|| {
+        let name = args.kit.file_name().map(|name| name.to_string_lossy());
+        let name = name.map_or_else(|| "kit".to_owned(), |name| name.into_owned());
+        args.kit.with_file_name(format!("{name}-{ending}"))
+    })
+}
+
+/// Words the images of each plate, and where they were written.
+fn images_text(imaged: &Imaged, folder: &Path) -> String {
+    let head = ["plate", "layers", "layer", "pixels", "pixel", "material"];
+    let rows = imaged.row.plates.iter().map(|plate| {
+        let pitch = plate.pixel_mm.map(|mm| format!("{mm:.4}"));
+        vec![
+            plate.plate.clone(),
+            plate.layers.to_string(),
+            quantity(plate.layer_mm, "mm"),
+            format!("{} × {}", plate.pixels[0], plate.pixels[1]),
+            format!("{} mm", pitch.join(" × ")),
+            show_mm3(plate.volume_mm3),
+        ]
+    });
+    let head = head.map(str::to_owned).to_vec();
+    let rows: Vec<Vec<String>> = std::iter::once(head).chain(rows).collect();
+    format!("{}written to {}\n\n", table(&rows), folder.display())
 }
 
 fn text(slices: &Slices, judgement: &PrintedJudgement, folder: &Path, manner: Manner) -> String {
@@ -147,8 +244,18 @@ mod tests {
 
     #[test]
     fn the_toolpaths_lie_beside_their_kit() {
-        let beside = |kit: &str| folder_beside(Path::new(kit)).display().to_string();
-        assert_eq!(beside("kits/elephant"), "kits/elephant-gcode");
-        assert_eq!(beside("elephant/"), "elephant-gcode");
+        let beside = |kit: &str, ending: &str| {
+            let args = SliceArgs {
+                kit: kit.into(),
+                format: None,
+                slicer: None,
+                profile: None,
+                out: None,
+                force: false,
+            };
+            target(&args, ending).display().to_string()
+        };
+        assert_eq!(beside("kits/elephant", "gcode"), "kits/elephant-gcode");
+        assert_eq!(beside("elephant/", "layers"), "elephant-layers");
     }
 }

@@ -4,12 +4,14 @@
 //! * [`stl`], `obj`, `ply` and [`threemf`] hold one format each.
 //! * `points` reads curves, a point a line; `lines` reads them as OBJ lines or PLY edges, too.
 //! * [`gcode`] reads what a print lays down; it writes nothing.
+//! * [`layers`] writes and weighs layer images.
 //! * `drawing` holds drawings for cutters, which `dxf` and `cut_svg` write.
 
 mod cut_svg;
 mod drawing;
 mod dxf;
 pub mod gcode;
+pub mod layers;
 mod lines;
 mod obj;
 mod ply;

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use crate::base::watch::Cancelled;
+use crate::io::threemf::ThreeMfError;
 use crate::job::JobError;
 use crate::printer::{MaterialError, ProfileError};
 use crate::slicer::SlicerError;
@@ -33,12 +34,50 @@ pub enum SliceError {
     Material(#[from] MaterialError),
     /// The printer prints no filament.
     #[error(
-        "{printer} prints no filament on a plate of known size; remedy: prepare the kit for a filament printer"
+        "{printer} prints no filament on a plate of known size; remedy: slice it as layer images (a png-stack), or prepare the kit for a filament printer"
     )]
     NoFilament {
         /// The name of the printer.
         printer: String,
     },
+    /// The printer lays lines.
+    #[error(
+        "{printer} lays lines and shows no pixels; remedy: slice it as G-code, or prepare the kit for a printer of pixels"
+    )]
+    NoPixels {
+        /// The name of the printer.
+        printer: String,
+    },
+    /// An SL1 without the configuration of its machine.
+    #[error(
+        "an SL1 needs the display and the exposure of its machine; remedy: export the configuration from the slicer as .ini and give it as the profile, or ask for a png-stack"
+    )]
+    NoDisplay,
+    /// The configuration of a machine lacks a setting.
+    #[error("{} gives no usable `{key}`; remedy: export the configuration of a resin printer", path.display())]
+    NoSetting {
+        /// The file.
+        path: PathBuf,
+        /// The key.
+        key: String,
+    },
+    /// A plate does not lie on the display.
+    #[error(
+        "{plate} reaches beyond the display of the profile; remedy: give the configuration of the kit's own printer"
+    )]
+    BeyondDisplay {
+        /// The plate.
+        plate: String,
+    },
+    /// A plate is no readable 3MF.
+    #[error(transparent)]
+    Plate(#[from] ThreeMfError),
+    /// An image cannot be written.
+    #[error("an image of a layer cannot be written")]
+    Image(#[from] png::EncodingError),
+    /// An archive cannot be written.
+    #[error("the archive of the layers cannot be written")]
+    Archive(#[from] zip::result::ZipError),
     /// The kit has no plates.
     #[error(
         "{} has no plates to slice; remedy: prepare it with parts as 3MF", path.display()

@@ -1,12 +1,18 @@
-//! From the plates of a kit to toolpaths, by a slicer with the settings of the kit's own printer.
+//! From the plates of a kit to what its machine reads. That is toolpaths by a slicer, with the
+//! settings of the kit's own printer, or layer images at its own pixels.
 //!
 //! * `plates` slices each plate and weighs its toolpaths.
 //! * `row` is the list of what was sliced, and its figures.
+//! * `images` draws each plate layer by layer.
 
 mod error;
+mod format;
+mod images;
 mod plates;
 mod row;
 
 pub use error::SliceError;
+pub use format::SliceFormat;
+pub use images::{ImageOrder, Imaged, image_kit};
 pub use plates::{SliceOrder, Sliced, slice_kit};
 pub use row::{PlateSlice, Slices};

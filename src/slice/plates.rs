@@ -93,7 +93,7 @@ pub fn slice_kit(order: &SliceOrder, watch: &Watch) -> Result<Sliced, SliceError
     Ok(Sliced { slices, files })
 }
 
-fn read_job(folder: &Path) -> Result<Job, SliceError> {
+pub(super) fn read_job(folder: &Path) -> Result<Job, SliceError> {
     let path = folder.join(JOB_FILE);
     if !path.is_file() {
         let path = folder.to_owned();
@@ -106,7 +106,7 @@ fn read_job(folder: &Path) -> Result<Job, SliceError> {
 }
 
 /// Reads a profile of a slicer: lines of `key = value`.
-fn read_profile(path: &Path) -> Result<String, SliceError> {
+pub(super) fn read_profile(path: &Path) -> Result<String, SliceError> {
     let fault = |reason: &str| SliceError::NoProfile {
         path: path.to_owned(),
         reason: reason.to_owned(),
@@ -139,7 +139,7 @@ fn read_profile(path: &Path) -> Result<String, SliceError> {
 }
 
 /// Returns the names of the plates of a kit, in the order of their numbers.
-fn find_plates(folder: &Path) -> Result<Vec<String>, SliceError> {
+pub(super) fn find_plates(folder: &Path) -> Result<Vec<String>, SliceError> {
     let read_error = |source: io::Error| SliceError::Read {
         path: folder.to_owned(),
         source,

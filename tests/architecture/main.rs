@@ -43,6 +43,8 @@ const ARROWS: &[(&str, &[&str])] = &[
     // A skeleton is found in a solid alone; what shells need comes as two lengths.
     ("skeleton", &["base", "geom", "mesh"]),
     ("mass", &["geom", "mesh", "base"]),
+    // Layer images are made of a mesh alone; what machine shows them comes as pixels and layers.
+    ("raster", &["geom", "mass", "mesh", "base"]),
     ("goal", &["geom", "mass", "mesh", "shell", "base"]),
     ("hardware", &["geom", "goal", "mass", "mesh", "base"]),
     ("printer", &["base"]),
@@ -141,10 +143,13 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("kit", &["base"]),
     // A slicer is another program: it gets a plate and a profile, and gives toolpaths.
     ("slicer", &["base", "io", "printer"]),
-    // Slicing a kit reads its job and its plates; the judge looks at the toolpaths afterwards.
+    // Slicing a kit reads its job and its plates, and draws them as layers for machines of pixels.
+    // The judge looks at the slices afterwards.
     (
         "slice",
-        &["base", "io", "job", "kit", "printer", "slicer", "verify"],
+        &[
+            "base", "geom", "io", "job", "kit", "mesh", "printer", "raster", "slicer", "verify",
+        ],
     ),
     (
         "coupon",

@@ -175,7 +175,8 @@ pub struct VerifyArgs {
     /// Also make the kit again from its job.toml, and compare every file; takes as long as prepare
     #[arg(long)]
     pub replay: bool,
-    /// Tell how these toolpaths will balance, of every plate: .gcode, .bgcode or .gcode.3mf
+    /// Tell how these slices will balance, of every plate: .gcode, .bgcode, .gcode.3mf, .sl1, .sl1s
+    /// or layers.json
     #[arg(
         long,
         value_name = "FILE",

@@ -4,20 +4,27 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use crate::slice::SliceFormat;
+
 /// The arguments of `slice`.
 #[derive(Debug, Args)]
 pub struct SliceArgs {
     /// The folder of the kit
     pub kit: PathBuf,
+    /// The format: gcode by a slicer, or images of layers at the printer's own pixels (png-stack,
+    /// sl1) [default: gcode]
+    #[arg(long, value_name = "FORMAT")]
+    pub format: Option<SliceFormat>,
     /// The command of the slicer, PrusaSlicer or SuperSlicer [default: prusa-slicer]
     #[arg(long, value_name = "CMD")]
     pub slicer: Option<String>,
     /// A configuration exported by the slicer (.ini), for speeds, temperatures and the start
     ///
-    /// Sizes, lines, layers and density stay those of the kit's printer.
+    /// Sizes, lines, layers and density stay those of the kit's printer. An sl1 takes its display
+    /// and its exposure from it.
     #[arg(long, value_name = "FILE")]
     pub profile: Option<PathBuf>,
-    /// The folder to write [default: the kit's name and -gcode]
+    /// The folder to write [default: the kit's name and -gcode, or -layers]
     #[arg(long, value_name = "FOLDER")]
     pub out: Option<PathBuf>,
     /// Replace the folder if it exists

@@ -21,6 +21,10 @@ const STATED_INFILL_RATIO: f64 = 0.1;
 /// as infill too, which looks like 64 % and more at a flow of 90 %.
 const DENSE_RATIO: f64 = 0.6;
 
+/// What to do about images with more or less than the parts.
+const IMAGES_REMEDY: &str = "slice without support, raft and pad, which images do not tell from the parts, and set corrections \
+     of size and first layers to none";
+
 /// The parts of one source.
 pub(super) struct Printed<'a> {
     /// The promise of the kit.
@@ -146,7 +150,7 @@ impl Printed<'_> {
             .promise
             .printer
             .layer_mm
-            .filter(|_| self.is_filament())?;
+            .filter(|_| self.is_filament() || self.source.is_images)?;
         let is_other = |mm: f64| (mm / wanted_mm - 1.0).abs() > LAYER_RATIO;
         let parts = self.those(|part| part.layer_mm.is_some_and(is_other));
         let found_mm = parts.first().and_then(|part| part.layer_mm)?;
@@ -226,10 +230,14 @@ impl Printed<'_> {
         let listed: Vec<String> = listed.collect();
         let finding = format!("{} of the material of its solid", listed.join(", "));
         let setting = CauseKind::Flow.setting(self.source.slicer());
-        let remedy = format!(
-            "check {setting}, the density of infill, the scale, the width of lines and the \
-             diameter of filament"
-        );
+        let remedy = if self.source.is_images {
+            IMAGES_REMEDY.to_owned()
+        } else {
+            format!(
+                "check {setting}, the density of infill, the scale, the width of lines and the \
+                 diameter of filament"
+            )
+        };
         self.cause(CauseKind::Flow, &parts, finding, remedy)
     }
 

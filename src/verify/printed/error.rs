@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use crate::base::watch::Cancelled;
 use crate::io::gcode::ReadGcodeError;
+use crate::io::layers::ReadLayersError;
 use crate::verify::VerifyError;
 
 /// Toolpaths cannot be judged at all. A wrong print is no error.
@@ -16,6 +17,9 @@ pub enum PrintedError {
     /// A file of toolpaths cannot be read.
     #[error(transparent)]
     Gcode(#[from] ReadGcodeError),
+    /// A file of layer images cannot be read.
+    #[error(transparent)]
+    Layers(#[from] ReadLayersError),
     /// Nothing in a file is of this kit.
     #[error(
         "{file} fits no part of this kit: {reason}; remedy: slice {plates} of this kit again, with labels on its objects"

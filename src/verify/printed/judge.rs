@@ -264,6 +264,13 @@ fn write_notes(
 fn source_notes(source: &Source, promise: &Promise) -> Vec<String> {
     let (toolpath, name) = (&source.toolpath, &source.name);
     let mut notes = Vec::new();
+    if source.is_images {
+        return vec![format!(
+            "{name} holds images of layers: the material is weighed with the kit's {} g/cm³, and \
+             support in the images counts as parts",
+            promise.material.density_g_cm3
+        )];
+    }
     if !Densities::of(source, promise).are_stated() {
         notes.push(format!(
             "{name} does not state the density of its filament; the kit's {} g/cm³ is taken",

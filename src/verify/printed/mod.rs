@@ -4,6 +4,7 @@
 //! the hardware, ballast and glue of the promise. It holds the figures against the promise, and
 //! names the causes of a wrong print with the setting to change.
 //!
+//! * `images` reads layer images as material.
 //! * `source` reads files; `names`, `shape`, `turns` and `matching` find the parts.
 //! * `part` and `density` weigh them; `supports` finds support in voids.
 //! * `cause` and `causes` name what is set wrong; `checks` gives the verdict.
@@ -13,6 +14,7 @@ mod causes;
 mod checks;
 mod density;
 mod error;
+mod images;
 mod judge;
 mod judgement;
 mod limits;

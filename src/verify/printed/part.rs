@@ -95,7 +95,9 @@ impl PrintedPart {
             written_center_mm: written.centroid().coords.into(),
             center_mm: moments_g.centroid().coords.into(),
             center_off_mm: (moments_g.centroid() - written.centroid()).norm(),
-            layer_mm: lines.map(|lines| lines.height_mm),
+            layer_mm: lines
+                .map(|lines| lines.height_mm)
+                .or_else(|| source.image_layer_mm()),
             line_mm: lines.map(|lines| lines.width_mm),
             sparse_ratio: volume(Feature::Infill) / volume_mm3,
             support_mm3: volume(Feature::Support) + volume(Feature::SupportInterface),

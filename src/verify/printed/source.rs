@@ -3,12 +3,14 @@
 use std::path::PathBuf;
 
 use super::error::PrintedError;
+use super::images::read_images;
 use super::limits::FLOW_LIMIT_RATIO;
 use super::names::showable;
 use super::shape::Shape;
 use crate::base::watch::Watch;
 use crate::geom::{Aabb, Vector};
 use crate::io::gcode::{Deposits, Feature, Label, Options, Place, Slicer, Toolpath, read_gcode};
+use crate::io::layers::holds_layers;
 use crate::verify::Promise;
 
 /// Edge of the cubes by which support is counted, mm: a third of the least opening of a void.
@@ -28,6 +30,8 @@ pub(super) struct Source {
     pub(super) name: String,
     /// What is printed.
     pub(super) toolpath: Toolpath,
+    /// Whether the file holds images of layers, and no lines.
+    pub(super) is_images: bool,
 }
 
 /// Material that is printed as one object.
@@ -60,6 +64,17 @@ pub(super) fn read_sources(files: &[PathBuf], watch: &Watch) -> Result<Vec<Sourc
     }
     let mut sources = Vec::new();
     for path in files {
+        if holds_layers(path) {
+            let plates = read_images(path, &[], watch)?.into_iter().enumerate();
+            sources.extend(plates.map(|(index, toolpath)| Source {
+                path: path.clone(),
+                index,
+                name: path.display().to_string(),
+                toolpath,
+                is_images: true,
+            }));
+            continue;
+        }
         let plates = read_gcode(path, &options(Vec::new()), watch)?;
         for (index, mut plate) in plates.into_iter().enumerate() {
             take_off_calibration(&mut plate.toolpath);
@@ -69,6 +84,7 @@ pub(super) fn read_sources(files: &[PathBuf], watch: &Watch) -> Result<Vec<Sourc
                 index,
                 name: format!("{}{}", path.display(), number.unwrap_or_default()),
                 toolpath: plate.toolpath,
+                is_images: false,
             });
         }
     }
@@ -137,12 +153,23 @@ impl Source {
         places: Vec<Place>,
         watch: &Watch,
     ) -> Result<Vec<Deposits>, PrintedError> {
+        if self.is_images {
+            let plates = read_images(&self.path, &places, watch)?;
+            let plate = plates.into_iter().nth(self.index);
+            return Ok(plate.map_or_else(Vec::new, |plate| plate.places));
+        }
         let plates = read_gcode(&self.path, &options(places), watch)?;
         let plate = plates.into_iter().nth(self.index);
         Ok(plate.map_or_else(Vec::new, |mut plate| {
             take_off_calibration(&mut plate.toolpath);
             plate.toolpath.places
         }))
+    }
+
+    /// Returns the height of its layers, mm; `None` for toolpaths, whose lines tell it.
+    pub(super) fn image_layer_mm(&self) -> Option<f64> {
+        let stated = self.toolpath.facts.layer_height_mm;
+        stated.filter(|_| self.is_images)
     }
 
     /// Returns the slicer that wrote it.
