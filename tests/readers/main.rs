@@ -1,0 +1,168 @@
+//! Every reader of a stranger's file answers whatever it is given: it reads it or refuses it, in
+//! bounded time and without a panic.
+//!
+//! `EQUIPOISE_MUTATIONS=10000 cargo test --release --test readers` damages each file that often.
+
+#![allow(
+    clippy::unwrap_used,
+    reason = "a test whose input cannot be had has failed"
+)]
+#![allow(
+    clippy::print_stdout,
+    reason = "the counts are shown with --nocapture"
+)]
+
+mod damage;
+mod seeds;
+
+use std::fs;
+use std::io::Cursor;
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+use damage::damaged;
+use equipoise::base::watch::Watch;
+use equipoise::cutter::AnyProfile;
+use equipoise::io::gcode::{Options, read_plates};
+use equipoise::io::layers::read_layers;
+use equipoise::io::{decode_curve, decode_model, decode_points};
+use equipoise::job::telescope::TelescopeJob;
+use equipoise::job::{Job, read_plan};
+use equipoise::printer::Printer;
+use equipoise::skeleton::Skeleton;
+
+/// Damaged files for each reader, if nothing else is asked for.
+const USUAL: u64 = 300;
+/// The most time for one small file. None takes a hundredth of it.
+const PATIENCE: Duration = Duration::from_secs(10);
+
+/// Returns how often each file is damaged.
+fn rounds() -> u64 {
+    let asked = std::env::var("EQUIPOISE_MUTATIONS").ok();
+    asked.map_or(USUAL, |count| count.parse().unwrap())
+}
+
+/// Damages each seed, and lets a reader answer. Returns how many it read.
+fn fuzz(name: &str, seeds: &[Vec<u8>], reads: impl Fn(&[u8]) -> bool) -> u64 {
+    let mut read = 0;
+    for (kind, seed) in (0_u64..).zip(seeds) {
+        assert!(reads(seed), "{name}: seed {kind} is sound");
+        for round in 0..rounds() {
+            let bytes = damaged(seed, kind << 32 | round);
+            let start = Instant::now();
+            read += u64::from(reads(&bytes));
+            assert!(start.elapsed() < PATIENCE, "{name}: {kind}, {round} hangs");
+        }
+    }
+    let all = rounds() * seeds.len() as u64;
+    println!("{name}: {read} of {all} damaged files were read, the others refused");
+    read
+}
+
+/// Damages the seeds as files of this name, for a reader of paths.
+fn fuzz_files(name: &str, file: &str, seeds: &[Vec<u8>], reads: impl Fn(&Path) -> bool) {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join(file);
+    fuzz(name, seeds, |bytes| {
+        fs::write(&path, bytes).unwrap();
+        reads(&path)
+    });
+}
+
+/// Returns whether a model is read; what is read is finite.
+fn reads_model(bytes: &[u8]) -> bool {
+    let Ok(mesh) = decode_model(bytes) else {
+        return false;
+    };
+    let is_finite = |x: &f64| x.is_finite();
+    assert!(mesh.vertices().iter().all(|p| p.iter().all(is_finite)));
+    let count = mesh.vertices().len() as u32;
+    assert!(mesh.triangles().iter().flatten().all(|&at| at < count));
+    true
+}
+
+#[test]
+fn models_as_stl_obj_ply_and_3mf() {
+    fuzz("stl, binary", &[seeds::binary_stl()], reads_model);
+    fuzz("stl, text", &[seeds::text_stl()], reads_model);
+    fuzz("obj", &[seeds::obj()], reads_model);
+    fuzz("ply", &[seeds::text_ply(), seeds::binary_ply()], reads_model);
+    fuzz("3mf", &[seeds::package(), seeds::package_of_components()], reads_model);
+}
+
+#[test]
+fn curves_as_points_lines_and_edges() {
+    let is_finite = |points: &[equipoise::geom::Point]| {
+        assert!(points.iter().all(|p| p.iter().all(|x| x.is_finite())));
+        true
+    };
+    let hook = fs::read("examples/models/hook.csv").unwrap();
+    fuzz("csv", &[hook], |bytes| decode_points(bytes).is_ok_and(|points| is_finite(&points)));
+    let lines = [seeds::obj_lines(), seeds::ply_edges()];
+    fuzz("lines", &lines, |bytes| decode_curve(bytes).is_ok_and(|points| is_finite(&points)));
+}
+
+#[test]
+fn toolpaths_and_layer_images() {
+    let options = Options::default();
+    let reads_gcode = |bytes: &[u8]| {
+        read_plates(Cursor::new(bytes), &options, &Watch::silent()).is_ok_and(|plates| {
+            let moments = plates.iter().flat_map(|plate| plate.toolpath.part_moments().0);
+            assert!(moments.into_iter().all(f64::is_finite));
+            true
+        })
+    };
+    fuzz("g-code", &[seeds::gcode()], reads_gcode);
+    let reads_images = |path: &Path| {
+        read_layers(path, &[], &Watch::silent()).is_ok_and(|plates| {
+            let moments = plates.iter().flat_map(|plate| plate.whole.moments.0);
+            assert!(moments.into_iter().all(f64::is_finite));
+            true
+        })
+    };
+    fuzz_files("sl1", "plate.sl1", &[seeds::sl1()], reads_images);
+    let folder = tempfile::tempdir().unwrap();
+    seeds::write_stack(folder.path());
+    let list = folder.path().join("layers.json");
+    let seed = fs::read(&list).unwrap();
+    fuzz("layers.json", &[seed], |bytes| {
+        fs::write(&list, bytes).unwrap();
+        reads_images(&list)
+    });
+}
+
+#[test]
+fn profiles_of_printers_cutters_sheets_and_fasteners() {
+    let folder_of = |folder: &str| {
+        let entries = fs::read_dir(Path::new("profiles").join(folder)).unwrap();
+        let mut paths: Vec<_> = entries.map(|entry| entry.unwrap().path()).collect();
+        paths.sort();
+        paths.retain(|path| path.extension().is_some_and(|end| end == "toml"));
+        paths
+    };
+    let texts = |folder: &str, count: usize| -> Vec<Vec<u8>> {
+        let paths = folder_of(folder).into_iter().take(count);
+        paths.map(|path| fs::read(path).unwrap()).collect()
+    };
+    fuzz_files("printer", "own.toml", &texts("printers", 3), |path| {
+        Printer::read(path).is_ok()
+    });
+    for folder in ["cutters", "sheets"] {
+        fuzz_files(folder, "own.toml", &texts(folder, 2), |path| {
+            AnyProfile::read(path).is_ok()
+        });
+    }
+}
+
+#[test]
+fn orders_of_cuts_jobs_and_skeletons() {
+    fuzz_files("cuts", "cuts.toml", &[seeds::cuts()], |path| read_plan(path).is_ok());
+    fuzz_files("job", "job.toml", &[seeds::job()], |path| Job::read(path).is_ok());
+    fuzz_files("telescope job", "job.toml", &[seeds::telescope_job()], |path| {
+        TelescopeJob::read(path).is_ok()
+    });
+    let reads = |bytes: &[u8]| {
+        std::str::from_utf8(bytes).is_ok_and(|text| Skeleton::from_toml("s.toml", text).is_ok())
+    };
+    fuzz("skeleton", &[seeds::skeleton()], reads);
+}
