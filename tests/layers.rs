@@ -109,6 +109,7 @@ fn an_sl1_of_our_own_keeps_the_promise_and_needs_the_display_of_its_machine() {
     );
     let blind = bench().join("blind.ini");
     fs::write(&blind, SL1S.replace("display_width = 128\n", "")).unwrap();
+    assert!(!folder.exists());
     let (output, _) = slice(
         "no-width",
         &format!("--format sl1 --profile {}", path(&blind)),
@@ -118,13 +119,23 @@ fn an_sl1_of_our_own_keeps_the_promise_and_needs_the_display_of_its_machine() {
     let small = bench().join("small.ini");
     let tiny = SL1S.replace("display_width = 128", "display_width = 12.8");
     fs::write(&small, tiny.replace("pixels_x = 2560", "pixels_x = 256")).unwrap();
-    let (output, _) = slice(
+    let (output, folder) = slice(
         "too-small",
         &format!("--format sl1 --profile {}", path(&small)),
     );
     assert_exit(&output, 2);
     assert!(printed(&output).contains("beyond the display"));
     assert!(!folder.exists());
+    let coarse = bench().join("coarse.ini");
+    let text = SL1S.replace("\nlayer_height = 0.05", "\nlayer_height = 0.1");
+    fs::write(&coarse, text).unwrap();
+    let options = format!("--format sl1 --profile {}", path(&coarse));
+    let (output, _) = slice("coarse", &options);
+    assert_exit(&output, 2);
+    assert!(printed(&output).contains("exposes layers of 0.1 mm"));
+    let (output, _) = slice("needless", "--format png-stack --slicer any");
+    assert_exit(&output, 2);
+    assert!(printed(&output).contains("--slicer says nothing"));
 }
 
 #[test]

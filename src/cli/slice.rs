@@ -34,6 +34,9 @@ pub enum SliceCommandError {
     /// The toolpaths cannot be judged.
     #[error(transparent)]
     Printed(#[from] PrintedError),
+    /// An option says nothing in this format.
+    #[error("{0} says nothing in this format; remedy: leave it out")]
+    Needless(&'static str),
     /// The result cannot be put into JSON.
     #[error("the result cannot be written as JSON")]
     Json(#[from] serde_json::Error),
@@ -65,6 +68,9 @@ pub fn slice(
     stop: &Stop,
     out: &mut dyn Write,
 ) -> Result<Exit, SliceCommandError> {
+    if let Some(option) = args.needless() {
+        return Err(SliceCommandError::Needless(option));
+    }
     match args.format {
         None | Some(SliceFormat::Gcode) => slice_toolpaths(args, voice, stop, out),
         Some(_) => slice_images(args, voice, stop, out),

@@ -291,6 +291,14 @@ pub fn certificate(sheet: &Checklist) -> Vec<String> {
 pub fn shortfall(sheet: &Checklist) -> Option<String> {
     let shortfall = sheet.shortfall()?;
     let (figure, unit) = (sheet.certificate.figure, sheet.certificate.figure.unit());
+    // A figure that should be small can lose more than all of it: then shares of the loss are told.
+    let all: f64 = shortfall.taken.iter().map(|taken| taken.ratio).sum();
+    let whole = all.max(1.0);
+    let loses = if all > 1.0 {
+        "Of the loss go"
+    } else {
+        "It loses"
+    };
     let words = |taken: &Taken| {
         let what = match taken.by {
             Taker::Cleaning => &format!("where the inside stays solid because it {}", fault(sheet)),
@@ -298,16 +306,12 @@ pub fn shortfall(sheet: &Checklist) -> Option<String> {
             Taker::Bosses => "to bosses around pins",
             Taker::Making => "to cuts, pins and rounding",
         };
-        // A figure that should be small can lose more than all of it.
-        match taken.ratio {
-            ratio if ratio > 1.0 => format!("most {what}"),
-            ratio => format!("{:.0}\u{a0}% {what}", 100.0 * ratio),
-        }
+        format!("{:.0}\u{a0}% {what}", 100.0 * taken.ratio / whole)
     };
     let taken: Vec<String> = shortfall.taken.iter().map(words).collect();
     Some(format!(
         "If it needed no cuts and no cleaning, a {} of {} would be possible with this wall; \
-         this kit reaches {}. It loses {}.",
+         this kit reaches {}. {loses} {}.",
         figure.name(),
         measured(shortfall.best, unit),
         measured(shortfall.reached, unit),

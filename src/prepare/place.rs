@@ -5,8 +5,8 @@ use crate::advice::{Case, best_orientation, is_possible};
 use crate::base::watch::Watch;
 use crate::error::Error;
 use crate::goal::{
-    Contact, GoalKind, MeasuredSolid, PrintStock, Request, TipChoice, Up, place_in_material,
-    spins_on_lowest,
+    Contact, GoalError, GoalKind, MeasuredSolid, Placement, PrintStock, Request, TipChoice, Up,
+    Warning, place_in_material, spins_on_lowest,
 };
 use crate::hollow::Fill;
 use crate::job::Job;
@@ -42,6 +42,7 @@ pub fn goal(job: &Job, model: Model, shop: Shop, watch: &Watch) -> Result<Placed
             return Err(upright::advised(error, &case, watch)?);
         }
     };
+    refuse_air(&request, &placement)?;
     let mut bound = job.clone();
     bound.model.sha256 = Some(model.sha256.clone());
     let placed = Placed {
@@ -89,6 +90,20 @@ fn choose_axis(
         possible: best.possible,
         reached: best.reached,
     }))
+}
+
+/// Refuses a top that is ordered without a tip and spins on nothing, whatever lean it waives.
+fn refuse_air(request: &Request, placement: &Placement) -> Result<(), GoalError> {
+    let missing_mm = placement.warnings.iter().find_map(|warning| match warning {
+        Warning::ContactInAir { missing_mm } => Some(*missing_mm),
+        _ => None,
+    });
+    match missing_mm {
+        Some(missing_mm) if request.ordered_tip() == TipChoice::None => {
+            Err(GoalError::NothingToSpinOn { missing_mm })
+        }
+        _ => Ok(()),
+    }
 }
 
 /// Returns the contact of a request, chosen if it leaves it open.

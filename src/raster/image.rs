@@ -82,36 +82,3 @@ fn raised(flat: &Moments, layers: &Layers, layer: u32) -> Moments {
     );
     solid.translated(&Vector::new(0.0, 0.0, layers.middle_mm(layer)))
 }
-
-/// An image that was read: bytes of grey, rows from the first on.
-#[derive(Debug, Clone, Copy)]
-pub struct GreyRows<'a> {
-    /// The bytes, a row after the other.
-    pub bytes: &'a [u8],
-    /// The number of columns.
-    pub columns: u32,
-}
-
-impl GreyRows<'_> {
-    /// Returns the runs of equal grey that are not black.
-    pub fn to_image(&self) -> LayerImage {
-        let mut runs = Vec::new();
-        let rows = self.bytes.chunks_exact(self.columns.max(1) as usize);
-        for (row, bytes) in (0u32..).zip(rows) {
-            let mut first = 0;
-            for same in bytes.chunk_by(|a, b| a == b) {
-                let end = first + same.len() as u32;
-                if same[0] > 0 {
-                    runs.push(Run {
-                        row,
-                        first,
-                        end,
-                        ratio: f64::from(same[0]) / WHITE,
-                    });
-                }
-                first = end;
-            }
-        }
-        LayerImage { runs }
-    }
-}

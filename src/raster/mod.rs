@@ -4,7 +4,6 @@
 //! * [`Stack::image`] covers the pixels of a layer by the section of a mesh. The share of each
 //!   pixel is the exact area of the section in it.
 //! * [`LayerImage`] holds the shares as runs, paints them in grey, and has their moments.
-//! * [`GreyRows`] finds the runs of an image that was read.
 //!
 //! Lengths are in mm, on the plate: z is up, and the platform is at zero.
 
@@ -15,5 +14,5 @@ mod sections;
 mod stack;
 
 pub use grid::{Layers, Pixels};
-pub use image::{GreyRows, LayerImage, Run};
+pub use image::{LayerImage, Run};
 pub use stack::Stack;

@@ -193,7 +193,7 @@ impl fmt::Display for Remark {
                 "seams: one runs where it is seen; where it is hidden, neither pins nor a jig hold the joint",
             ),
             Self::OrderTooSolid => f.write_str(
-                "the regions that the plan keeps solid leave too little for the goal: they are not kept solid",
+                "what the plan keeps solid, or its whole faces would, leaves too little for the goal: it is not kept solid, and those faces may be cut",
             ),
             Self::Untried { untried, next } => {
                 let untried: Vec<String> = untried.iter().map(Untried::to_string).collect();

@@ -61,6 +61,16 @@ pub enum SliceError {
         /// The key.
         key: String,
     },
+    /// The configuration exposes other layers.
+    #[error(
+        "the profile exposes layers of {exposed_mm} mm, and the kit's are {layer_mm} mm; remedy: export the configuration for layers of {layer_mm} mm"
+    )]
+    OtherLayers {
+        /// The height of the profile's layers, mm.
+        exposed_mm: f64,
+        /// The height of the kit's layers, mm.
+        layer_mm: f64,
+    },
     /// A plate does not lie on the display.
     #[error(
         "{plate} reaches beyond the display of the profile; remedy: give the configuration of the kit's own printer"

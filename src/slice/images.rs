@@ -150,12 +150,15 @@ impl Imaged {
         self.files
             .add(&file, encode_sl1(stem, &parts, &drawn.images)?);
         self.judged.push(file);
+        let by_axis = |along: [f64; 2]| frame.axes().map(|axis| along[axis]);
+        let sizes_mm = by_axis([0, 1].map(|way| f64::from(frame.count[way]) * frame.pitch_mm[way]));
+        let count = frame.axes().map(|axis| frame.count[axis]);
         self.row.plates.push(StackPlate {
             plate: format!("{stem}.3mf"),
-            folder: String::new(),
-            pixel_mm: frame.pitch_mm,
-            corner_mm: frame.origin_mm,
-            pixels: frame.count,
+            folder: format!("{stem}.sl1"),
+            pixel_mm: by_axis(frame.pitch_mm),
+            corner_mm: [0.0, sizes_mm[1]],
+            pixels: count,
             layer_mm: layers.height_mm,
             layers: layers.count,
             volume_mm3: drawn.volume_mm3,
@@ -232,6 +235,8 @@ struct Machine {
 
 /// The keys of a configuration that an archive needs: exposure, s, and layers of transition.
 const EXPOSURE: [&str; 3] = ["exposure_time", "initial_exposure_time", "faded_layers"];
+/// Layers that differ by less have one exposure.
+const SAME_LAYER_RATIO: f64 = 0.01;
 /// Volume of a millilitre, mm³.
 const ML_MM3: f64 = 1000.0;
 
@@ -251,6 +256,13 @@ impl Machine {
             return Err(missing(key));
         }
         let layer_mm = printer.layer_mm.value;
+        let exposed_mm = settings.length("layer_height").unwrap_or(layer_mm);
+        if (exposed_mm / layer_mm - 1.0).abs() > SAME_LAYER_RATIO {
+            return Err(SliceError::OtherLayers {
+                exposed_mm,
+                layer_mm,
+            });
+        }
         for key in ["layer_height", "initial_layer_height"] {
             settings.0.insert(key.to_owned(), layer_mm.to_string());
         }

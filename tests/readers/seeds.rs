@@ -1,5 +1,6 @@
 //! Small sound files of every format, to be damaged.
 
+use std::io::{Cursor, Read, Write};
 use std::path::Path;
 
 use equipoise::base::units::Length;
@@ -18,6 +19,9 @@ use equipoise::mesh::TriMesh;
 const CORNERS: [[f64; 3]; 4] = [[0., 0., 0.], [10., 0., 0.], [0., 10., 0.], [0., 0., 10.]];
 /// Its faces, turned outwards.
 const FACES: [[u32; 3]; 4] = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]];
+
+/// The part of a package with the model.
+const MODEL_PART: &str = "3D/3dmodel.model";
 
 fn tetrahedron() -> TriMesh {
     TriMesh::new(CORNERS.map(Point::from).to_vec(), FACES.to_vec()).unwrap()
@@ -111,6 +115,34 @@ fn packed(build: fn(Vec<(usize, Transform)>) -> Build) -> Vec<u8> {
     package.encode().unwrap()
 }
 
+/// Returns the part of a package with its model.
+pub fn model_part() -> Vec<u8> {
+    let mut zip = zip::ZipArchive::new(Cursor::new(package())).unwrap();
+    let mut part = Vec::new();
+    zip.by_name(MODEL_PART)
+        .unwrap()
+        .read_to_end(&mut part)
+        .unwrap();
+    part
+}
+
+/// Returns a sound package around this part.
+pub fn package_of(part: &[u8]) -> Vec<u8> {
+    let mut sound = zip::ZipArchive::new(Cursor::new(package())).unwrap();
+    let mut zip = zip::ZipWriter::new(Cursor::new(Vec::new()));
+    for index in 0..sound.len() {
+        let mut file = sound.by_index(index).unwrap();
+        let name = file.name().unwrap().into_owned();
+        let mut bytes = Vec::new();
+        file.read_to_end(&mut bytes).unwrap();
+        zip.start_file(&name, zip::write::SimpleFileOptions::default())
+            .unwrap();
+        zip.write_all(if name == MODEL_PART { part } else { &bytes })
+            .unwrap();
+    }
+    zip.finish().unwrap().into_inner()
+}
+
 /// Returns a 3MF of two items.
 pub fn package() -> Vec<u8> {
     packed(Build::Items)
@@ -130,22 +162,34 @@ pub fn gcode() -> Vec<u8> {
         .to_vec()
 }
 
-fn image() -> Vec<u8> {
+/// Returns an image of a layer.
+pub fn image() -> Vec<u8> {
     let mut grey = [0; 48];
     grey[10..14].fill(255);
     grey[18..22].fill(128);
     encode_grey([8, 6], &grey).unwrap()
 }
 
+/// The settings of a small display.
+pub const SL1_SETTINGS: &str = "display_width = 8\ndisplay_height = 6\ndisplay_pixels_x = 8\n\
+    display_pixels_y = 6\ndisplay_orientation = landscape\ndisplay_mirror_x = 1\n\
+    initial_layer_height = 0.05\n";
+
 /// Returns an SL1 of three layers.
 pub fn sl1() -> Vec<u8> {
-    let slicer = "display_width = 8\ndisplay_height = 6\ndisplay_pixels_x = 8\ndisplay_pixels_y = 6\n\
-        display_orientation = landscape\ndisplay_mirror_x = 1\ninitial_layer_height = 0.05\n";
+    sl1_of(SL1_SETTINGS.as_bytes(), &image())
+}
+
+/// Returns a sound archive of these settings and this image, three times.
+pub fn sl1_of(settings: &[u8], image: &[u8]) -> Vec<u8> {
     let parts = [
         ("config.ini", "layerHeight = 0.05\nnumFast = 3\n".to_owned()),
-        ("prusaslicer.ini", slicer.to_owned()),
+        (
+            "prusaslicer.ini",
+            String::from_utf8_lossy(settings).into_owned(),
+        ),
     ];
-    encode_sl1("a", &parts, &[image(), image(), image()]).unwrap()
+    encode_sl1("a", &parts, &[image, image, image].map(<[u8]>::to_vec)).unwrap()
 }
 
 /// Writes a stack of two images into a folder.

@@ -31,3 +31,15 @@ pub struct SliceArgs {
     #[arg(long)]
     pub force: bool,
 }
+
+impl SliceArgs {
+    /// Returns an option that says nothing in the format that was asked for; `None` if all count.
+    pub fn needless(&self) -> Option<&'static str> {
+        match self.format {
+            None | Some(SliceFormat::Gcode) => None,
+            _ if self.slicer.is_some() => Some("--slicer"),
+            Some(SliceFormat::Stack) if self.profile.is_some() => Some("--profile"),
+            Some(_) => None,
+        }
+    }
+}

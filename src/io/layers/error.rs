@@ -34,7 +34,7 @@ pub enum LayersError {
     },
     /// An image has another size than the display.
     #[error(
-        "{part} has {} × {} pixels, and the display has {} × {}; remedy: export the file again",
+        "{part} has {} × {} pixels, and {} × {} are stated; remedy: export the file again",
         found[0], found[1], wanted[0], wanted[1]
     )]
     Size {
@@ -48,14 +48,20 @@ pub enum LayersError {
     /// There are no images.
     #[error("it holds no layer; remedy: slice the plate again")]
     NoLayer,
+    /// The numbers of the layers have a gap, or are not as many as stated.
+    #[error("layer {layer} is missing, or is there twice; remedy: export the file again")]
+    MissingLayer {
+        /// Its number in the file.
+        layer: usize,
+    },
     /// There are more layers than any print has.
-    #[error("it holds more than {most} layers; remedy: export the file again")]
+    #[error("it holds more than {most} layers; remedy: slice in thicker layers")]
     TooMany {
         /// The greatest number.
         most: usize,
     },
     /// A file cannot be read.
-    #[error("{part} cannot be read")]
+    #[error("{part} cannot be read; remedy: copy the whole folder again")]
     Unreadable {
         /// The file.
         part: String,

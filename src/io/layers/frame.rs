@@ -17,10 +17,27 @@ pub struct ImageFrame {
     pub count: [u32; 2],
 }
 
+/// The most columns and the most rows: four times those of a display of 16K.
+const MOST_PIXELS: u32 = 1 << 16;
+/// The most pixels of an image, twice those of a display of 16K. An image takes a byte for each.
+const MOST_AREA: u64 = 1 << 28;
+
 impl ImageFrame {
+    /// Returns whether a display can have these pixels: some, and not so many that memory or the
+    /// sums over them run over.
+    pub(super) fn is_display(&self) -> bool {
+        let is_some = |count: &u32| (1..=MOST_PIXELS).contains(count);
+        self.count.iter().all(is_some) && self.area() <= MOST_AREA
+    }
+
     /// Returns the axes of the plate along which columns and rows are counted.
     pub fn axes(&self) -> [usize; 2] {
         [self.column_axis, 1 - self.column_axis]
+    }
+
+    /// Returns the number of pixels.
+    pub(super) fn area(&self) -> u64 {
+        self.count.iter().map(|count| u64::from(*count)).product()
     }
 
     /// Returns a point of the plate with its distance along the columns as x and along the rows as

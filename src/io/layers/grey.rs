@@ -4,9 +4,6 @@ use std::io::Cursor;
 
 use super::error::LayersError;
 
-/// Greatest number of pixels of an image: three times those of an 8K display in both directions.
-const MOST_PIXELS: u64 = 1 << 29;
-
 /// An image in grey, a byte a pixel: white is hardened.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct GreyImage {
@@ -35,8 +32,9 @@ pub fn encode_grey(count: [u32; 2], bytes: &[u8]) -> Result<Vec<u8>, png::Encodi
 }
 
 impl GreyImage {
-    /// Reads a PNG file in grey. One with 1, 2, 4 or 16 bits is brought to 8.
-    pub(super) fn decode(part: &str, file: &[u8]) -> Result<Self, LayersError> {
+    /// Reads a PNG file in grey with this number of columns and rows. One with 1, 2, 4 or 16 bits is
+    /// brought to 8. Another size is refused before memory is taken for it.
+    pub(super) fn decode(part: &str, file: &[u8], wanted: [u32; 2]) -> Result<Self, LayersError> {
         let fault = |reason: String| LayersError::Image {
             part: part.to_owned(),
             reason,
@@ -47,8 +45,12 @@ impl GreyImage {
             .read_info()
             .map_err(|error| fault(error.to_string()))?;
         let count = [reader.info().width, reader.info().height];
-        if u64::from(count[0]) * u64::from(count[1]) > MOST_PIXELS {
-            return Err(fault("it has too many pixels".to_owned()));
+        if count != wanted {
+            return Err(LayersError::Size {
+                part: part.to_owned(),
+                found: count,
+                wanted,
+            });
         }
         let (color, _) = reader.output_color_type();
         if color != png::ColorType::Grayscale {

@@ -19,7 +19,7 @@ mod tests;
 pub use error::{LayersError, ReadLayersError};
 pub use frame::ImageFrame;
 pub use grey::{GreyImage, encode_grey};
-pub use read::{LayerPlate, holds_layers, read_layers};
+pub use read::{LayerPlate, holds_layers, read_layer_places, read_layers};
 pub use sl1::{Sl1Settings, encode_sl1};
 pub use stack::{STACK_FILE, StackPlate, StackRow, image_name};
 pub use sums::PixelSum;

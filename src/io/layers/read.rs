@@ -1,8 +1,9 @@
 //! Weighs the layer images of a file.
 
+use std::collections::BTreeSet;
 use std::fs::File;
 use std::io::{BufReader, Read};
-use std::path::{Component, Path};
+use std::path::{Component, Path, PathBuf};
 
 use rayon::prelude::*;
 use zip::ZipArchive;
@@ -10,24 +11,28 @@ use zip::ZipArchive;
 use super::error::{LayersError, ReadLayersError, package_fault, setting_fault};
 use super::frame::ImageFrame;
 use super::grey::GreyImage;
-use super::sl1::{CONFIG, SLICER_CONFIG, layer_heights, read_settings};
+use super::sl1::{CONFIG, MOST_MM, SLICER_CONFIG, layer_heights, read_settings};
 use super::stack::{STACK_FILE, StackPlate, StackRow, image_name};
 use super::sums::{PixelSum, Slab, weigh};
 use crate::base::watch::Watch;
 use crate::io::gcode::Place;
 
-/// Images that are unpacked at once, a few for each core.
-const BATCH: usize = 16;
+/// The most images that are unpacked at once, a few for each core.
+const BATCH: u64 = 16;
+/// The most pixels that are unpacked at once; of larger images fewer are taken together.
+const BATCH_PIXELS: u64 = 1 << 29;
 /// The most layers: a metre in layers of 10 µm.
 const MOST_LAYERS: usize = 100_000;
-/// Bytes of an image's file that are read.
-const MOST_IMAGE: u64 = 1 << 28;
+/// Bytes of an image's file beyond two for each pixel, which 16 bits take.
+const MOST_REST: u64 = 1 << 20;
 /// Bytes of a list of stacks that are read.
 const MOST_LIST: u64 = 1 << 22;
 
 /// The material of a plate, as its images show it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LayerPlate {
+    /// The plate's file in the kit, if it is stated.
+    pub plate: Option<String>,
     /// All of it.
     pub whole: PixelSum,
     /// What lies in each place that was asked for, in that order.
@@ -42,7 +47,7 @@ pub struct LayerPlate {
 
 /// Returns true if a file holds layer images: a list of stacks, or an archive with settings.
 pub fn holds_layers(path: &Path) -> bool {
-    if path.file_name().is_some_and(|name| name == STACK_FILE) {
+    if list_of(path).is_some() {
         return true;
     }
     let archive = File::open(path)
@@ -52,24 +57,54 @@ pub fn holds_layers(path: &Path) -> bool {
     archive.is_some_and(|zip| zip.is_ok_and(|mut zip| zip.by_name(CONFIG).is_ok()))
 }
 
-/// Weighs the images of each plate in a file, whole and within places of the plate.
+/// Weighs the images of each plate in a file.
 ///
 /// # Errors
 /// Names the file and the part of it at fault.
-pub fn read_layers(
+pub fn read_layers(path: &Path, watch: &Watch) -> Result<Vec<LayerPlate>, ReadLayersError> {
+    let read = match list_of(path) {
+        Some(list) => read_stacks(&list, watch),
+        None => read_sl1(path, &[], watch).map(|plate| vec![plate]),
+    };
+    read.map_err(|source| at(path, source))
+}
+
+/// Weighs what lies in each of these places of one plate in a file, counted from 0.
+///
+/// # Errors
+/// Names the file and the part of it at fault.
+pub fn read_layer_places(
     path: &Path,
+    plate: usize,
     places: &[Place],
     watch: &Watch,
-) -> Result<Vec<LayerPlate>, ReadLayersError> {
-    let read = if path.file_name().is_some_and(|name| name == STACK_FILE) {
-        read_stacks(path, places, watch)
-    } else {
-        read_sl1(path, places, watch).map(|plate| vec![plate])
+) -> Result<Vec<PixelSum>, ReadLayersError> {
+    let read = match list_of(path) {
+        Some(list) => read_list(&list).and_then(|row| {
+            let plate = row.plates.get(plate).ok_or(LayersError::NoLayer)?;
+            read_stack(&list, plate, places, watch)
+        }),
+        None => read_sl1(path, places, watch),
     };
-    read.map_err(|source| ReadLayersError {
+    read.map(|plate| plate.places)
+        .map_err(|source| at(path, source))
+}
+
+fn at(path: &Path, source: LayersError) -> ReadLayersError {
+    ReadLayersError {
         path: path.to_owned(),
         source,
-    })
+    }
+}
+
+/// Returns the list of stacks that a path names: by its folder, or as a file of JSON.
+fn list_of(path: &Path) -> Option<PathBuf> {
+    let inside = path.join(STACK_FILE);
+    if inside.is_file() {
+        return Some(inside);
+    }
+    let is_json = path.extension().is_some_and(|end| end == "json");
+    is_json.then(|| path.to_owned())
 }
 
 fn read_sl1(path: &Path, places: &[Place], watch: &Watch) -> Result<LayerPlate, LayersError> {
@@ -81,15 +116,15 @@ fn read_sl1(path: &Path, places: &[Place], watch: &Watch) -> Result<LayerPlate, 
         .frame()
         .map_err(|key| setting_fault(SLICER_CONFIG, key))?;
     let [first_mm, layer_mm] = layer_heights(&settings)?;
-    let is_layer = |name: &String| name.ends_with(".png") && !name.contains('/');
-    let mut names: Vec<String> = zip
+    let all: Vec<String> = zip
         .file_names()
         .filter_map(Result::ok)
         .map(Into::into)
         .collect();
-    names.retain(is_layer);
-    names.sort();
+    let names = settings.layer_names(&all)?;
+    let most_bytes = 2 * frame.area() + MOST_REST;
     let stack = Images {
+        plate: None,
         frame,
         first_mm,
         layer_mm,
@@ -103,29 +138,44 @@ fn read_sl1(path: &Path, places: &[Place], watch: &Watch) -> Result<LayerPlate, 
             .by_name(&part)
             .map_err(|error| package_fault(&part, error))?;
         let mut bytes = Vec::new();
-        file.take(MOST_IMAGE)
+        file.take(most_bytes)
             .read_to_end(&mut bytes)
             .map_err(|error| package_fault(&part, error))?;
         Ok((part, bytes))
     })
 }
 
-fn read_stacks(
-    path: &Path,
-    places: &[Place],
-    watch: &Watch,
-) -> Result<Vec<LayerPlate>, LayersError> {
+fn read_stacks(list: &Path, watch: &Watch) -> Result<Vec<LayerPlate>, LayersError> {
+    let row = read_list(list)?;
+    let plates = row.plates.iter();
+    plates
+        .map(|plate| read_stack(list, plate, &[], watch))
+        .collect()
+}
+
+/// Reads a list of stacks: plates with folders of their own, and no more layers than a print has.
+fn read_list(path: &Path) -> Result<StackRow, LayersError> {
     let mut text = String::new();
     File::open(path)
         .and_then(|file| file.take(MOST_LIST).read_to_string(&mut text))
         .map_err(|source| unreadable(STACK_FILE, source))?;
-    let list: StackRow =
+    let row: StackRow =
         serde_json::from_str(&text).map_err(|error| package_fault(STACK_FILE, error))?;
-    let folder = path.parent().unwrap_or(Path::new("."));
-    let plates = list.plates.iter();
-    let weighed =
-        plates.map(|plate| read_stack(&folder.join(inside(plate)?), plate, places, watch));
-    weighed.collect()
+    if row.schema != StackRow::SCHEMA {
+        return Err(setting_fault(STACK_FILE, "schema"));
+    }
+    if row.plates.is_empty() {
+        return Err(LayersError::NoLayer);
+    }
+    let layers: u64 = row.plates.iter().map(|plate| u64::from(plate.layers)).sum();
+    if layers > MOST_LAYERS as u64 {
+        return Err(LayersError::TooMany { most: MOST_LAYERS });
+    }
+    let folders: BTreeSet<&str> = row.plates.iter().map(|plate| &plate.folder[..]).collect();
+    if folders.len() < row.plates.len() {
+        return Err(setting_fault(STACK_FILE, "folder"));
+    }
+    Ok(row)
 }
 
 /// Returns the folder of a stack, which must lie beside the list.
@@ -141,21 +191,27 @@ fn inside(plate: &StackPlate) -> Result<&Path, LayersError> {
 }
 
 fn read_stack(
-    folder: &Path,
+    list: &Path,
     plate: &StackPlate,
     places: &[Place],
     watch: &Watch,
 ) -> Result<LayerPlate, LayersError> {
-    let is_length = |mm: f64| mm.is_finite() && mm > 0.0;
+    let folder = list.with_file_name(inside(plate)?);
+    let is_length = |mm: f64| mm > 0.0 && mm < MOST_MM;
     if !(plate.pixel_mm.into_iter().all(is_length)
-        && plate.corner_mm.iter().all(|mm| mm.is_finite()))
+        && plate.corner_mm.iter().all(|mm| mm.abs() < MOST_MM))
     {
         return Err(setting_fault(STACK_FILE, "pixel_mm"));
+    }
+    if !plate.frame().is_display() {
+        return Err(setting_fault(STACK_FILE, "pixels"));
     }
     if !is_length(plate.layer_mm) {
         return Err(setting_fault(STACK_FILE, "layer_mm"));
     }
+    let most_bytes = 2 * plate.frame().area() + MOST_REST;
     let stack = Images {
+        plate: Some(plate.plate.clone()),
         frame: plate.frame(),
         first_mm: plate.layer_mm,
         layer_mm: plate.layer_mm,
@@ -167,7 +223,7 @@ fn read_stack(
         let part = image_name(layer as u32);
         let mut bytes = Vec::new();
         File::open(folder.join(&part))
-            .and_then(|file| file.take(MOST_IMAGE).read_to_end(&mut bytes))
+            .and_then(|file| file.take(most_bytes).read_to_end(&mut bytes))
             .map_err(|source| unreadable(&part, source))?;
         Ok((part, bytes))
     })
@@ -182,6 +238,7 @@ fn unreadable(part: &str, source: std::io::Error) -> LayersError {
 
 /// The images of a plate, in the order of their layers.
 struct Images<'a> {
+    plate: Option<String>,
     frame: ImageFrame,
     first_mm: f64,
     layer_mm: f64,
@@ -209,34 +266,30 @@ impl Images<'_> {
             .chain(self.places.iter().map(reach))
             .collect();
         let mut sums = vec![PixelSum::EMPTY; windows.len()];
-        for start in (0..self.count).step_by(BATCH) {
+        let batch = (BATCH_PIXELS / self.frame.area().max(1)).clamp(1, BATCH) as usize;
+        for start in (0..self.count).step_by(batch) {
             self.watch.check()?;
-            let layers = start..(start + BATCH).min(self.count);
+            let layers = start..(start + batch).min(self.count);
             let files: Vec<(usize, (String, Vec<u8>))> = layers
                 .map(|layer| Ok((layer, read(layer)?)))
                 .collect::<Result<_, LayersError>>()?;
             let weighed = files.par_iter().map(|(layer, (part, bytes))| {
-                let image = GreyImage::decode(part, bytes)?;
-                if image.count != self.frame.count {
-                    return Err(LayersError::Size {
-                        part: part.clone(),
-                        found: image.count,
-                        wanted: self.frame.count,
-                    });
-                }
+                let image = GreyImage::decode(part, bytes, self.frame.count)?;
                 let slab = self.slab(*layer);
                 let windows = windows.iter();
                 let sums = windows.map(|window| weigh(&image, &self.frame, *window, slab));
-                Ok(sums.collect::<Vec<PixelSum>>())
+                Ok::<_, LayersError>(sums.collect::<Vec<PixelSum>>())
             });
-            for layer in weighed.collect::<Result<Vec<_>, LayersError>>()? {
-                for (sum, one) in sums.iter_mut().zip(&layer) {
+            // The first fault is told, whichever thread met it.
+            for layer in weighed.collect::<Vec<_>>() {
+                for (sum, one) in sums.iter_mut().zip(&layer?) {
                     sum.add(one);
                 }
             }
         }
         let places = sums.split_off(1);
         Ok(LayerPlate {
+            plate: self.plate.clone(),
             whole: sums[0],
             places,
             frame: self.frame,

@@ -14,8 +14,8 @@ pub(super) const CONFIG: &str = "config.ini";
 pub(super) const SLICER_CONFIG: &str = "prusaslicer.ini";
 /// Bytes of a part with settings that are read.
 const MOST_CONFIG: u64 = 1 << 22;
-/// Largest display, mm.
-const MOST_MM: f64 = 10_000.0;
+/// Longest length of a display or a layer, mm.
+pub(super) const MOST_MM: f64 = 10_000.0;
 
 /// The settings of an archive, as `key = value` lines.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -29,10 +29,54 @@ impl Sl1Settings {
         Self(trimmed.collect())
     }
 
-    /// Returns a number, if it is one above zero and sane.
+    /// Returns a length, mm, if it is one above zero and sane.
     pub fn length(&self, key: &str) -> Option<f64> {
         let value: f64 = self.0.get(key)?.parse().ok()?;
         (value > 0.0 && value < MOST_MM).then_some(value)
+    }
+
+    fn count(&self, key: &str) -> Option<u32> {
+        self.0.get(key)?.parse().ok().filter(|count| *count > 0)
+    }
+
+    /// Returns the names of the layers among those of an archive, from the first on.
+    ///
+    /// They are numbered without gaps behind the name of the job. Another image beside them is no
+    /// layer.
+    pub(super) fn layer_names(&self, all: &[String]) -> Result<Vec<String>, LayersError> {
+        let job = self.0.get("jobDir");
+        let number = |name: &String| {
+            let stem = name
+                .strip_suffix(".png")
+                .filter(|stem| !stem.contains('/'))?;
+            let digits = stem.len() - stem.trim_end_matches(|c: char| c.is_ascii_digit()).len();
+            let (prefix, number) = stem.split_at(stem.len() - digits.min(5));
+            let is_of_job = job.is_none_or(|job| job == prefix);
+            Some((
+                number.parse::<usize>().ok().filter(|_| is_of_job)?,
+                name.clone(),
+            ))
+        };
+        let mut layers: Vec<(usize, String)> = all.iter().filter_map(number).collect();
+        layers.sort();
+        let first = layers.first().map_or(0, |(number, _)| *number);
+        let stated = ["numFast", "numSlow"].map(|key| self.0.get(key));
+        let stated = stated.map(|text| text.and_then(|text| text.parse::<usize>().ok()));
+        let count = match stated {
+            [None, None] => layers.len(),
+            counts => counts.into_iter().flatten().sum(),
+        };
+        let is_right = |at: usize| {
+            layers
+                .get(at)
+                .is_some_and(|(number, _)| *number == first + at)
+        };
+        if let Some(layer) = (0..count.max(layers.len())).find(|at| !is_right(*at)) {
+            return Err(LayersError::MissingLayer {
+                layer: first + layer,
+            });
+        }
+        Ok(layers.into_iter().map(|(_, name)| name).collect())
     }
 
     fn is_set(&self, key: &str) -> bool {
@@ -47,7 +91,8 @@ impl Sl1Settings {
     pub fn frame(&self) -> Result<ImageFrame, &'static str> {
         let number = |key: &'static str| self.length(key).ok_or(key);
         let mut size_mm = [number("display_width")?, number("display_height")?];
-        let mut count = [number("display_pixels_x")?, number("display_pixels_y")?];
+        let whole = |key: &'static str| self.count(key).ok_or(key);
+        let mut count = [whole("display_pixels_x")?, whole("display_pixels_y")?];
         let stands = self
             .0
             .get("display_orientation")
@@ -58,13 +103,17 @@ impl Sl1Settings {
             size_mm.swap(0, 1);
             count.swap(0, 1);
         }
-        Ok(ImageFrame {
+        let frame = ImageFrame {
             column_axis: usize::from(stands),
             signs: is_forward.map(|forward| if forward { 1.0 } else { -1.0 }),
             origin_mm: [0, 1].map(|way| if is_forward[way] { 0.0 } else { size_mm[way] }),
-            pitch_mm: [0, 1].map(|way| size_mm[way] / count[way]),
-            count: count.map(|count| count as u32),
-        })
+            pitch_mm: [0, 1].map(|way| size_mm[way] / f64::from(count[way])),
+            count,
+        };
+        frame
+            .is_display()
+            .then_some(frame)
+            .ok_or("display_pixels_x")
     }
 }
 

@@ -7,6 +7,8 @@ use crate::mass::Moments;
 
 /// The grey of a pixel that is whole.
 const WHITE: f64 = 255.0;
+/// The grey from which a pixel counts for the box: with it a box is right within a pixel.
+const HALF: u8 = 128;
 
 /// The underside and the height of a layer, mm.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -20,7 +22,7 @@ pub(super) struct Slab {
 pub struct PixelSum {
     /// The ten moments on the plate, mm³ to mm⁵.
     pub moments: Moments,
-    /// The box around all pixels that are not black, mm.
+    /// The box around all pixels that are covered by half or more, mm.
     pub bounds: Aabb,
     /// The number of layers with such pixels.
     pub layers: u64,
@@ -42,7 +44,7 @@ impl PixelSum {
     }
 }
 
-/// The integer sums of the pixels of an image, in units of grey and of pixels.
+/// The sums of the pixels of an image, in units of grey and of pixels.
 #[derive(Debug, Clone, Copy, Default)]
 struct Counts {
     grey: f64,
@@ -50,9 +52,8 @@ struct Counts {
     first: [f64; 2],
     /// The sums of column², row² and column × row, each times grey.
     second: [f64; 3],
-    /// The first and the last column and row that are not black.
-    low: Option<[usize; 2]>,
-    high: [usize; 2],
+    /// The first and the last column and row of pixels that are covered by half or more.
+    reach: Option<[[usize; 2]; 2]>,
 }
 
 /// Weighs the pixels of an image within these columns and rows.
@@ -105,10 +106,16 @@ impl Counts {
         self.second[0] += second_sum as f64;
         self.second[1] += grey * row_at * row_at;
         self.second[2] += first_sum as f64 * row_at;
-        let here = [left + first, left + end - 1];
-        let low = self.low.unwrap_or([here[0], row]);
-        self.low = Some([low[0].min(here[0]), low[1].min(row)]);
-        self.high = [self.high[0].max(here[1]), self.high[1].max(row)];
+        let is_covered = |grey: &u8| *grey >= HALF;
+        let ends = [
+            bytes.iter().position(is_covered),
+            bytes.iter().rposition(is_covered),
+        ];
+        if let [Some(low), Some(high)] = ends.map(|end| end.map(|column| left + column)) {
+            let reach = self.reach.get_or_insert([[low, row], [high, row]]);
+            reach[0] = [reach[0][0].min(low), reach[0][1].min(row)];
+            reach[1] = [reach[1][0].max(high), reach[1][1].max(row)];
+        }
     }
 
     /// Returns the material of a layer.
@@ -118,9 +125,9 @@ impl Counts {
     /// pixel squared: Sheppard's correction (Proc. London Math. Soc. 29, 1898). Without it an image
     /// of 0.1 mm pixels overrates those of a ball of 16 mm by 0.01 %.
     fn to_sum(self, frame: &ImageFrame, slab: Slab) -> PixelSum {
-        let Some(low) = self.low else {
+        if self.grey == 0.0 {
             return PixelSum::EMPTY;
-        };
+        }
         let [a, b] = frame.axes();
         let pitch = frame.pitch_mm;
         // From counts to mm along the image, with the middles of pixels as places.
@@ -153,13 +160,15 @@ impl Counts {
             (corner[a], corner[b]) = (along[0], along[1]);
             corner
         };
-        let end = self.high.map(|at| at as f64 + 1.0);
+        let corners = self.reach.map(|[low, high]| {
+            [
+                corner(low.map(|at| at as f64), slab.low_mm),
+                corner(high.map(|at| at as f64 + 1.0), slab.low_mm + height_mm),
+            ]
+        });
         PixelSum {
             moments: level.translated(&up),
-            bounds: Aabb::of_points(&[
-                corner(low.map(|at| at as f64), slab.low_mm),
-                corner(end, slab.low_mm + height_mm),
-            ]),
+            bounds: corners.map_or(Aabb::EMPTY, |corners| Aabb::of_points(&corners)),
             layers: 1,
         }
     }

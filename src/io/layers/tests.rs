@@ -4,7 +4,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::{
-    LayerPlate, STACK_FILE, StackPlate, StackRow, encode_grey, encode_sl1, image_name, read_layers,
+    LayerPlate, PixelSum, STACK_FILE, StackPlate, StackRow, encode_grey, encode_sl1, image_name,
+    read_layer_places, read_layers,
 };
 use crate::base::watch::Watch;
 use crate::io::gcode::Place;
@@ -44,15 +45,19 @@ fn archive(folder: &Path, slicer: &str) -> PathBuf {
     path
 }
 
-fn read(path: &Path, places: &[Place]) -> Result<Vec<LayerPlate>, String> {
-    read_layers(path, places, &Watch::silent()).map_err(|error| error.to_string())
+fn read(path: &Path) -> Result<Vec<LayerPlate>, String> {
+    read_layers(path, &Watch::silent()).map_err(|error| error.to_string())
+}
+
+fn read_places(path: &Path, places: &[Place]) -> Vec<PixelSum> {
+    read_layer_places(path, 0, places, &Watch::silent()).unwrap()
 }
 
 #[test]
 fn a_display_that_lies_shows_x_along_its_columns_and_y_against_its_rows() {
     let folder = tempfile::tempdir().unwrap();
     let path = archive(folder.path(), &settings("landscape", ["16", "5", "8", "5"]));
-    let plates = read(&path, &[]).unwrap();
+    let plates = read(&path).unwrap();
     let [plate] = &plates[..] else {
         panic!("one plate")
     };
@@ -69,7 +74,7 @@ fn a_display_that_lies_shows_x_along_its_columns_and_y_against_its_rows() {
     assert_eq!(plate.whole.bounds.max.z, 0.2 + 0.1);
     assert_eq!(
         (plate.whole.bounds.min.x, plate.whole.bounds.max.x),
-        (4.0, 12.0)
+        (6.0, 12.0)
     );
 }
 
@@ -78,7 +83,7 @@ fn a_display_that_stands_shows_y_along_its_columns_and_x_against_its_rows() {
     let folder = tempfile::tempdir().unwrap();
     // Prusa's SL1: the longer side of the display lies along x, and the image stands.
     let path = archive(folder.path(), &settings("portrait", ["5", "16", "5", "8"]));
-    let plates = read(&path, &[]).unwrap();
+    let plates = read(&path).unwrap();
     let center = plates[0].whole.moments.centroid();
     let column = (3.0 * 3.5 + 0.2 * 5.5) / 3.2;
     assert!((center.y - 2.0 * column).abs() < 1e-12, "{center}");
@@ -94,10 +99,9 @@ fn places_of_the_plate_are_weighed_apart_and_add_up() {
         min_mm: [low, 0.0],
         max_mm: [high, 5.0],
     };
-    let plates = read(&path, &[place(0.0, 8.0), place(8.0, 16.0)]).unwrap();
-    let parts = &plates[0].places;
+    let parts = read_places(&path, &[place(0.0, 8.0), place(8.0, 16.0)]);
     let sum = parts[0].moments + parts[1].moments;
-    let whole = plates[0].whole.moments;
+    let whole = read(&path).unwrap()[0].whole.moments;
     assert!(parts.iter().all(|part| part.moments.volume() > 0.1));
     for (sum, whole) in sum.0.iter().zip(whole.0) {
         assert!((sum - whole).abs() < 1e-9 * whole.abs().max(1.0));
@@ -129,33 +133,38 @@ fn a_stack_of_images_is_weighed_by_its_list() {
     let path = folder.path().join(STACK_FILE);
     let write = |list: &StackRow| fs::write(&path, serde_json::to_string(list).unwrap()).unwrap();
     write(&list);
-    let plates = read(&path, &[]).unwrap();
+    let plates = read(&path).unwrap();
     let moments = plates[0].whole.moments;
     assert!((moments.volume() - 4.2 * 5.0 * 0.125 * 0.3).abs() < 1e-12);
     assert!((moments.centroid().y - (20.0 - 0.625)).abs() < 1e-12);
     // A list that leads out of its folder, or says more layers than there are.
     list.plates[0].folder = "../plate".to_owned();
     write(&list);
-    assert!(read(&path, &[]).unwrap_err().contains("`folder`"));
+    assert!(read(&path).unwrap_err().contains("`folder`"));
     list.plates[0].folder = "plate".to_owned();
     list.plates[0].layers = 4;
     write(&list);
-    assert!(read(&path, &[]).unwrap_err().contains("00003.png"));
+    assert!(read(&path).unwrap_err().contains("00003.png"));
     list.plates[0].layers = 3;
     list.plates[0].pixels = [5, 8];
     write(&list);
-    let said = read(&path, &[]).unwrap_err();
+    let said = read(&path).unwrap_err();
     assert!(
-        said.contains("8 × 5 pixels, and the display has 5 × 8"),
+        said.contains("8 × 5 pixels, and 5 × 8 are stated"),
         "{said}"
     );
+    for pixels in [[0, 5], [4_000_000_000, 1], [60_000, 60_000]] {
+        list.plates[0].pixels = pixels;
+        write(&list);
+        assert!(read(&path).unwrap_err().contains("`pixels`"));
+    }
 }
 
 #[test]
 fn damaged_archives_are_refused_with_the_part_at_fault() {
     let folder = tempfile::tempdir().unwrap();
     let usual = settings("landscape", ["16", "5", "8", "5"]);
-    let refused = |slicer: &str| read(&archive(folder.path(), slicer), &[]).unwrap_err();
+    let refused = |slicer: &str| read(&archive(folder.path(), slicer)).unwrap_err();
     for (wrong, key) in [
         (usual.replace("display_width = 16", ""), "display_width"),
         (usual.replace("= 16", "= nan"), "display_width"),
@@ -171,7 +180,7 @@ fn damaged_archives_are_refused_with_the_part_at_fault() {
     assert!(said.contains("plate00000.png has 8 × 5 pixels"), "{said}");
     let path = folder.path().join("junk.sl1");
     fs::write(&path, b"PK\x03\x04 and no more").unwrap();
-    assert!(read(&path, &[]).unwrap_err().contains("the archive"));
+    assert!(read(&path).unwrap_err().contains("the archive"));
     let parts = [
         ("config.ini", "layerHeight = 0.1\n".to_owned()),
         ("prusaslicer.ini", usual),
@@ -179,17 +188,17 @@ fn damaged_archives_are_refused_with_the_part_at_fault() {
     let whole = encode_sl1("a", &parts, &[image([2, 5], [1, 3])]).unwrap();
     let none = encode_sl1("a", &parts, &[]).unwrap();
     fs::write(&path, none).unwrap();
-    assert!(read(&path, &[]).unwrap_err().contains("no layer"));
+    assert!(read(&path).unwrap_err().contains("no layer"));
     let broken = encode_sl1("a", &parts, &[b"\x89PNG\r\n".to_vec()]).unwrap();
     fs::write(&path, broken).unwrap();
-    assert!(read(&path, &[]).unwrap_err().contains("a00000.png"));
+    assert!(read(&path).unwrap_err().contains("a00000.png"));
     // Whatever is cut off or flipped: an answer, and no panic.
     for at in (0..whole.len()).step_by(7) {
         let mut flipped = whole.clone();
         flipped[at] ^= 0x55;
         fs::write(&path, &flipped).unwrap();
-        let _ = read(&path, &[]);
+        let _ = read(&path);
         fs::write(&path, &whole[..at]).unwrap();
-        assert!(read(&path, &[]).is_err(), "cut off at {at}");
+        assert!(read(&path).is_err(), "cut off at {at}");
     }
 }

@@ -43,9 +43,9 @@ pub(super) fn missing_cause(missing: &[String], promise: &Promise) -> Option<Cau
     });
     let plates: Vec<&str> = plates.map(|plate| plate.file.as_str()).collect();
     let remedy = match plates.as_slice() {
-        [] => "slice the missing parts, and give their G-code too".to_owned(),
+        [] => "slice the missing parts, and give their files too".to_owned(),
         plates => format!(
-            "put all parts on their plates and slice {} again, or give the G-code of every plate",
+            "put all parts on their plates and slice {} again, or give the file of every plate",
             plates.join(" and ")
         ),
     };
@@ -265,7 +265,10 @@ impl Printed<'_> {
 /// out thin tips, which makes edges shorter: then the spread of the material must say the same.
 fn is_scaled(part: &PrintedPart, promise: &Promise) -> bool {
     let layer_mm = part.layer_mm.or(promise.printer.layer_mm).unwrap_or(0.0);
-    let limits_mm = [EDGE_MM, EDGE_MM, EDGE_MM + layer_mm];
+    // A part without lines is made of pixels, and its edges are known to one.
+    let pixel_mm = promise.printer.pixel_mm.filter(|_| part.line_mm.is_none());
+    let [x_mm, y_mm] = pixel_mm.unwrap_or([0.0; 2]);
+    let limits_mm = [EDGE_MM + x_mm, EDGE_MM + y_mm, EDGE_MM + layer_mm];
     // Each edge in units of its limit.
     let longer = [0, 1, 2].map(|axis| {
         let limit_mm = limits_mm[axis] + EDGE_RATIO * part.edges_mm[axis];

@@ -22,7 +22,7 @@ pub enum PrintedError {
     Layers(#[from] ReadLayersError),
     /// Nothing in a file is of this kit.
     #[error(
-        "{file} fits no part of this kit: {reason}; remedy: slice {plates} of this kit again, with labels on its objects"
+        "{file} fits no part of this kit: {reason}; remedy: slice {plates} of this kit again{labels}"
     )]
     Foreign {
         /// The file, with the number of its plate.
@@ -31,10 +31,12 @@ pub enum PrintedError {
         reason: String,
         /// The plates of the kit.
         plates: String,
+        /// The words on labels in the remedy.
+        labels: &'static str,
     },
     /// An object fits several parts.
     #[error(
-        "{object} in {file} fits {}: which is meant is not clear; remedy: slice again with labels on its objects, or slice each part by itself",
+        "{object} in {file} fits {}: which is meant is not clear; remedy: slice again{labels}, or slice each part by itself",
         parts.join(" and ")
     )]
     Ambiguous {
@@ -44,6 +46,8 @@ pub enum PrintedError {
         object: String,
         /// The parts or plates that it fits.
         parts: Vec<String>,
+        /// The words on labels in the remedy.
+        labels: &'static str,
     },
     /// Two files print the same part.
     #[error("{part} is printed in {first} and in {second}; remedy: give one of them only")]

@@ -7,16 +7,29 @@ use crate::base::watch::Watch;
 use crate::io::gcode::{
     Deposits, DiameterSource, Facts, Feature, Feed, Place, PrintedObject, Tally, Toolpath,
 };
-use crate::io::layers::{LayerPlate, PixelSum, read_layers};
+use crate::io::layers::{LayerPlate, PixelSum, read_layer_places, read_layers};
 
-/// Reads the layer images of each plate in a file.
+/// Reads the layer images of each plate in a file, each with the name of its plate if it is stated.
 pub(super) fn read_images(
     path: &Path,
+    watch: &Watch,
+) -> Result<Vec<(Option<String>, Toolpath)>, PrintedError> {
+    let plates = read_layers(path, watch)?;
+    Ok(plates
+        .iter()
+        .map(|plate| (plate.plate.clone(), toolpath(plate)))
+        .collect())
+}
+
+/// Reads what lies in each of these places of one plate, counted from 0.
+pub(super) fn read_image_places(
+    path: &Path,
+    plate: usize,
     places: &[Place],
     watch: &Watch,
-) -> Result<Vec<Toolpath>, PrintedError> {
-    let plates = read_layers(path, places, watch)?;
-    Ok(plates.iter().map(toolpath).collect())
+) -> Result<Vec<Deposits>, PrintedError> {
+    let sums = read_layer_places(path, plate, places, watch)?;
+    Ok(sums.iter().map(deposits).collect())
 }
 
 /// Returns what images harden as the material of one object without a label.

@@ -257,7 +257,12 @@ impl Catalogue<'_> {
         whole: &Piece,
     ) -> Result<(&PromisedPlate, [f64; 2]), PrintedError> {
         let shape = source.shape(whole, self.promise);
-        let plates = self.promise.plates.iter();
+        let is_stated = |plate: &&PromisedPlate| {
+            !source.is_images
+                || !source.name.ends_with(".3mf")
+                || source.name.ends_with(&plate.file)
+        };
+        let plates = self.promise.plates.iter().filter(is_stated);
         let fitting: Vec<(&PromisedPlate, [f64; 2])> = plates
             .filter_map(|plate| Some((plate, plate_shift_mm(plate, &shape)?)))
             .collect();
@@ -277,6 +282,7 @@ impl Catalogue<'_> {
             ([one], _) => Ok(*one),
             (_, [one]) => Ok(**one),
             (several, _) => Err(PrintedError::Ambiguous {
+                labels: labels(source),
                 file: source.name.clone(),
                 object: "what is printed".to_owned(),
                 parts: several
@@ -298,6 +304,7 @@ impl Catalogue<'_> {
         PrintedError::Foreign {
             file: source.name.clone(),
             reason,
+            labels: labels(source),
             plates: if plates.is_empty() {
                 "the parts".to_owned()
             } else {
@@ -308,6 +315,7 @@ impl Catalogue<'_> {
 
     fn ambiguous(&self, source: &Source, object: &str, things: &[usize]) -> PrintedError {
         PrintedError::Ambiguous {
+            labels: labels(source),
             file: source.name.clone(),
             object: object.to_owned(),
             parts: things
@@ -351,6 +359,15 @@ fn place(spot: &PlateSpot, shift_mm: &[f64; 2]) -> Place {
     Place {
         min_mm: low_mm.map(|low_mm| low_mm - ROOM_MM),
         max_mm: [0, 1].map(|axis| low_mm[axis] + spot.size_mm[axis] + ROOM_MM),
+    }
+}
+
+/// Returns the words on labels in a remedy: images have none.
+fn labels(source: &Source) -> &'static str {
+    if source.is_images {
+        ""
+    } else {
+        ", with labels on its objects"
     }
 }
 

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use super::error::PrintedError;
-use super::images::read_images;
+use super::images::{read_image_places, read_images};
 use super::limits::FLOW_LIMIT_RATIO;
 use super::names::showable;
 use super::shape::Shape;
@@ -65,13 +65,16 @@ pub(super) fn read_sources(files: &[PathBuf], watch: &Watch) -> Result<Vec<Sourc
     let mut sources = Vec::new();
     for path in files {
         if holds_layers(path) {
-            let plates = read_images(path, &[], watch)?.into_iter().enumerate();
-            sources.extend(plates.map(|(index, toolpath)| Source {
-                path: path.clone(),
-                index,
-                name: path.display().to_string(),
-                toolpath,
-                is_images: true,
+            let plates = read_images(path, watch)?.into_iter().enumerate();
+            sources.extend(plates.map(|(index, (plate, toolpath))| {
+                let plate = plate.map(|plate| format!(", {plate}"));
+                Source {
+                    path: path.clone(),
+                    index,
+                    name: format!("{}{}", path.display(), plate.unwrap_or_default()),
+                    toolpath,
+                    is_images: true,
+                }
             }));
             continue;
         }
@@ -154,9 +157,7 @@ impl Source {
         watch: &Watch,
     ) -> Result<Vec<Deposits>, PrintedError> {
         if self.is_images {
-            let plates = read_images(&self.path, &places, watch)?;
-            let plate = plates.into_iter().nth(self.index);
-            return Ok(plate.map_or_else(Vec::new, |plate| plate.places));
+            return read_image_places(&self.path, self.index, &places, watch);
         }
         let plates = read_gcode(&self.path, &options(places), watch)?;
         let plate = plates.into_iter().nth(self.index);
