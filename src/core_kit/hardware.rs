@@ -1,0 +1,222 @@
+//! Screws, inserts and glue in their places, with their masses.
+
+use super::asked::Asked;
+use super::made::Made;
+use super::names::bracket_id;
+use super::units::home_panel;
+use crate::cladding::Holding;
+use crate::cutter::{Fastener, FastenerShape};
+use crate::geom::{Plane, Point, Vector};
+use crate::mesh::area_mm2;
+use crate::panels::{Bracket, EdgeJoint};
+use crate::printer::Quantity;
+use crate::verify::{FastenerKind, FastenerPromise, GluePromise};
+
+/// The thickness of a film of wood glue between panels, mm, and its density once dry, g/mm³. Both
+/// are own choices for white glue that is wiped off.
+const WOOD_FILM_MM: f64 = 0.1;
+const WOOD_GLUE_G_MM3: f64 = 1.1e-3;
+/// The thickness of a film between printed parts if the printer's profile says nothing, mm.
+const USUAL_FILM_MM: f64 = 0.1;
+/// The density of glue for printed parts if the profile says nothing, g/mm³.
+const USUAL_GLUE_G_MM3: f64 = 1.1e-3;
+/// Distance of a corner from a plane up to which it lies on it, mm.
+const ON_PLANE_MM: f64 = 1e-6;
+/// The least number of screws that hold a part without glue.
+pub const LEAST_SCREWS: usize = 2;
+/// The share of the cylinder around it that a round head fills.
+const HEAD_RATIO: f64 = 0.55;
+
+/// Returns all screws and inserts.
+pub fn fasteners(asked: &Asked, made: &Made) -> Vec<FastenerPromise> {
+    let shell = &made.built.shell;
+    let kit = &asked.screws;
+    let mut all = Vec::new();
+    for screws in &shell.screws {
+        let panel = &shell.panels.panels[screws.panel];
+        let up = panel.frame.axis();
+        let new = |of: &Fastener, kind, center: Point| FastenerPromise {
+            id: of.id.clone(),
+            kind,
+            part: made.names.parts[screws.part].clone(),
+            panel: screws.panel + 1,
+            mass_g: of.mass_g,
+            center_mm: center.into(),
+        };
+        for screw in &screws.screws {
+            let seat = panel.at(screw.at_mm, 1.0);
+            let center = seat + up * center_mm(&kit.screw);
+            all.push(new(&kit.screw, FastenerKind::Screw, center));
+            let center = screw.foot + up * (0.5 * length_mm(&kit.insert));
+            all.push(new(&kit.insert, FastenerKind::Insert, center));
+        }
+    }
+    for (index, bracket) in made.built.brackets.iter().enumerate() {
+        all.extend(bracket_screws(asked, made, index, bracket));
+    }
+    all
+}
+
+/// Returns the screws of a bracket. They hold it to the panel that is joined first, with their
+/// heads outside.
+fn bracket_screws(
+    asked: &Asked,
+    made: &Made,
+    index: usize,
+    bracket: &Bracket,
+) -> [FastenerPromise; 2] {
+    let (flange, panel) = home_panel(&made.built, bracket);
+    let out = made.built.shell.panels.panels[panel].frame.axis();
+    let screw = &asked.bracket_screw;
+    bracket.screws[flange].map(|inner| FastenerPromise {
+        id: screw.id.clone(),
+        kind: FastenerKind::Screw,
+        part: bracket_id(index),
+        panel: panel + 1,
+        mass_g: screw.mass_g,
+        center_mm: (inner + out * (asked.panels.sheet_mm - center_mm(screw))).into(),
+    })
+}
+
+/// Returns the distance of a screw's centre from the underside of its head, along its shaft, mm.
+fn center_mm(screw: &Fastener) -> f64 {
+    let FastenerShape::Screw {
+        thread_mm,
+        length_mm,
+        head_diameter_mm,
+        head_height_mm,
+        ..
+    } = screw.shape
+    else {
+        return 0.0;
+    };
+    let shaft = thread_mm * thread_mm * length_mm;
+    let head = HEAD_RATIO * head_diameter_mm * head_diameter_mm * head_height_mm;
+    0.5 * (shaft * length_mm - head * head_height_mm) / (shaft + head)
+}
+
+fn length_mm(fastener: &Fastener) -> f64 {
+    match fastener.shape {
+        FastenerShape::Screw { length_mm, .. } | FastenerShape::Insert { length_mm, .. } => {
+            length_mm
+        }
+        FastenerShape::Washer { thickness_mm, .. } => thickness_mm,
+    }
+}
+
+/// Returns all films of glue: along the fingers, and under the loose flanges of brackets. Parts
+/// that bear on no panel, or have no room for two screws, are glued too.
+pub fn glue(asked: &Asked, made: &Made) -> Vec<GluePromise> {
+    let mut films = along_edges(asked, made);
+    films.extend(under_flanges(asked, made));
+    films.extend(between_parts(asked, made));
+    films.extend(on_panels(made));
+    films
+}
+
+fn along_edges(asked: &Asked, made: &Made) -> Vec<GluePromise> {
+    let edges = made.built.shell.panels.edges.iter();
+    let glued = edges.filter(|edge| match &edge.joint {
+        EdgeJoint::Fingers(_) => true,
+        EdgeJoint::Brackets(places) => places.is_empty(),
+    });
+    glued
+        .map(|edge| {
+            let area_mm2 = edge.length_mm() * asked.panels.sheet_mm;
+            let middle = nalgebra::center(&edge.ends[0], &edge.ends[1]);
+            let [a, b] = edge.panels;
+            wood_film(format!("panels {} and {}", a + 1, b + 1), area_mm2, middle)
+        })
+        .collect()
+}
+
+fn under_flanges(asked: &Asked, made: &Made) -> Vec<GluePromise> {
+    let kind = &asked.panels.brackets;
+    let area_mm2 = kind.width_mm() * asked.panels.flange_mm();
+    let brackets = made.built.brackets.iter().enumerate();
+    brackets
+        .map(|(index, bracket)| {
+            let (home, _) = home_panel(&made.built, bracket);
+            let [a, b] = bracket.screws[1 - home];
+            let other = made.built.shell.panels.edges[bracket.edge].panels[1 - home];
+            let joint = format!("bracket {} and panel {}", bracket_id(index), other + 1);
+            wood_film(joint, area_mm2, nalgebra::center(&a, &b))
+        })
+        .collect()
+}
+
+fn wood_film(joint: String, area_mm2: f64, middle: Point) -> GluePromise {
+    GluePromise {
+        joint,
+        area_mm2,
+        mass_g: area_mm2 * WOOD_FILM_MM * WOOD_GLUE_G_MM3,
+        center_mm: middle.into(),
+    }
+}
+
+fn between_parts(asked: &Asked, made: &Made) -> Vec<GluePromise> {
+    let printer = &asked.shop.printer;
+    let number = |quantity| printer.number(quantity).map(|number| number.value);
+    let film_mm = number(Quantity::GlueFilmMm).unwrap_or(USUAL_FILM_MM);
+    let density = number(Quantity::GlueDensityGCm3).map(|density| density * 1e-3);
+    let density_g_mm3 = density.unwrap_or(USUAL_GLUE_G_MM3);
+    let parts = made.built.shell.parts.iter().enumerate();
+    parts
+        .filter_map(|(index, part)| {
+            let Holding::Pinned {
+                to,
+                bound,
+                area_mm2,
+            } = part.holding
+            else {
+                return None;
+            };
+            let names = [index, to].map(|part| &made.names.parts[part]);
+            let plane = part.region.bounds()[bound].plane;
+            Some(GluePromise {
+                joint: format!("parts {} and {}", names[0], names[1]),
+                area_mm2,
+                mass_g: area_mm2 * film_mm * density_g_mm3,
+                center_mm: face(part.body.iter_corners(), &plane).1.into(),
+            })
+        })
+        .collect()
+}
+
+/// Returns the films below parts that a single screw, or none, holds to their panel.
+fn on_panels(made: &Made) -> Vec<GluePromise> {
+    let shell = &made.built.shell;
+    let parts = shell.parts.iter().zip(&shell.cups).enumerate();
+    let glued = parts.filter(|(index, (part, _))| {
+        let screws = shell.screws.iter().find(|screws| screws.part == *index);
+        part.is_on_panel() && screws.is_none_or(|screws| screws.screws.len() < LEAST_SCREWS)
+    });
+    glued
+        .map(|(index, (part, cup))| {
+            let floor = part.region.bounds()[0].plane;
+            let (area_mm2, middle) = face(cup.body.iter_corners(), &floor);
+            let panel = made.names.panels[index];
+            let joint = format!("part {} and panel {panel}", made.names.parts[index]);
+            wood_film(joint, area_mm2, middle)
+        })
+        .collect()
+}
+
+/// Returns the area of the triangles in a plane, mm², and their middle. Without any it is the
+/// plane's point nearest to the origin.
+fn face(triangles: impl Iterator<Item = [Point; 3]>, plane: &Plane) -> (f64, Point) {
+    let on_plane = triangles.filter(|corners| {
+        let mut heights = corners.iter().map(|p| plane.distance(p).abs());
+        heights.all(|height| height <= ON_PLANE_MM)
+    });
+    let (area, first) = on_plane.fold((0.0, Vector::zeros()), |(area, first), corners| {
+        let own = area_mm2(&corners);
+        let [a, b, c] = corners.map(|p| p.coords);
+        (area + own, first + (a + b + c) * (own / 3.0))
+    });
+    if area > 0.0 {
+        (area, Point::from(first / area))
+    } else {
+        (area, plane.foot())
+    }
+}

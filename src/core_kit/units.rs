@@ -1,0 +1,52 @@
+//! The units in the order in which they are joined, with the brackets that go with them.
+
+use super::build::Built;
+use super::made::Made;
+use super::names::bracket_id;
+use crate::panels::Bracket;
+use crate::verify::UnitPromise;
+
+/// Returns the flange by which a bracket is screwed to its panel, and the index of that panel. It
+/// is the one of both that is joined first; the other one is glued on when it comes.
+pub fn home_panel(built: &Built, bracket: &Bracket) -> (usize, usize) {
+    let panels = built.shell.panels.edges[bracket.edge].panels;
+    let place = |panel: usize| {
+        let face = built.shell.panels.panels[panel].face;
+        let assembly = &built.shell.assembly;
+        let is_own =
+            |unit: &usize| assembly.units[*unit].has_panel && assembly.units[*unit].face == face;
+        assembly.order.iter().position(is_own)
+    };
+    let flange = usize::from(place(panels[1]) < place(panels[0]));
+    (flange, panels[flange])
+}
+
+/// Returns the units in the order in which they are joined.
+pub fn units(made: &Made) -> Vec<UnitPromise> {
+    let built = &made.built;
+    let assembly = &built.shell.assembly;
+    let panel_of = |face: usize| {
+        let mut panels = built.shell.panels.panels.iter();
+        panels.position(|panel| panel.face == face)
+    };
+    let units = assembly.order.iter().map(|&unit| &assembly.units[unit]);
+    units
+        .map(|unit| {
+            let panel = panel_of(unit.face).filter(|_| unit.has_panel);
+            let own = unit
+                .parts
+                .iter()
+                .map(|&part| made.names.parts[part].clone());
+            let brackets = built.brackets.iter().enumerate();
+            let brackets = brackets
+                .filter(|(_, bracket)| Some(home_panel(built, bracket).1) == panel)
+                .map(|(index, _)| bracket_id(index));
+            UnitPromise {
+                id: made.names.unit(built, unit),
+                panel: panel.map(|panel| panel + 1),
+                parts: own.chain(brackets).collect(),
+                way: unit.way.into(),
+            }
+        })
+        .collect()
+}
