@@ -2,6 +2,7 @@
 
 use super::asked::Asked;
 use super::error::CoreRunError;
+use super::pockets::{Pocket, cut_pockets, pockets};
 use crate::base::verdict::Verdict;
 use crate::base::watch::{Phase, Watch};
 use crate::cladding::{CladShell, CladdingError, Scene, ShellRequest, ShellStyle};
@@ -18,6 +19,7 @@ pub struct Built {
     pub base: Polyhedron,
     pub shell: CladShell,
     pub brackets: Vec<Bracket>,
+    pub pockets: Vec<Pocket>,
     pub sheets: Vec<CutSheet>,
 }
 
@@ -36,7 +38,7 @@ pub enum Refused {
 
 /// Draws the object that is asked for.
 pub fn build(asked: &Asked, watch: &Watch) -> Result<Verdict<Built, Refused>, CoreRunError> {
-    watch.enter(Phase::Solve);
+    watch.enter(Phase::Columns);
     let base = match grow_polyhedron(asked.ground, &asked.base, watch)? {
         Verdict::Found(base) => base,
         Verdict::No(why) => return Ok(Verdict::No(Refused::NoRoom(why))),
@@ -46,13 +48,16 @@ pub fn build(asked: &Asked, watch: &Watch) -> Result<Verdict<Built, Refused>, Co
         Err(why) => return Ok(Verdict::No(Refused::Panels(why))),
     };
     watch.enter(Phase::Shell);
-    let shell = match clad(asked, &base, &panels, watch) {
+    let mut shell = match clad(asked, &base, &panels, watch) {
         Ok(shell) => shell,
         Err(why @ (CladdingError::Cycle { .. } | CladdingError::NoCut { .. })) => {
             return Ok(Verdict::No(Refused::Shell(why)));
         }
         Err(error) => return Err(error.into()),
     };
+    let brackets = shell.panels.brackets(&asked.panels)?;
+    let pockets = pockets(asked, &shell, &brackets);
+    cut_pockets(&mut shell, &pockets)?;
     watch.enter(Phase::Plan);
     let order = SheetOrder {
         cutter: &asked.shop.cutter,
@@ -66,9 +71,10 @@ pub fn build(asked: &Asked, watch: &Watch) -> Result<Verdict<Built, Refused>, Co
         Err(error) => return Err(error.into()),
     };
     Ok(Verdict::Found(Built {
-        brackets: shell.panels.brackets(&asked.panels)?,
         base,
         shell,
+        brackets,
+        pockets,
         sheets,
     }))
 }

@@ -1,14 +1,14 @@
 //! Screws, inserts and glue in their places, with their masses.
 
 use super::asked::Asked;
+use super::home::home_panel;
 use super::made::Made;
 use super::names::bracket_id;
-use super::units::home_panel;
 use crate::cladding::Holding;
 use crate::cutter::{Fastener, FastenerShape};
 use crate::geom::{Plane, Point, Vector};
 use crate::mesh::area_mm2;
-use crate::panels::{Bracket, EdgeJoint};
+use crate::panels::EdgeJoint;
 use crate::printer::Quantity;
 use crate::verify::{FastenerKind, FastenerPromise, GluePromise};
 
@@ -35,47 +35,74 @@ pub fn fasteners(asked: &Asked, made: &Made) -> Vec<FastenerPromise> {
     for screws in &shell.screws {
         let panel = &shell.panels.panels[screws.panel];
         let up = panel.frame.axis();
-        let new = |of: &Fastener, kind, center: Point| FastenerPromise {
-            id: of.id.clone(),
-            kind,
-            part: made.names.parts[screws.part].clone(),
+        let place = |seat: Point| Place {
+            part: &made.names.parts[screws.part],
             panel: screws.panel + 1,
-            mass_g: of.mass_g,
-            center_mm: center.into(),
+            seat,
+            axis: up,
         };
         for screw in &screws.screws {
-            let seat = panel.at(screw.at_mm, 1.0);
-            let center = seat + up * center_mm(&kit.screw);
-            all.push(new(&kit.screw, FastenerKind::Screw, center));
-            let center = screw.foot + up * (0.5 * length_mm(&kit.insert));
-            all.push(new(&kit.insert, FastenerKind::Insert, center));
+            all.push(place(panel.at(screw.at_mm, 1.0)).fastener(&kit.screw));
+            all.push(place(screw.foot).fastener(&kit.insert));
         }
     }
     for (index, bracket) in made.built.brackets.iter().enumerate() {
-        all.extend(bracket_screws(asked, made, index, bracket));
+        let (flange, panel) = home_panel(shell, bracket);
+        let out = shell.panels.panels[panel].frame.axis();
+        all.extend(bracket.screws[flange].map(|inner| {
+            let place = Place {
+                part: &bracket_id(index),
+                panel: panel + 1,
+                seat: inner + out * asked.panels.sheet_mm,
+                axis: -out,
+            };
+            place.fastener(&asked.bracket_screw)
+        }));
     }
     all
 }
 
-/// Returns the screws of a bracket. They hold it to the panel that is joined first, with their
-/// heads outside.
-fn bracket_screws(
-    asked: &Asked,
-    made: &Made,
-    index: usize,
-    bracket: &Bracket,
-) -> [FastenerPromise; 2] {
-    let (flange, panel) = home_panel(&made.built, bracket);
-    let out = made.built.shell.panels.panels[panel].frame.axis();
-    let screw = &asked.bracket_screw;
-    bracket.screws[flange].map(|inner| FastenerPromise {
-        id: screw.id.clone(),
-        kind: FastenerKind::Screw,
-        part: bracket_id(index),
-        panel: panel + 1,
-        mass_g: screw.mass_g,
-        center_mm: (inner + out * (asked.panels.sheet_mm - center_mm(screw))).into(),
-    })
+/// The place of a fastener.
+struct Place<'a> {
+    part: &'a str,
+    panel: usize,
+    /// The point under a screw's head, or at the mouth of an insert.
+    seat: Point,
+    /// The direction from there along its shaft.
+    axis: Vector,
+}
+
+impl Place<'_> {
+    fn fastener(&self, of: &Fastener) -> FastenerPromise {
+        let (kind, along_mm, head_mm) = match of.shape {
+            FastenerShape::Screw {
+                head_diameter_mm,
+                head_height_mm,
+                ..
+            } => (
+                FastenerKind::Screw,
+                center_mm(of),
+                [head_diameter_mm, head_height_mm],
+            ),
+            FastenerShape::Insert { length_mm, .. } => {
+                (FastenerKind::Insert, 0.5 * length_mm, [0.0; 2])
+            }
+            FastenerShape::Washer { thickness_mm, .. } => {
+                (FastenerKind::Insert, 0.5 * thickness_mm, [0.0; 2])
+            }
+        };
+        FastenerPromise {
+            id: of.id.clone(),
+            kind,
+            part: self.part.to_owned(),
+            panel: self.panel,
+            mass_g: of.mass_g,
+            center_mm: (self.seat + self.axis * along_mm).into(),
+            seat_mm: self.seat.into(),
+            axis: self.axis.into(),
+            head_mm,
+        }
+    }
 }
 
 /// Returns the distance of a screw's centre from the underside of its head, along its shaft, mm.
@@ -93,15 +120,6 @@ fn center_mm(screw: &Fastener) -> f64 {
     let shaft = thread_mm * thread_mm * length_mm;
     let head = HEAD_RATIO * head_diameter_mm * head_diameter_mm * head_height_mm;
     0.5 * (shaft * length_mm - head * head_height_mm) / (shaft + head)
-}
-
-fn length_mm(fastener: &Fastener) -> f64 {
-    match fastener.shape {
-        FastenerShape::Screw { length_mm, .. } | FastenerShape::Insert { length_mm, .. } => {
-            length_mm
-        }
-        FastenerShape::Washer { thickness_mm, .. } => thickness_mm,
-    }
 }
 
 /// Returns all films of glue: along the fingers, and under the loose flanges of brackets. Parts
@@ -136,7 +154,7 @@ fn under_flanges(asked: &Asked, made: &Made) -> Vec<GluePromise> {
     let brackets = made.built.brackets.iter().enumerate();
     brackets
         .map(|(index, bracket)| {
-            let (home, _) = home_panel(&made.built, bracket);
+            let (home, _) = home_panel(&made.built.shell, bracket);
             let [a, b] = bracket.screws[1 - home];
             let other = made.built.shell.panels.edges[bracket.edge].panels[1 - home];
             let joint = format!("bracket {} and panel {}", bracket_id(index), other + 1);

@@ -6,6 +6,7 @@ use super::asked::Asked;
 use super::build::Built;
 use super::error::CoreRunError;
 use super::names::{Names, bracket_id};
+use super::pockets::Pocket;
 use crate::base::watch::{Phase, Watch};
 use crate::cladding::{BoundKind, CladdingError, Lie, Part, Room, Scene};
 use crate::geom::{Frame, Point, Vector};
@@ -161,18 +162,22 @@ impl Writer<'_> {
         })
     }
 
-    /// Returns the bosses of a part.
+    /// Returns the bores of a part, for its inserts and for the heads of bracket screws.
     fn bosses(&self, index: usize) -> Vec<BossPromise> {
         let kit = &self.asked.screws;
         let own = self.built.shell.screws.iter();
         let own = own.filter(|screws| screws.part == index);
-        own.flat_map(|screws| &screws.screws)
+        let bores = own
+            .flat_map(|screws| &screws.screws)
             .map(|screw| BossPromise {
                 foot_mm: screw.foot.into(),
                 depth_mm: kit.depth_mm(),
                 bore_mm: kit.bore_mm(),
-            })
-            .collect()
+            });
+        let panel = self.names.panels[index] - 1;
+        let pockets = self.built.pockets.iter();
+        let pockets = pockets.filter(|pocket| pocket.panel == panel);
+        bores.chain(pockets.map(Pocket::promise)).collect()
     }
 }
 

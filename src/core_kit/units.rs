@@ -1,25 +1,9 @@
 //! The units in the order in which they are joined, with the brackets that go with them.
 
-use super::build::Built;
+use super::home::home_panel;
 use super::made::Made;
 use super::names::bracket_id;
-use crate::panels::Bracket;
 use crate::verify::UnitPromise;
-
-/// Returns the flange by which a bracket is screwed to its panel, and the index of that panel. It
-/// is the one of both that is joined first; the other one is glued on when it comes.
-pub fn home_panel(built: &Built, bracket: &Bracket) -> (usize, usize) {
-    let panels = built.shell.panels.edges[bracket.edge].panels;
-    let place = |panel: usize| {
-        let face = built.shell.panels.panels[panel].face;
-        let assembly = &built.shell.assembly;
-        let is_own =
-            |unit: &usize| assembly.units[*unit].has_panel && assembly.units[*unit].face == face;
-        assembly.order.iter().position(is_own)
-    };
-    let flange = usize::from(place(panels[1]) < place(panels[0]));
-    (flange, panels[flange])
-}
 
 /// Returns the units in the order in which they are joined.
 pub fn units(made: &Made) -> Vec<UnitPromise> {
@@ -39,7 +23,7 @@ pub fn units(made: &Made) -> Vec<UnitPromise> {
                 .map(|&part| made.names.parts[part].clone());
             let brackets = built.brackets.iter().enumerate();
             let brackets = brackets
-                .filter(|(_, bracket)| Some(home_panel(built, bracket).1) == panel)
+                .filter(|(_, bracket)| Some(home_panel(&built.shell, bracket).1) == panel)
                 .map(|(index, _)| bracket_id(index));
             UnitPromise {
                 id: made.names.unit(built, unit),

@@ -175,6 +175,8 @@ pub enum CheckKind {
     SheetSpacing,
     /// Distances of panels from the edges of a sheet.
     SheetMargin,
+    /// Heads of screws in other things.
+    ScrewHeads,
     /// Brackets outside of their base, or in a panel.
     Brackets,
     /// Units that overlap others on their way out.
@@ -221,6 +223,7 @@ impl CheckKind {
             Self::BeamPaths => "beam paths",
             Self::SheetSpacing => "sheet spacing",
             Self::SheetMargin => "sheet margin",
+            Self::ScrewHeads => "screw heads",
             Self::Brackets => "brackets",
             Self::WayOut => "way out",
             Self::WaysFree => "free ways",
@@ -292,7 +295,7 @@ mod tests {
     use serde_json::json;
 
     /// The keys and names of all kinds without data.
-    const KEYS: [(CheckKind, &str, &str); 74] = [
+    const KEYS: [(CheckKind, &str, &str); 75] = [
         (CheckKind::Papers, "papers", "papers"),
         (CheckKind::Replay, "replay", "replay"),
         (CheckKind::AxisOffset, "axis-offset", "axis offset"),
@@ -392,6 +395,7 @@ mod tests {
         (CheckKind::BeamPaths, "beam-paths", "beam paths"),
         (CheckKind::SheetSpacing, "sheet-spacing", "sheet spacing"),
         (CheckKind::SheetMargin, "sheet-margin", "sheet margin"),
+        (CheckKind::ScrewHeads, "screw-heads", "screw heads"),
         (CheckKind::Brackets, "brackets", "brackets"),
         (CheckKind::WayOut, "way-out", "way out"),
         (CheckKind::WaysFree, "ways-free", "free ways"),

@@ -31,6 +31,7 @@ SAMPLED_MM = 1e-3
 OUTSIDE_MM3 = 1e-2
 PANELS_MM3 = 1e-3
 IN_BASE_MM3 = 1e-2
+HEADS_MM3 = 0.05
 # Steps of a unit on its way out, mm, and the volume that it may share with what stands, mm³.
 STEPS_MM = (0.2, 2.0, 8.0, 30.0, 100.0, 350.0)
 WAY_MM3 = 1e-2
@@ -266,6 +267,21 @@ def meets(a, b):
     return bool((a[0] < b[1]).all() and (b[0] < a[1]).all())
 
 
+def judge_heads(kit, panels):
+    """Screws' heads must lie in nothing else."""
+    inside = 0.0
+    for screw in kit.sheet["fasteners"]:
+        diameter, height = screw["head_mm"]
+        if not height:
+            continue
+        back = -np.array(screw["axis"])
+        place = trimesh.geometry.align_vectors([0, 0, 1], back)
+        place[:3, 3] = screw["seat_mm"]
+        head = manifold3d.Manifold.cylinder(height, diameter / 2, circular_segments=24).transform(place[:3])
+        inside += sum((head ^ other).volume() for other in [*kit.solids.values(), *panels] if meets(head, other))
+    kit.check("screws' heads in other things, mm³", inside, inside <= HEADS_MM3, HEADS_MM3)
+
+
 def judge_mass(kit):
     sheet = kit.sheet
     mass, first = 0.0, np.zeros(3)
@@ -314,6 +330,7 @@ def judge(folder):
     kit.check("panels that are cut", len(cut), sorted(cut) == list(range(1, len(kit.panels) + 1)), len(kit.panels))
     judge_parts(kit, model)
     judge_ways(kit, panels)
+    judge_heads(kit, panels)
     judge_mass(kit)
     for fault in kit.faults:
         print(f"  broken: {fault}")

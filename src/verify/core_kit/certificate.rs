@@ -10,8 +10,6 @@ use crate::repair::weld;
 const SAMPLES: usize = 20_000;
 /// The least longest edge of a piece, as a share of the model's size. Shorter ones take for ever.
 const LEAST_EDGE_RATIO: f64 = 1e-3;
-/// By how much the length of a normal may differ from 1. A longer one would exaggerate distances.
-const UNIT_SLACK: f64 = 1e-9;
 
 /// The facts about a base.
 #[derive(Debug, Clone, PartialEq)]
@@ -28,15 +26,14 @@ pub struct BaseFacts {
 }
 
 /// Returns the least distance by which the pieces of a surface are parted, mm. `None` if their
-/// number is another one, one names no plane, or the planes are no planes.
+/// number is another one, or one names no plane.
 fn parted_mm(evidence: &CoreEvidence, planes: &[Plane]) -> Option<f64> {
     let certificate = &evidence.certificate;
     let mut named = certificate.faces.iter();
     let mut least_mm = f64::INFINITY;
     let limit = certificate.longest_edge_mm;
-    let is_unit = |plane: &Plane| (plane.normal.norm() - 1.0).abs() <= UNIT_SLACK;
     let least_edge_mm = LEAST_EDGE_RATIO * evidence.model.longest_side_mm();
-    let is_sound = limit >= least_edge_mm && planes.iter().all(is_unit);
+    let is_sound = limit >= least_edge_mm;
     for corners in evidence.model.iter_corners().filter(|_| is_sound) {
         // A stack of triangles, the next one last.
         let mut waiting = vec![corners];

@@ -29,6 +29,8 @@ const COVER_LIMIT_MM: f64 = 5e-3;
 const IN_BASE_LIMIT_MM3: f64 = 1e-2;
 /// The greatest volume of brackets in panels or outside of the base, mm³: rounding in files.
 const BRACKET_LIMIT_MM3: f64 = 1.0;
+/// The greatest volume of screws' heads in anything else, mm³: their seats touch, rounded in files.
+const HEADS_LIMIT_MM3: f64 = 0.05;
 /// By how much a wall may be below the one ordered, mm.
 const WALL_SLACK_MM: f64 = 0.01;
 /// By how much the sum of all volumes may differ from the model's, as a share.
@@ -206,6 +208,12 @@ fn of_shell(promise: &CorePromise, facts: &CoreFacts) -> Vec<Check> {
             Limit::at_most(BRACKET_LIMIT_MM3, "mm³"),
         ),
     ];
+    checks.push(Check::new(
+        CheckKind::ScrewHeads,
+        "the heads of screws lie in no part, panel or bracket",
+        Some(shell.heads_mm3),
+        Limit::at_most(HEADS_LIMIT_MM3, "mm³"),
+    ));
     if shell.thinnest.is_some() {
         let wall = Check::new(
             CheckKind::Wall,

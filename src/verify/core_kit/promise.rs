@@ -118,18 +118,18 @@ pub struct CorePartPromise {
     pub bores_mm3: f64,
     /// The planes of cuts for the printer's room along its sides: outward normal, and offset, mm.
     pub cuts: Vec<[f64; 4]>,
-    /// The cylinders that are kept solid or bored about its screws.
+    /// Its bores: for inserts, and for the heads of bracket screws.
     pub bosses: Vec<BossPromise>,
 }
 
-/// A boss with its bore, along the screw from the panel on.
+/// A bore in a part, along the normal of its panel.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct BossPromise {
-    /// The point at which the screw enters the part, mm.
+    /// The point at which it enters the part, mm.
     pub foot_mm: [f64; 3],
-    /// The depth of the bore, mm.
+    /// Its depth, mm.
     pub depth_mm: f64,
-    /// The diameter of the bore, mm.
+    /// Its diameter, mm.
     pub bore_mm: f64,
 }
 
@@ -158,6 +158,12 @@ pub struct FastenerPromise {
     pub mass_g: f64,
     /// Its centre in the model frame, mm.
     pub center_mm: [f64; 3],
+    /// The point under a screw's head, or at the mouth of an insert, mm.
+    pub seat_mm: [f64; 3],
+    /// The unit direction from there along its shaft.
+    pub axis: [f64; 3],
+    /// Diameter and height of a screw's head, mm; zero for an insert.
+    pub head_mm: [f64; 2],
 }
 
 /// A film of glue, taken as a point of its mass.

@@ -24,6 +24,8 @@ use crate::verify::{
 
 /// The word by which a checklist says that it is that of an object on a base.
 const KIND: &str = "core";
+/// By how much the squared length of a normal may differ from 1.
+const UNIT_SLACK: f64 = 1e-9;
 /// The model in a kit, in single precision.
 pub const MODEL_FILE: &str = "model.stl";
 /// The panels in a kit.
@@ -87,8 +89,8 @@ fn read(folder: &Path) -> Result<CoreEvidence, CoreVerifyError> {
     if let Some(file) = outside(&promise) {
         return Err(CoreVerifyError::Outside { file });
     }
-    if let Some(why) = mismatch(&panels, &certificate) {
-        let path = folder.join(PANELS_FILE);
+    if let Some((file, why)) = mismatch(&panels, &certificate) {
+        let path = folder.join(file);
         return Err(CoreVerifyError::Mismatch { path, why });
     }
     let scale = promise.printer.print_scale_ratio.map(Vector::from);
@@ -143,19 +145,25 @@ fn in_model(mesh: &TriMesh, part: &CorePartPromise, scale: Option<Vector>) -> Tr
     })
 }
 
-/// Returns the reason why panels are not those of a certificate.
-fn mismatch(panels: &PanelsFile, certificate: &CoreCertificate) -> Option<&'static str> {
+/// Returns the file of panels and certificate that is not sound, and the reason.
+fn mismatch(
+    panels: &PanelsFile,
+    certificate: &CoreCertificate,
+) -> Option<(&'static str, &'static str)> {
+    // A longer normal would exaggerate distances.
+    let is_unit = |[x, y, z, _]: &[f64; 4]| (x * x + y * y + z * z - 1.0).abs() <= UNIT_SLACK;
+    if !certificate.planes.iter().all(is_unit) {
+        let why = "a normal of its planes has not the length 1";
+        return Some((CORE_CERTIFICATE_FILE, why));
+    }
     let mut all = panels.panels.iter().enumerate();
     let is_wrong = all.any(|(index, panel)| {
         panel.panel != index + 1
             || panel.plane >= certificate.planes.len()
             || panel.outline_mm.len() < 3
     });
-    if is_wrong || panels.panels.is_empty() {
-        Some("its panels are not numbered, or lie on no plane of the certificate")
-    } else {
-        None
-    }
+    let why = "its panels are not numbered, or lie on no plane of the certificate";
+    (is_wrong || panels.panels.is_empty()).then_some((PANELS_FILE, why))
 }
 
 fn read_file(path: &Path) -> Result<Vec<u8>, CoreVerifyError> {

@@ -8,14 +8,16 @@ use super::error::CoreVerifyError;
 use super::evidence::{CoreEvidence, plane_of};
 use super::panels::shared_mm3;
 use crate::base::watch::Watch;
-use crate::geom::{Bvh, Plane, Point, Vector};
-use crate::mesh::{MeshDistance, TriMesh, spread_points};
+use crate::geom::{Bvh, Frame, Plane, Point, Vector};
+use crate::mesh::{MeshDistance, TriMesh, primitives, spread_points};
 use crate::repair::weld;
 
 /// Points on the model's surface at which a part must be, and points on each part at which walls
 /// are measured.
 const MODEL_SAMPLES: usize = 40_000;
 const PART_SAMPLES: usize = 8_000;
+/// Number of sides of a screw's head.
+const HEAD_SIDES: u32 = 24;
 /// Distance up to which a point lies on a surface, mm: rounding in files, and slivers that are
 /// mended in them.
 const ON_SURFACE_MM: f64 = 2e-3;
@@ -42,6 +44,8 @@ pub struct ShellFacts {
     pub wall_mm: f64,
     /// The part with the thinnest wall.
     pub thinnest: Option<String>,
+    /// The volume of screws' heads that lies in parts, panels or brackets, mm³.
+    pub heads_mm3: f64,
     /// Inserts in the middle of which there is material.
     pub unbored: Vec<String>,
 }
@@ -73,6 +77,7 @@ pub fn measure_shell(
         parts_mm3: volumes.sum(),
         wall_mm,
         thinnest,
+        heads_mm3: heads_mm3(evidence)?,
         unbored: unbored(evidence),
     })
 }
@@ -120,6 +125,31 @@ fn brackets_mm3(evidence: &CoreEvidence) -> Result<f64, CoreVerifyError> {
         }
     }
     Ok(wrong_mm3)
+}
+
+/// Returns the volume of screws' heads that lies in parts, panels or brackets, mm³.
+fn heads_mm3(evidence: &CoreEvidence) -> Result<f64, CoreVerifyError> {
+    let screws = evidence.promise.fasteners.iter();
+    let heads: Vec<TriMesh> = screws
+        .filter(|one| one.head_mm[1] > 0.0)
+        .map(|screw| {
+            let [diameter_mm, height_mm] = screw.head_mm;
+            let back = -Vector::from(screw.axis);
+            let frame = Frame::with_axis(Point::from(screw.seat_mm), &back);
+            primitives::cylinder(0.5 * diameter_mm, height_mm, HEAD_SIDES)
+                .map_vertices(|p| frame.to_model(p))
+        })
+        .collect();
+    let count = evidence.panels.panels.len();
+    let panels = (0..count).map(|panel| super::panels::panel_body(evidence, panel));
+    let parts = evidence.parts.iter().map(weld);
+    let mut inside_mm3 = 0.0;
+    for body in parts.chain(panels) {
+        for head in &heads {
+            inside_mm3 += shared_mm3(head, &body)?;
+        }
+    }
+    Ok(inside_mm3)
 }
 
 /// Returns the planes between the faces of the base, at which parts of two cells meet.
