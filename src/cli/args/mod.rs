@@ -108,7 +108,8 @@ pub enum Command {
     Cuts(Box<PrepareArgs>),
     /// Turn a curve into a kit of nested shells that slide open into it
     Telescope(Box<TelescopeArgs>),
-    /// Turn a model larger than the printer into a kit of printed parts on a laser-cut base
+    /// Put a model larger than the printer on a laser-cut base
+    #[command(hide = true)]
     Core(Box<CoreArgs>),
     /// Show a model's facts, and which of the five goals it can reach
     Inspect(InspectArgs),
