@@ -1,6 +1,7 @@
 //! The whole input of a run as plain data. `job.toml` replays the run exactly.
 
 mod choices;
+pub mod core_kit;
 mod effort;
 mod filling;
 mod slicer;

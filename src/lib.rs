@@ -88,7 +88,7 @@ pub mod extend {
 /// printed parts around them. With them come the machines, sheets and fasteners.
 pub mod large {
     #[doc(inline)]
-    pub use crate::{cladding, cutter, cutting, panels, polyhedra};
+    pub use crate::{cladding, core_kit, cutter, cutting, panels, polyhedra};
 }
 
 /// Checklists, job sheets, drawings and coupons.
@@ -107,6 +107,8 @@ pub mod cladding;
 #[cfg(feature = "cli")]
 #[doc(hidden)]
 pub mod cli;
+#[doc(hidden)]
+pub mod core_kit;
 #[doc(hidden)]
 pub mod coupon;
 #[doc(hidden)]

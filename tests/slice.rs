@@ -174,6 +174,10 @@ fn what_cannot_be_sliced_is_told_with_a_remedy_and_writes_nothing() {
         "{}",
         printed(&output)
     );
+    fs::write(empty.join("checklist.json"), r#"{"kind":"core"}"#).unwrap();
+    let output = equipoise(&["slice", path(&empty)]);
+    assert_exit(&output, 2);
+    assert!(printed(&output).contains("an object on a base"));
     // A folder of something else is not replaced.
     let other = bench.folder.join("other");
     fs::create_dir_all(&other).unwrap();

@@ -109,6 +109,12 @@ choice! {
         Order = "order",
         /// The radius of a telescope's foot.
         Foot = "foot",
+        /// The greatest number of faces of a base.
+        Faces = "faces",
+        /// The joints between the panels of a base.
+        Joints = "joints",
+        /// The style of the parts on a base.
+        Shell = "shell",
         /// The folder or file that is written; it is not part of a job.
         Out = "out",
         /// The permission to replace what is there; it is not part of a job.

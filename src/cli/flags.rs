@@ -128,9 +128,11 @@ mod tests {
         let prepare = find(&cli, "prepare");
         let import = find(&find(&cli, "printers"), "import");
         let telescope = find(&cli, "telescope");
+        let core = find(&cli, "core");
         for &key in Key::ALL {
             let command = if key == Key::List { &import } else { &prepare };
-            assert!(knows(command, key) || knows(&telescope, key), "{key}");
+            let others = knows(&telescope, key) || knows(&core, key);
+            assert!(knows(command, key) || others, "{key}");
         }
     }
 

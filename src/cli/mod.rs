@@ -3,6 +3,7 @@
 pub mod args;
 pub mod bars;
 pub mod broken;
+pub mod core_kit;
 pub mod coupon;
 mod cuts;
 pub mod cutters;
@@ -74,6 +75,7 @@ fn dispatch(cli: Cli, manner: Manner) -> Result<Exit, Box<dyn Error + Send + Syn
             &Stop::on_signals(),
             out,
         )?),
+        Command::Core(args) => Ok(core_kit::core(*args, voice, &Stop::on_signals(), out)?),
         Command::Inspect(args) => {
             end_process_on_signal();
             Ok(inspect::inspect(&args, voice, out)?)

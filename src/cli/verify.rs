@@ -14,8 +14,8 @@ use crate::base::watch::Watch;
 use crate::error::Error;
 use crate::press;
 use crate::verify::{
-    Check, CheckKind, FileChange, PrintedError, TelescopeVerifyError, VerifyError, files_check,
-    is_telescope, verify_printed, verify_telescope,
+    Check, CheckKind, CoreVerifyError, FileChange, PrintedError, TelescopeVerifyError, VerifyError,
+    files_check, is_core, is_telescope, verify_core, verify_printed, verify_telescope,
 };
 
 /// Greatest number of files that are not on the list and are named.
@@ -31,6 +31,23 @@ pub enum VerifyCommandError {
     /// The kit of a telescope cannot be judged.
     #[error(transparent)]
     Telescope(#[from] TelescopeVerifyError),
+    /// The kit of an object on a base cannot be judged.
+    #[error(transparent)]
+    Core(#[from] Box<CoreVerifyError>),
+    /// An object on a base is compared with the kit's own model alone.
+    #[error("this kit is compared with the model in it; remedy: verify it without another one")]
+    OwnModel,
+    /// The toolpaths of an object on a base are not judged.
+    #[error(
+        "this kit is that of an object on a base, whose toolpaths are not judged; remedy: verify it \
+         without them"
+    )]
+    NoCoreToolpaths,
+    /// An object on a base is not made again.
+    #[error(
+        "the kit of an object on a base is not made again; remedy: verify it without that order"
+    )]
+    NoCoreReplay,
     /// A telescope is made of no model.
     #[error("this kit is a telescope's, which is made of no model; remedy: verify it without one")]
     NoModel,
@@ -67,6 +84,10 @@ pub fn verify(
     if args.replay && is_telescope {
         return Err(VerifyCommandError::NoReplay);
     }
+    let is_core = is_core(folder);
+    if args.replay && is_core {
+        return Err(VerifyCommandError::NoCoreReplay);
+    }
     if !args.gcode.is_empty() {
         return verify_toolpaths(args, voice, out);
     }
@@ -76,6 +97,8 @@ pub fn verify(
         unlisted,
     } = if is_telescope {
         judge_telescope(folder, model)?
+    } else if is_core {
+        judge_core(folder, model)?
     } else {
         judge_kit(folder, model)?
     };
@@ -103,6 +126,9 @@ fn verify_toolpaths(
 ) -> Result<Exit, VerifyCommandError> {
     if is_telescope(&args.kit) {
         return Err(VerifyCommandError::NoToolpaths);
+    }
+    if is_core(&args.kit) {
+        return Err(VerifyCommandError::NoCoreToolpaths);
     }
     let found = verify_printed(&args.kit, &args.gcode, &Watch::silent())?;
     if voice.json {
@@ -149,6 +175,18 @@ fn judge_telescope(folder: &Path, model: Option<&Path>) -> Result<Judged, Verify
         return Err(VerifyCommandError::NoModel);
     }
     let judgement = verify_telescope(folder, &Watch::silent())?;
+    Ok(Judged {
+        checks: judgement.checks,
+        changes: judgement.changes,
+        unlisted: judgement.unlisted,
+    })
+}
+
+fn judge_core(folder: &Path, model: Option<&Path>) -> Result<Judged, VerifyCommandError> {
+    if model.is_some() {
+        return Err(VerifyCommandError::OwnModel);
+    }
+    let judgement = verify_core(folder, &Watch::silent()).map_err(Box::new)?;
     Ok(Judged {
         checks: judgement.checks,
         changes: judgement.changes,

@@ -5,7 +5,8 @@
 //! * `points` reads curves, a point a line; `lines` reads them as OBJ lines or PLY edges, too.
 //! * [`gcode`] reads what a print lays down; it writes nothing.
 //! * [`layers`] writes and weighs layer images.
-//! * `drawing` holds drawings for cutters, which `dxf` and `cut_svg` write.
+//! * `drawing` holds drawings for cutters, which `dxf` and `cut_svg` write; `read_drawing` reads
+//!   them back.
 
 mod cut_svg;
 mod drawing;
@@ -18,6 +19,7 @@ mod ply;
 mod ply_edges;
 mod points;
 mod read;
+mod read_drawing;
 mod sniff;
 pub mod stl;
 #[cfg(test)]
@@ -32,4 +34,5 @@ pub use obj::ObjError;
 pub use ply::PlyError;
 pub use points::{PointsError, decode_points};
 pub use read::{ContentError, ReadError, decode_model, file_near, read_bytes, read_model};
+pub use read_drawing::{DrawingError, decode_cut_svg, decode_dxf};
 pub use stl::{StlError, WriteError};

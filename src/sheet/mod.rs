@@ -2,6 +2,7 @@
 
 mod certificate;
 mod checklist;
+pub mod core_kit;
 pub mod from_run;
 mod goal;
 mod joints;

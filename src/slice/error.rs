@@ -23,6 +23,11 @@ pub enum SliceError {
         "this kit is a telescope's, which is not sliced from here yet; remedy: load its plates into the slicer"
     )]
     Telescope,
+    /// The kit is that of an object on a base.
+    #[error(
+        "this kit is that of an object on a base, which is not sliced from here yet; remedy: load its plates into the slicer"
+    )]
+    Core,
     /// The job of the kit cannot be read.
     #[error(transparent)]
     Job(#[from] JobError),

@@ -13,7 +13,7 @@ use crate::job::Job;
 use crate::kit::{Kit, SLICES_FILE};
 use crate::printer::{Plate, Printer};
 use crate::slicer::{PlateFile, SliceSettings, Slicer};
-use crate::verify::{JOB_FILE, is_telescope};
+use crate::verify::{JOB_FILE, is_core, is_telescope};
 
 /// Largest profile of a slicer, bytes: real ones have some 20 000.
 const MOST_PROFILE: u64 = 1_000_000;
@@ -101,6 +101,9 @@ pub(super) fn read_job(folder: &Path) -> Result<Job, SliceError> {
     }
     if is_telescope(folder) {
         return Err(SliceError::Telescope);
+    }
+    if is_core(folder) {
+        return Err(SliceError::Core);
     }
     Ok(Job::read(&path)?)
 }

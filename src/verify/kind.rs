@@ -157,6 +157,32 @@ pub enum CheckKind {
     Centres,
     /// Toppling angles along a motion.
     Toppling,
+    /// The certificate that a base keeps its distance from the model's surface.
+    Separation,
+    /// Distance of a base from the model's surface at sampled points.
+    BaseDistance,
+    /// Volume of a base outside of the model.
+    BaseInside,
+    /// Panels that reach into each other.
+    PanelOverlap,
+    /// Panels that reach out of their base.
+    PanelsInBase,
+    /// Drawings of sheets that are not those of the panels.
+    Drawings,
+    /// Paths of the beam beside the outlines of panels.
+    BeamPaths,
+    /// Distances of panels on a sheet.
+    SheetSpacing,
+    /// Distances of panels from the edges of a sheet.
+    SheetMargin,
+    /// Heads of screws in other things.
+    ScrewHeads,
+    /// Brackets outside of their base, or in a panel.
+    Brackets,
+    /// Units that overlap others on their way out.
+    WayOut,
+    /// Units whose way out is barred.
+    WaysFree,
 }
 
 impl CheckKind {
@@ -168,7 +194,7 @@ impl CheckKind {
         }
     }
 
-    /// Returns the English name of a check that only toolpaths and telescopes have.
+    /// Returns the English name of a check that only toolpaths, telescopes and bases have.
     fn name_elsewhere(&self) -> &'static str {
         match self {
             Self::PrintedParts => "printed parts",
@@ -188,6 +214,19 @@ impl CheckKind {
             Self::Mass => "mass",
             Self::Centres => "centres",
             Self::Toppling => "toppling",
+            Self::Separation => "separation",
+            Self::BaseDistance => "base distance",
+            Self::BaseInside => "base inside",
+            Self::PanelOverlap => "panel overlap",
+            Self::PanelsInBase => "panels in base",
+            Self::Drawings => "drawings",
+            Self::BeamPaths => "beam paths",
+            Self::SheetSpacing => "sheet spacing",
+            Self::SheetMargin => "sheet margin",
+            Self::ScrewHeads => "screw heads",
+            Self::Brackets => "brackets",
+            Self::WayOut => "way out",
+            Self::WaysFree => "free ways",
             _ => "check",
         }
     }
@@ -256,7 +295,7 @@ mod tests {
     use serde_json::json;
 
     /// The keys and names of all kinds without data.
-    const KEYS: [(CheckKind, &str, &str); 62] = [
+    const KEYS: [(CheckKind, &str, &str); 75] = [
         (CheckKind::Papers, "papers", "papers"),
         (CheckKind::Replay, "replay", "replay"),
         (CheckKind::AxisOffset, "axis-offset", "axis offset"),
@@ -347,6 +386,19 @@ mod tests {
         (CheckKind::Mass, "mass", "mass"),
         (CheckKind::Centres, "centres", "centres"),
         (CheckKind::Toppling, "toppling", "toppling"),
+        (CheckKind::Separation, "separation", "separation"),
+        (CheckKind::BaseDistance, "base-distance", "base distance"),
+        (CheckKind::BaseInside, "base-inside", "base inside"),
+        (CheckKind::PanelOverlap, "panel-overlap", "panel overlap"),
+        (CheckKind::PanelsInBase, "panels-in-base", "panels in base"),
+        (CheckKind::Drawings, "drawings", "drawings"),
+        (CheckKind::BeamPaths, "beam-paths", "beam paths"),
+        (CheckKind::SheetSpacing, "sheet-spacing", "sheet spacing"),
+        (CheckKind::SheetMargin, "sheet-margin", "sheet margin"),
+        (CheckKind::ScrewHeads, "screw-heads", "screw heads"),
+        (CheckKind::Brackets, "brackets", "brackets"),
+        (CheckKind::WayOut, "way-out", "way out"),
+        (CheckKind::WaysFree, "ways-free", "free ways"),
     ];
 
     fn assert_reads_back(kind: &CheckKind, value: &serde_json::Value) {

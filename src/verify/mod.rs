@@ -71,7 +71,8 @@ mod sheet;
 mod strangers;
 // The toolpaths of a kit.
 mod printed;
-// Telescopes.
+// Objects on a base, and telescopes.
+mod core_kit;
 mod telescope;
 
 #[cfg(test)]
@@ -155,6 +156,14 @@ pub use printed::{
     Cause, CauseKind, MatchedBy, PRINTED_CENTER_LIMIT_MM, PRINTED_MASS_LIMIT_RATIO,
     PRINTED_SKIN_MM, PRINTED_TILT_LIMIT_DEG, PrintedError, PrintedFile, PrintedJudgement,
     PrintedPart, verify_printed,
+};
+// Objects on a base.
+pub use core_kit::{
+    BossPromise, CORE_CERTIFICATE_FILE, CoreCertificate, CoreEvidence, CoreFacts, CoreJudgement,
+    CorePartKind, CorePartPromise, CorePromise, CoreVerifyError, CutPromise, CutSheetPromise,
+    EdgePromise, FastenerKind, FastenerPromise, GluePromise, HolePromise, MODEL_FILE, PANELS_FILE,
+    PanelPromise, PanelsFile, PlacedPanel, UnitPromise, core_checks, is_core, judge_core,
+    verify_core,
 };
 // Telescopes.
 pub use telescope::{

@@ -26,6 +26,16 @@ pub enum ArgsError {
         /// The curve that was given.
         input: String,
     },
+    /// An object on a base without its machines.
+    #[error(
+        "a printer, a cutter and a sheet are needed; remedy: equipoise core {model} --size 600mm \
+         --printer prusa-mk4 --cutter makerspace-900x600 --sheet birch-5 (equipoise printers and \
+         equipoise cutters list them)"
+    )]
+    NoMachines {
+        /// The model that was given.
+        model: String,
+    },
     /// Arguments are missing.
     #[error("{0}")]
     Missing(Missing),

@@ -2,6 +2,7 @@
 
 mod again;
 mod ballast;
+mod core_kit;
 mod cut;
 mod cutters;
 mod error;
@@ -26,6 +27,7 @@ use clap::{Args, Parser, Subcommand};
 use clap_complete::Shell;
 
 pub use again::again;
+pub use core_kit::{CoreArgs, CoreRequest};
 pub use cutters::{CalibrateCutterArgs, CuttersAction, CuttersArgs, NewCutterArgs};
 pub use error::ArgsError;
 pub use missing::Missing;
@@ -106,6 +108,9 @@ pub enum Command {
     Cuts(Box<PrepareArgs>),
     /// Turn a curve into a kit of nested shells that slide open into it
     Telescope(Box<TelescopeArgs>),
+    /// Put a model larger than the printer on a laser-cut base
+    #[command(hide = true)]
+    Core(Box<CoreArgs>),
     /// Show a model's facts, and which of the five goals it can reach
     Inspect(InspectArgs),
     /// Find the limbs inside a model and their radii, for telescopes

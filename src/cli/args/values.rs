@@ -13,6 +13,7 @@ use crate::goal::GoalKind;
 /// The commands that the list leaves out, for the long help.
 pub(super) const ALSO: &str = "\
 Also:
+  equipoise core MODEL          puts a model larger than the printer on a base
   equipoise completions SHELL   prints the completion script of a shell
   equipoise man [COMMAND]       prints the manual page of the program or of a command";
 

@@ -1,0 +1,170 @@
+//! The arguments of `core`, and the job they make.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::error::ArgsError;
+use super::scaling::ScalingArgs;
+use super::values::{angle, words};
+use crate::base::units::Length;
+use crate::cli::shop::chosen_printer;
+use crate::goal::Up;
+use crate::job::ModelChoice;
+use crate::job::core_kit::{CoreGoal, CoreJob, CoreJoints, CoreShell, CutChoice};
+
+/// The arguments of `core`.
+#[derive(Debug, Clone, Args)]
+pub struct CoreArgs {
+    /// The model: an STL, OBJ, PLY or 3MF file
+    #[arg(required_unless_present = "job")]
+    pub model: Option<PathBuf>,
+    /// A known printer's id, or a profile file
+    #[arg(long, value_name = "ID|FILE")]
+    pub printer: Option<String>,
+    /// A material that the printer offers [default: the printer's]
+    #[arg(long, value_name = "ID")]
+    pub material: Option<String>,
+    /// A known laser cutter's id, or a profile file
+    #[arg(long, value_name = "ID|FILE")]
+    pub cutter: Option<String>,
+    /// A known sheet's id, or a profile file
+    #[arg(long, value_name = "ID|FILE")]
+    pub sheet: Option<String>,
+    /// The size of the model.
+    #[command(flatten, next_help_heading = "Size")]
+    pub scaling: ScalingArgs,
+    /// The base.
+    #[command(flatten)]
+    pub base: BaseArgs,
+    /// What the object does.
+    #[command(flatten)]
+    pub stance: CoreStanceArgs,
+    /// The folder of the kit [default: such as bunny-core]
+    #[arg(long, value_name = "DIR", help_heading = "Kit")]
+    pub out: Option<PathBuf>,
+    /// Overwrite an existing folder
+    #[arg(long, help_heading = "Kit")]
+    pub force: bool,
+    /// Replay the run of this job.toml; MODEL, if given, replaces its model
+    #[arg(long, value_name = "FILE", help_heading = "Kit", conflicts_with_all = DECIDED_BY_JOB)]
+    pub job: Option<PathBuf>,
+}
+
+/// The arguments of the base and the parts around it.
+#[derive(Debug, Clone, Args)]
+#[command(next_help_heading = "Base and shell")]
+pub struct BaseArgs {
+    /// The greatest number of panels, from 4 to 32 [default: 12]
+    #[arg(long, value_name = "N", allow_hyphen_values = true)]
+    pub faces: Option<usize>,
+    /// Fingers where they fit and brackets elsewhere, or one of both on all edges [default: auto]
+    #[arg(long, value_parser = words::<CoreJoints>(CoreJoints::WORDS))]
+    pub joints: Option<CoreJoints>,
+    /// The wall of the parts [default: 3mm, or the printer's minimum if that is more]
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
+    pub wall: Option<Length>,
+    /// Hollow parts, open to the base, or solid ones [default: cups]
+    #[arg(long, value_parser = words::<CoreShell>(CoreShell::WORDS))]
+    pub shell: Option<CoreShell>,
+}
+
+/// The arguments of standing.
+#[derive(Debug, Clone, Args)]
+#[command(next_help_heading = "Goal")]
+pub struct CoreStanceArgs {
+    /// Stand on its own foot, or promise nothing [default: stand]
+    #[arg(long, value_parser = words::<CoreGoal>(CoreGoal::WORDS))]
+    pub goal: Option<CoreGoal>,
+    /// The lean at which it still stands [default: 5°]
+    #[arg(long, value_name = "DEG", value_parser = angle, allow_hyphen_values = true)]
+    pub least_angle: Option<f64>,
+    /// The direction of the model that points up: x, y, z, -x, -y, -z, X,Y,Z or natural
+    /// [default: natural]
+    #[arg(long, value_name = "UP", allow_hyphen_values = true)]
+    pub up: Option<Up>,
+}
+
+/// The arguments that a replayed job decides.
+const DECIDED_BY_JOB: [&str; 14] = [
+    "printer",
+    "material",
+    "cutter",
+    "sheet",
+    "size",
+    "scale",
+    "unit",
+    "faces",
+    "joints",
+    "wall",
+    "shell",
+    "goal",
+    "least_angle",
+    "up",
+];
+
+/// The order for `core`: the job, and the target of its kit.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CoreRequest {
+    /// The job, which decides the bytes of the kit.
+    pub job: CoreJob,
+    /// The folder to write the kit to.
+    pub out: PathBuf,
+    /// True if an existing folder is replaced.
+    pub force: bool,
+}
+
+impl CoreArgs {
+    /// Returns the job that was ordered, and the target of its kit.
+    ///
+    /// # Errors
+    /// A machine or the sheet is missing, or a file they name cannot be used.
+    pub fn request(self) -> Result<CoreRequest, ArgsError> {
+        let (out, force) = (self.out.clone(), self.force);
+        let job = match &self.job {
+            Some(path) => replay(CoreJob::read(path)?, self.model),
+            None => self.new_job()?,
+        };
+        let usual = || PathBuf::from(format!("{}-core", job.name()));
+        Ok(CoreRequest {
+            out: out.unwrap_or_else(usual),
+            force,
+            job,
+        })
+    }
+
+    fn new_job(self) -> Result<CoreJob, ArgsError> {
+        let path = self.model.unwrap_or_default();
+        let chosen = chosen_printer(self.printer.as_deref(), self.material, &path)?;
+        let (Some(printer), Some(cutter), Some(sheet)) = (chosen, self.cutter, self.sheet) else {
+            return Err(ArgsError::NoMachines {
+                model: path.display().to_string(),
+            });
+        };
+        let model = ModelChoice {
+            path,
+            sha256: None,
+            scaling: self.scaling.scaling(),
+        };
+        let default = CoreJob::new(model, printer, CutChoice { cutter, sheet });
+        let (base, stance) = (self.base, self.stance);
+        Ok(CoreJob {
+            faces: base.faces.unwrap_or(default.faces),
+            joints: base.joints.unwrap_or(default.joints),
+            wall: base.wall,
+            shell: base.shell.unwrap_or(default.shell),
+            goal: stance.goal.unwrap_or(default.goal),
+            least_angle_deg: stance.least_angle.unwrap_or(default.least_angle_deg),
+            up: stance.up.unwrap_or(default.up),
+            ..default
+        })
+    }
+}
+
+/// Returns the job with another model, if one is given.
+fn replay(mut job: CoreJob, model: Option<PathBuf>) -> CoreJob {
+    if let Some(model) = model {
+        job.model.path = model;
+    }
+    job
+}

@@ -1,0 +1,237 @@
+//! The answers where there is no such object, with what helps.
+
+use super::asked::Asked;
+use super::build::Refused;
+use super::made::Made;
+use super::mass::{Weighed, point, weigh};
+use super::outcome::{Impossible, Remedy};
+use crate::base::numbers::measured;
+use crate::base::setting::{Key, Setting};
+use crate::cladding::Scene;
+use crate::geom::Point;
+use crate::goal::{Goal, compute_figures, support_edges};
+use crate::job::core_kit::{CoreJoints, CoreShell};
+use crate::mass::moments_of_mesh;
+use crate::panels::PanelError;
+
+/// Words for a remedy against a sheet that is too thick.
+const THINNER: &str = "use a thinner sheet, ask for fewer faces, or make the model larger";
+
+impl Impossible {
+    fn new(reason: String) -> Self {
+        Self {
+            verdict: "impossible",
+            is_proved: false,
+            reason,
+            remedies: Vec::new(),
+            hints: Vec::new(),
+        }
+    }
+}
+
+/// Tells why there is no such object, and what helps.
+pub fn refused(asked: &Asked, refused: &Refused) -> Impossible {
+    match refused {
+        Refused::NoRoom(why) => {
+            let mut answer = Impossible::new(why.to_string());
+            answer.is_proved = why.deepest_mm < why.distance_mm;
+            let size_mm = asked.ground.solid().mesh().longest_side_mm();
+            if let Some(factor) = why.least_factor {
+                let larger_mm = (factor * size_mm).ceil();
+                answer.remedies.push(Remedy {
+                    settings: vec![Setting::new(Key::Size, format!("{larger_mm}mm"))],
+                    words: "the least size at which a base has room".to_owned(),
+                });
+            }
+            answer
+        }
+        Refused::Panels(why) => {
+            let mut answer = Impossible::new(why.to_string());
+            if matches!(why, PanelError::NoFingers { .. }) {
+                answer.remedies.push(Remedy {
+                    settings: vec![Setting::new(Key::Joints, CoreJoints::Auto)],
+                    words: "brackets hold the edges that have no room for fingers".to_owned(),
+                });
+            } else {
+                answer.hints.push(THINNER.to_owned());
+            }
+            answer
+        }
+        Refused::Shell(why) => {
+            let mut answer = Impossible::new(why.to_string());
+            let faces = "ask for another number of faces, or for a printer with more room";
+            answer.hints.push(faces.to_owned());
+            answer
+        }
+        Refused::Sheets(why) => Impossible::new(why.to_string()),
+    }
+}
+
+/// Returns the lean at which an object topples, degrees; less than zero if it does not stand.
+pub fn toppling_deg(goal: &Goal, weighed: &Weighed) -> f64 {
+    let moments = weighed.whole.in_frame(&goal.frame);
+    let figures = compute_figures(goal, &moments);
+    let lean_rad = figures.toppling_angle_rad.unwrap_or(f64::NEG_INFINITY);
+    lean_rad.to_degrees()
+}
+
+/// Tells why an object does not stand as asked, and what helps; `None` if it does, or need not.
+///
+/// Its mass and centre are known exactly, but another base or other cuts may do.
+pub fn falls(asked: &Asked, made: &Made, weighed: &Weighed) -> Option<Impossible> {
+    let goal = asked.goal.as_ref()?;
+    let least_deg = asked.job.least_angle_deg;
+    let found_deg = toppling_deg(goal, weighed);
+    if found_deg >= least_deg {
+        return None;
+    }
+    let center = goal.frame.to_local(&weighed.center());
+    let mut answer = Impossible::new(format!(
+        "the object on its base topples at {}, less than the {} asked for: its {} lie {} above the \
+         floor",
+        measured(found_deg, "°"),
+        measured(least_deg, "°"),
+        measured(weighed.mass_g(), "g"),
+        measured(center.z, "mm"),
+    ));
+    if found_deg > 0.0 {
+        let reached = (found_deg * 10.0).floor() / 10.0;
+        answer.remedies.push(Remedy {
+            settings: vec![Setting::new(Key::LeastAngle, reached)],
+            words: "promises what is reached".to_owned(),
+        });
+    }
+    answer.remedies.extend(solid_shell(asked, made, goal));
+    answer.hints.extend(ballast(asked, made, goal, weighed));
+    Some(answer)
+}
+
+/// Returns the remedy of solid parts, if the object then stands as asked.
+fn solid_shell(asked: &Asked, made: &Made, goal: &Goal) -> Option<Remedy> {
+    if asked.job.shell == CoreShell::Solid {
+        return None;
+    }
+    let hollow = weigh(asked, made);
+    let parts = &made.built.shell.parts;
+    let written = made
+        .parts
+        .iter()
+        .map(|part| moments_of_mesh(&part.in_model()));
+    let written = written.take(parts.len());
+    let more = parts.iter().zip(written);
+    let more = more.fold(hollow.whole, |whole, (part, written)| {
+        whole + (moments_of_mesh(&part.body) - written) * asked.print_g_mm3()
+    });
+    let solid = Weighed {
+        whole: more,
+        ..hollow
+    };
+    let lean_deg = toppling_deg(goal, &solid);
+    (lean_deg >= asked.job.least_angle_deg).then(|| Remedy {
+        settings: vec![Setting::new(Key::Shell, CoreShell::Solid)],
+        words: format!(
+            "topples at {} and weighs {}",
+            measured(lean_deg, "°"),
+            measured(solid.mass_g(), "g")
+        ),
+    })
+}
+
+/// Returns the least ballast on the bottom panel with which the object stands as asked, in words.
+fn ballast(asked: &Asked, made: &Made, goal: &Goal, weighed: &Weighed) -> Option<String> {
+    let base = &made.built.base;
+    let scene = Scene::new(asked.ground, base, asked.gap_mm).ok()?;
+    let bottom = scene.bottom_face(&asked.up)?;
+    let face = &base.faces()[bottom];
+    let at = face.centroid - face.plane.normal * asked.panels.sheet_mm;
+    let mass_g = least_ballast_g(goal, weighed, &at, asked.job.least_angle_deg)?;
+    let panels = made.built.shell.panels.panels.iter();
+    let number = panels
+        .enumerate()
+        .find(|(_, panel)| panel.face == bottom)?
+        .0
+        + 1;
+    Some(format!(
+        "lay {} of ballast on the middle of panel {number}, inside: with it the object stands as \
+         asked",
+        measured(mass_g, "g")
+    ))
+}
+
+/// Returns the least mass in a point with which a body leans as far as asked, g; `None` if none
+/// does.
+///
+/// Take an edge of the support with inward normal n and offset d, and the slope t = tan θ. A mass M
+/// at c stands if M (n·c − d − t c_z) ≥ 0. That is linear in the mass, so one more mass adds its
+/// own term.
+fn least_ballast_g(goal: &Goal, weighed: &Weighed, at: &Point, least_deg: f64) -> Option<f64> {
+    let slope = least_deg.to_radians().tan();
+    let [center, at] = [weighed.center(), *at].map(|p| goal.frame.to_local(&p));
+    let margins = support_edges(&goal.support)
+        .into_iter()
+        .map(|(n, d)| [center, at].map(|p| n[0] * p.x + n[1] * p.y - d - slope * p.z));
+    let needed = margins.map(|[own, more]| match (own >= 0.0, more > 0.0) {
+        (true, true) => Some(0.0),
+        (false, true) => Some(-own * weighed.mass_g() / more),
+        _ => None,
+    });
+    let needed: Vec<f64> = needed.collect::<Option<_>>()?;
+    let mass_g = needed.into_iter().fold(0.0, f64::max);
+    let stands = Weighed {
+        whole: weighed.whole + point(mass_g * (1.0 + 1e-9), goal.frame.to_model(&at).into()),
+        ..weighed.clone()
+    };
+    (toppling_deg(goal, &stands) >= least_deg - 1e-6).then_some(mass_g)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geom::Vector;
+    use crate::goal::testing::block;
+    use crate::goal::{GoalKind, Request, place};
+
+    /// Returns a mass of 1 kg in a point.
+    fn weight(center: [f64; 3]) -> Weighed {
+        Weighed {
+            shell_g: 1000.0,
+            panels_g: 0.0,
+            brackets_g: 0.0,
+            fasteners_g: 0.0,
+            glue_g: 0.0,
+            whole: point(1000.0, center),
+            fasteners: Vec::new(),
+            glue: Vec::new(),
+        }
+    }
+
+    #[test]
+    fn the_least_ballast_makes_a_tower_lean_as_far_as_asked_and_no_farther() {
+        let tower = block([-10.0, -10.0, 0.0], [10.0, 10.0, 100.0]);
+        let goal = place(&tower, 1.0, &Request::new(GoalKind::Stand))
+            .unwrap()
+            .goal;
+        let tall = weight([0.0, 0.0, 60.0]);
+        let lean_deg = (10.0_f64 / 60.0).atan().to_degrees();
+        assert!((toppling_deg(&goal, &tall) - lean_deg).abs() < 1e-9);
+        let at = Point::new(0.0, 0.0, 5.0);
+        let mass_g = least_ballast_g(&goal, &tall, &at, 20.0).unwrap();
+        // M (10 − 60 t) + m (10 − 5 t) = 0 at t = tan 20°.
+        let slope = 20f64.to_radians().tan();
+        let expected_g = 1000.0 * (60.0 * slope - 10.0) / (10.0 - 5.0 * slope);
+        assert!((mass_g / expected_g - 1.0).abs() < 1e-9);
+        let all = tall.whole + point(mass_g, at.into());
+        let heavier = Weighed { whole: all, ..tall };
+        assert!((toppling_deg(&goal, &heavier) - 20.0).abs() < 1e-6);
+        // No ballast so high helps, and what stands needs none.
+        let top = Point::from(Vector::z() * 90.0);
+        assert_eq!(
+            least_ballast_g(&goal, &weight([0.0, 0.0, 60.0]), &top, 20.0),
+            None
+        );
+        assert_eq!(
+            least_ballast_g(&goal, &weight([0.0, 0.0, 9.0]), &at, 20.0),
+            Some(0.0)
+        );
+    }
+}

@@ -1,0 +1,190 @@
+//! What is asked of an object on a base, in the measures of the machines.
+
+use super::error::CoreRunError;
+use super::load::{Loaded, Shop};
+use crate::base::watch::Watch;
+use crate::cladding::ScrewKit;
+use crate::cutter::{CutterNumber, Fastener, FastenerShape};
+use crate::cutting::SheetError;
+use crate::geom::Vector;
+use crate::goal::{Goal, GoalError, GoalKind, Request as GoalRequest, Up, find_upright, place};
+use crate::job::core_kit::{CoreGoal, CoreJob, CoreJoints};
+use crate::panels::{BracketKind, JointStyle, PanelRequest};
+use crate::polyhedra::{Ground, Limits, Request};
+
+/// The wall of parts if the job says nothing else, mm.
+const USUAL_WALL_MM: f64 = 3.0;
+/// The gap between panels and parts, mm: sheets are not flat.
+const GAP_MM: f64 = 0.5;
+/// Room beside what a screw needs below the wall, mm: places are tried on a grid.
+const SPARE_MM: f64 = 0.1;
+/// The least thread of screws, mm.
+const THREAD_MM: f64 = 3.0;
+/// The hole into which a screw cuts its own thread, over the thread.
+const CORE_HOLE_RATIO: f64 = 2.5 / 3.0;
+/// The thickness of a bracket's flange, mm, and the share of it that a screw must reach into.
+const FLANGE_MM: f64 = 4.0;
+const GRIP_RATIO: f64 = 0.75;
+
+/// What is asked of an object, in mm.
+pub struct Asked<'a> {
+    pub job: &'a CoreJob,
+    pub shop: &'a Shop,
+    pub ground: &'a Ground,
+    pub warnings: Vec<String>,
+    pub wall_mm: f64,
+    pub gap_mm: f64,
+    /// The order for the base.
+    pub base: Request,
+    /// The order for its panels.
+    pub panels: PanelRequest,
+    /// The screws and inserts of parts.
+    pub screws: ScrewKit,
+    /// The screw of brackets.
+    pub bracket_screw: Fastener,
+    /// The direction up.
+    pub up: Vector,
+    /// The goal; `None` if nothing is promised.
+    pub goal: Option<Goal>,
+}
+
+/// Takes the measures of a job from the profiles of its machines.
+pub fn measure<'a>(
+    shop: &'a Shop,
+    loaded: &'a Loaded,
+    watch: &Watch,
+) -> Result<Asked<'a>, CoreRunError> {
+    let job = &loaded.job;
+    let size_mm = loaded.ground.solid().mesh().longest_side_mm();
+    let least_mm = shop.printer.least_wall_mm(size_mm).value;
+    let asked_mm = job
+        .wall
+        .map_or(USUAL_WALL_MM.max(least_mm), |wall| wall.mm());
+    let wall_mm = shop.printer.quantise_wall(Some(asked_mm), size_mm)?.wall_mm;
+    let sheet_mm = shop.sheet.thickness_mm.value;
+    let no_screw = || CoreRunError::NoScrew { sheet_mm };
+    let screws = ScrewKit::choose(&shop.fasteners, THREAD_MM, sheet_mm + GAP_MM);
+    let screws = screws.ok_or_else(no_screw)?;
+    let bracket_screw = bracket_screw(&shop.fasteners, sheet_mm).ok_or_else(no_screw)?;
+    // A screw then has room wherever a part covers its panel.
+    let fastener_mm = screws.depth_mm() + 0.5 * screws.bore_mm() + SPARE_MM;
+    let distance_mm = wall_mm + GAP_MM + fastener_mm;
+    let head_mm = screws.screw.shape.diameter_mm();
+    let limits = Limits::for_sheet(sheet_mm, head_mm, room_mm(shop)?);
+    let base = Request {
+        faces: job.faces,
+        ..Request::new(distance_mm, limits)
+    };
+    base.check()?;
+    let (up, goal) = stance(job, &loaded.ground, wall_mm, watch)?;
+    Ok(Asked {
+        job,
+        shop,
+        ground: &loaded.ground,
+        warnings: loaded.warnings.clone(),
+        wall_mm,
+        gap_mm: GAP_MM,
+        base,
+        panels: panel_request(job, sheet_mm, &bracket_screw),
+        screws,
+        bracket_screw,
+        up,
+        goal,
+    })
+}
+
+impl Asked<'_> {
+    /// Returns the printer's room, mm; `None` if it is not known.
+    pub fn room_mm(&self) -> Option<[f64; 3]> {
+        self.shop.printer.usable_volume_mm()
+    }
+
+    /// Returns the density of the printed material, g/mm³.
+    pub fn print_g_mm3(&self) -> f64 {
+        self.shop.material.density_g_mm3()
+    }
+
+    /// Returns the density of the sheet, g/mm³.
+    pub fn sheet_g_mm3(&self) -> f64 {
+        self.shop.sheet.mass_per_area_g_mm2() / self.shop.sheet.thickness_mm.value
+    }
+}
+
+fn panel_request(job: &CoreJob, sheet_mm: f64, screw: &Fastener) -> PanelRequest {
+    let hole_mm = match screw.shape {
+        FastenerShape::Screw { hole_mm, .. } => hole_mm,
+        _ => screw.shape.thread_mm(),
+    };
+    PanelRequest {
+        sheet_mm,
+        joints: match job.joints {
+            CoreJoints::Auto => JointStyle::Auto,
+            CoreJoints::Fingers => JointStyle::Fingers,
+            CoreJoints::Brackets => JointStyle::Brackets,
+        },
+        press_mm: 0.0,
+        brackets: BracketKind {
+            hole_mm,
+            head_mm: screw.shape.diameter_mm(),
+            thread_mm: CORE_HOLE_RATIO * screw.shape.thread_mm(),
+            flange_mm: FLANGE_MM,
+        },
+    }
+}
+
+/// Returns the shortest stock screw that reaches through a sheet and into a flange.
+fn bracket_screw(stock: &[Fastener], sheet_mm: f64) -> Option<Fastener> {
+    let least_mm = sheet_mm + GRIP_RATIO * FLANGE_MM;
+    let long_enough = stock.iter().filter_map(|fastener| match fastener.shape {
+        FastenerShape::Screw {
+            thread_mm,
+            length_mm,
+            ..
+        } if length_mm >= least_mm && thread_mm >= THREAD_MM => {
+            Some((fastener, [thread_mm, length_mm]))
+        }
+        _ => None,
+    });
+    let best = long_enough.reduce(|a, b| if b.1 < a.1 { b } else { a });
+    best.map(|(fastener, _)| fastener.clone())
+}
+
+/// Returns the largest rectangle that a panel may fill on a sheet, mm.
+fn room_mm(shop: &Shop) -> Result<[f64; 2], CoreRunError> {
+    let margin = shop.cutter.numbers.get(&CutterNumber::MarginMm);
+    let margin_mm = margin.map_or(0.0, |margin| margin.value);
+    let more_mm = (shop.cutter.spacing_mm(shop.kerf.kerf_mm) - margin_mm).max(0.0);
+    let rooms = shop.cutter.rooms_mm(&shop.sheet).into_iter();
+    let rooms = rooms.map(|room| room.map(|side| (side - 2.0 * more_mm).max(0.0)));
+    let largest = rooms.reduce(|a, b| if b[0] * b[1] > a[0] * a[1] { b } else { a });
+    largest.ok_or_else(|| SheetError::NoSize(shop.sheet.id.clone()).into())
+}
+
+/// Returns the direction up, and the goal if one is promised.
+fn stance(
+    job: &CoreJob,
+    ground: &Ground,
+    wall_mm: f64,
+    watch: &Watch,
+) -> Result<(Vector, Option<Goal>), CoreRunError> {
+    let solid = ground.solid();
+    let up = if job.up == Up::Natural {
+        let poses = find_upright(solid, watch)?;
+        poses.first().map_or(Up::Z, |pose| Up::of(&pose.up))
+    } else {
+        job.up
+    };
+    let request = GoalRequest {
+        up,
+        least_angle_deg: job.least_angle_deg,
+        ..GoalRequest::new(GoalKind::Stand)
+    };
+    match (place(solid, wall_mm, &request), job.goal) {
+        (Ok(placed), CoreGoal::Stand) => Ok((placed.goal.frame.axis(), Some(placed.goal))),
+        (Ok(placed), CoreGoal::None) => Ok((placed.goal.frame.axis(), None)),
+        (Err(GoalError::NoSupport { up, .. }), CoreGoal::None) => {
+            Ok((up.direction().unwrap_or(Vector::z()), None))
+        }
+        (Err(error), _) => Err(error.into()),
+    }
+}

@@ -1,0 +1,128 @@
+//! The reasons why a run reaches no answer.
+
+use std::path::PathBuf;
+
+use crate::base::watch::Cancelled;
+use crate::cladding::CladdingError;
+use crate::cutter::{CannotCut, ProfileError as CutterError};
+use crate::cutting::SheetError;
+use crate::draw::PictureError;
+use crate::error::Error;
+use crate::goal::GoalError;
+use crate::io::threemf::PackageError;
+use crate::io::{ContentError, ReadError, StlError};
+use crate::job::JobError;
+use crate::mend::MendError;
+use crate::mesh::{ClipError, Defects};
+use crate::polyhedra::{RequestError, SeparationError};
+use crate::printer::{MaterialError, ProfileError, WallError};
+use crate::repair::NotOneBody;
+use crate::verify::CoreVerifyError;
+
+/// A reason why a run could not reach an answer.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum CoreRunError {
+    /// The model cannot be read.
+    #[error(transparent)]
+    Read(#[from] ReadError),
+    /// The model cannot be mended.
+    #[error("{} cannot be repaired", path.display())]
+    Mend {
+        /// The model's file.
+        path: PathBuf,
+        /// The reason.
+        source: Box<MendError>,
+    },
+    /// The model does not bound a solid.
+    #[error("{} does not bound a solid", path.display())]
+    NotSolid {
+        /// The model's file.
+        path: PathBuf,
+        /// Every defect.
+        source: Box<Defects>,
+    },
+    /// The model is not one body.
+    #[error("{} is not one body", path.display())]
+    NotOneBody {
+        /// The model's file.
+        path: PathBuf,
+        /// Its shells, or the places where it passes through itself.
+        source: Box<NotOneBody>,
+    },
+    /// The job cannot be read, or its model has changed.
+    #[error(transparent)]
+    Job(#[from] JobError),
+    /// The printer's profile cannot be used.
+    #[error(transparent)]
+    Profile(#[from] ProfileError),
+    /// The profile of the cutter, the sheet or the fasteners cannot be used.
+    #[error(transparent)]
+    Cutter(#[from] CutterError),
+    /// The cutter does not cut the sheet.
+    #[error(transparent)]
+    CannotCut(#[from] CannotCut),
+    /// The printer has no such material.
+    #[error(transparent)]
+    Material(#[from] MaterialError),
+    /// The wall cannot be printed.
+    #[error(transparent)]
+    Wall(#[from] WallError),
+    /// The number of faces cannot be.
+    #[error(transparent)]
+    Faces(#[from] RequestError),
+    /// The goal cannot be placed.
+    #[error(transparent)]
+    Goal(#[from] GoalError),
+    /// No stock screw passes the sheet.
+    #[error(
+        "no stock screw reaches through a sheet of {sheet_mm} mm; remedy: choose a thinner sheet"
+    )]
+    NoScrew {
+        /// The thickness of the sheet, mm.
+        sheet_mm: f64,
+    },
+    /// The sheets cannot be cut.
+    #[error(transparent)]
+    Sheet(#[from] SheetError),
+    /// The shell cannot be made.
+    #[error(transparent)]
+    Cladding(#[from] CladdingError),
+    /// A boolean failed.
+    #[error(transparent)]
+    Clip(#[from] ClipError),
+    /// A written STL does not read back.
+    #[error(transparent)]
+    Stl(#[from] StlError),
+    /// A written file does not read back.
+    #[error(
+        "a written part does not read back: {0}; this is a fault of the program, please report it"
+    )]
+    ReadBack(#[from] ContentError),
+    /// The certificate does not hold on the written model.
+    #[error("the written model is nearer to the base than its certificate allows")]
+    Separation(#[from] SeparationError),
+    /// A package cannot be written.
+    #[error(transparent)]
+    Package(#[from] PackageError),
+    /// A picture cannot be drawn.
+    #[error(transparent)]
+    Picture(#[from] PictureError),
+    /// A stage that all kits share failed.
+    #[error(transparent)]
+    Shared(#[from] Error),
+    /// The kit cannot be judged.
+    #[error(transparent)]
+    Verify(#[from] CoreVerifyError),
+    /// A file cannot be put into JSON.
+    #[error("{file} cannot be written: {why}; this is a fault of the program, please report it")]
+    Unwritable {
+        /// The file.
+        file: &'static str,
+        /// The fault.
+        why: String,
+    },
+    /// The caller stopped the run.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+}

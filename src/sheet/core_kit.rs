@@ -1,0 +1,241 @@
+//! The checklist of an object on a laser-cut base, for people and for machines.
+
+use std::collections::BTreeMap;
+
+use serde::Serialize;
+
+use super::Verdict;
+use crate::verify::{
+    Check, CorePartPromise, CutPromise, CutSheetPromise, FastenerPromise, GluePromise,
+    PrinterLimits, UnitPromise,
+};
+
+/// The version of the keys.
+pub const CORE_SHEET_SCHEMA: u32 = 1;
+
+/// Everything the sheets of an object say: `checklist.json`.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct CoreSheet {
+    /// The version of the keys.
+    pub schema: u32,
+    /// Always `core`.
+    pub kind: &'static str,
+    /// The name of the job.
+    pub job: String,
+    /// The version of the program.
+    pub version: &'static str,
+    /// The verdict over all checks.
+    pub verdict: Verdict,
+    /// The model.
+    pub model: CoreModelRow,
+    /// The printer.
+    pub printer: CorePrinterRow,
+    /// The material of printed parts.
+    pub material: CoreMaterialRow,
+    /// The cutter.
+    pub cutter: CutterRow,
+    /// The sheet.
+    pub sheet: SheetRow,
+    /// The base.
+    pub base: BaseRow,
+    /// The wall of the parts, mm.
+    pub wall_mm: f64,
+    /// True if the parts are solid down to the base.
+    pub is_solid: bool,
+    /// The distance that the base keeps from the model's surface, mm.
+    pub distance_mm: f64,
+    /// The gap between panels and parts, mm.
+    pub gap_mm: f64,
+    /// The sheets with their panels.
+    pub cut_sheets: Vec<CutSheetPromise>,
+    /// The figures of each sheet, in the same order.
+    pub sheet_rows: Vec<CutSheetRow>,
+    /// The printed parts and brackets.
+    pub parts: Vec<CorePartPromise>,
+    /// What the shop needs to know of each part, in the same order.
+    pub part_rows: Vec<CorePartRow>,
+    /// The screws and inserts.
+    pub fasteners: Vec<FastenerPromise>,
+    /// The films of glue.
+    pub glue: Vec<GluePromise>,
+    /// The units in the order in which they are joined.
+    pub units: Vec<UnitPromise>,
+    /// What is bought.
+    pub buy: Vec<BuyRow>,
+    /// The direction up in the model, a unit vector.
+    pub up: [f64; 3],
+    /// The mass of the whole, g.
+    pub mass_g: f64,
+    /// The mass of its things, g.
+    pub masses: MassRow,
+    /// The centre of mass in the model frame, mm.
+    pub centre_mm: [f64; 3],
+    /// The lean at which it topples, degrees; `None` if it need not stand.
+    pub toppling_deg: Option<f64>,
+    /// The toppling angle that is promised, degrees; `None` if it need not stand.
+    pub least_angle_deg: Option<f64>,
+    /// Warnings.
+    pub warnings: Vec<String>,
+    /// Every promise with its verdict.
+    pub checks: Vec<Check>,
+    /// The SHA-256 of every other file of the kit.
+    pub files: BTreeMap<String, String>,
+}
+
+/// The model of an object.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct CoreModelRow {
+    /// Its file.
+    pub source: String,
+    /// The SHA-256 of that file.
+    pub sha256: Option<String>,
+    /// Its extent, mm.
+    pub size_mm: [f64; 3],
+    /// Its volume, mm³.
+    pub volume_mm3: f64,
+}
+
+/// The printer of an object.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct CorePrinterRow {
+    /// Its id.
+    pub id: String,
+    /// Its name.
+    pub name: String,
+    /// The height of a layer, mm.
+    pub layer_mm: f64,
+    /// The glue for its materials.
+    pub glue: Option<String>,
+    /// The dangers of that glue.
+    pub glue_safety: Option<String>,
+    /// The limits by which its parts are judged.
+    #[serde(flatten)]
+    pub limits: PrinterLimits,
+}
+
+/// The material of printed parts.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct CoreMaterialRow {
+    /// Its id.
+    pub id: String,
+    /// Its name.
+    pub name: String,
+    /// Its density, g/cm³.
+    pub density_g_cm3: f64,
+}
+
+/// The cutter.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct CutterRow {
+    /// Its id.
+    pub id: String,
+    /// Its name.
+    pub name: String,
+    /// The width of the cut, mm.
+    pub kerf_mm: f64,
+    /// The source of that width.
+    pub kerf_source: String,
+    /// True if the shop measured it.
+    pub is_kerf_measured: bool,
+    /// True if the shop's software offsets the paths.
+    pub compensates_kerf: bool,
+}
+
+/// The sheet.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct SheetRow {
+    /// Its id.
+    pub id: String,
+    /// Its name.
+    pub name: String,
+    /// What is promised of it and of the cut.
+    #[serde(flatten)]
+    pub cut: CutPromise,
+    /// The source of its thickness.
+    pub thickness_source: String,
+}
+
+/// The base of an object.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct BaseRow {
+    /// The number of panels.
+    pub panels: usize,
+    /// Its volume, mm³.
+    pub volume_mm3: f64,
+    /// Its volume over that of the model.
+    pub volume_ratio: f64,
+    /// The area of its panels, mm².
+    pub panels_mm2: f64,
+    /// The number of edges with fingers.
+    pub finger_edges: usize,
+    /// The number of edges with brackets.
+    pub bracket_edges: usize,
+    /// The number of edges that are glued alone.
+    pub glued_edges: usize,
+}
+
+/// The figures of a sheet with panels.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct CutSheetRow {
+    /// The share of the whole sheet that is panels.
+    pub sheet_ratio: f64,
+    /// The share of its used length that is panels.
+    pub used_ratio: f64,
+    /// The length of all cuts, mm.
+    pub cut_mm: f64,
+    /// The number of times that the beam pierces the sheet.
+    pub pierces: usize,
+    /// The length of all engraved strokes, mm.
+    pub engraved_mm: f64,
+    /// An estimate of the time that the cuts take, s; `None` if the speed is not known.
+    pub cut_s: Option<f64>,
+}
+
+/// A printed part as the shop handles it.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct CorePartRow {
+    /// The name on the sheet.
+    pub id: String,
+    /// How it lies on the plate.
+    pub lies: String,
+    /// What holds it, in words.
+    pub held_by: String,
+    /// Extent in print pose, mm.
+    pub size_mm: [f64; 3],
+    /// Mass, g.
+    pub mass_g: f64,
+}
+
+/// A thing that is bought.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct BuyRow {
+    /// The id under which it is ordered.
+    pub id: String,
+    /// Its name in a shop.
+    pub name: String,
+    /// The number of pieces.
+    pub count: usize,
+}
+
+/// The masses of an object's things, g.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct MassRow {
+    /// The printed parts of the shell.
+    pub shell_g: f64,
+    /// The panels.
+    pub panels_g: f64,
+    /// The brackets.
+    pub brackets_g: f64,
+    /// The screws and inserts.
+    pub fasteners_g: f64,
+    /// The glue.
+    pub glue_g: f64,
+    /// The whole by the estimate of the supplement to CofiFab, solid down to the base.
+    pub paper_g: f64,
+    /// The centre of that estimate in the model frame, mm.
+    pub paper_centre_mm: [f64; 3],
+    /// The model printed solid, without a base.
+    pub if_solid_g: f64,
+    /// A skin of the same wall without a base: its area times the wall.
+    pub if_skin_g: f64,
+}

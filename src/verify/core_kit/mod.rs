@@ -1,0 +1,35 @@
+//! The judge of objects on a laser-cut base: from the written parts, the drawings of the sheets,
+//! and the lists of the kit alone.
+//!
+//! [`verify_core`] reads a kit from its folder, [`judge_core`] measures evidence in memory. Nothing
+//! of the code that makes bases, panels and shells is seen here. The judge halves triangles, builds
+//! panels and finds seams by its own hand.
+
+mod certificate;
+mod checks;
+mod drawings;
+mod error;
+mod evidence;
+mod facts;
+mod flat;
+mod packages;
+mod panels;
+mod promise;
+mod reading;
+mod shell;
+mod standing;
+mod surfaces;
+mod ways;
+
+pub use checks::core_checks;
+pub use error::CoreVerifyError;
+pub use evidence::CoreEvidence;
+pub use facts::{CoreFacts, judge_core};
+pub use promise::{
+    BossPromise, CoreCertificate, CorePartKind, CorePartPromise, CorePromise, CutPromise,
+    CutSheetPromise, EdgePromise, FastenerKind, FastenerPromise, GluePromise, HolePromise,
+    PanelPromise, PanelsFile, PlacedPanel, UnitPromise,
+};
+pub use reading::{
+    CORE_CERTIFICATE_FILE, CoreJudgement, MODEL_FILE, PANELS_FILE, is_core, verify_core,
+};

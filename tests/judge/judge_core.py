@@ -1,0 +1,345 @@
+#!/usr/bin/env python3
+"""An independent judge of the kit of an object on a laser-cut base: Python, numpy, scipy, trimesh, manifold3d, shapely and ezdxf, nothing of
+the program.
+
+    python3 tests/judge/judge_core.py KIT [KIT ...]
+
+Reads the parts and the model (STL), the sheets (DXF and SVG), panels.json and certificate.json, and from checklist.json what was promised.
+Checks the certificate triangle by triangle, builds the base from its planes and the panels from their outlines, takes the object apart unit by
+unit with solid intersections, cuts the sheets, and weighs everything. Prints promise against measurement. Exit code 0: all agree; 1: something
+does not; 2: no kit.
+"""
+
+import hashlib
+import json
+import math
+import sys
+from pathlib import Path
+
+import manifold3d
+import numpy as np
+import scipy.optimize
+import scipy.spatial
+import shapely
+import trimesh
+from shapely.geometry import Point, Polygon, box
+
+from cut_drawings import read_both
+
+PARTED_MM = 1e-6
+SAMPLED_MM = 1e-3
+OUTSIDE_MM3 = 1e-2
+PANELS_MM3 = 1e-3
+IN_BASE_MM3 = 1e-2
+HEADS_MM3 = 0.05
+# Steps of a unit on its way out, mm, and the volume that it may share with what stands, mm³.
+STEPS_MM = (0.2, 2.0, 8.0, 30.0, 100.0, 350.0)
+WAY_MM3 = 1e-2
+VOLUME_RATIO = 1e-6
+MASS_RATIO = 1e-6
+CENTRE_MM = 1e-3
+TOPPLING_DEG = 0.01
+NEAR_MM = 1e-3
+BAND_RATIO = 0.002
+SAMPLES = 4000
+
+
+def solid_of(mesh):
+    """Returns a mesh as a solid, in double precision."""
+    return manifold3d.Manifold(manifold3d.Mesh64(np.asarray(mesh.vertices, np.float64), np.asarray(mesh.faces, np.uint64)))
+
+
+def moments(mesh):
+    """Volume and first moments of a closed mesh, about its own middle."""
+    middle = mesh.bounds.mean(axis=0)
+    a, b, c = (mesh.triangles[:, k] - middle for k in range(3))
+    six = np.einsum("ij,ij->i", a, np.cross(b, c))
+    volume = math.fsum(six) / 6
+    first = np.array([math.fsum(six * (a + b + c)[:, k]) / 24 for k in range(3)])
+    return volume, first + volume * middle
+
+
+class Kit:
+    def __init__(self, folder):
+        self.folder = Path(folder)
+        load = lambda name: json.loads((self.folder / name).read_text())
+        self.sheet, self.panels, self.certificate = load("checklist.json"), load("panels.json")["panels"], load("certificate.json")
+        self.planes = np.array(self.certificate["planes"])
+        self.model = trimesh.load(self.folder / self.certificate["model"], process=False)
+        scale = np.array(self.sheet["printer"].get("print_scale_ratio") or [1.0] * 3)
+        self.parts = {}
+        for part in self.sheet["parts"]:
+            mesh = trimesh.load(self.folder / part["file"], process=False)
+            # Corners of a file that are the same number are one; the turn below would round them apart.
+            mesh.merge_vertices(digits_vertex=12)
+            back = np.linalg.inv(np.array(part["print_from_model"]))
+            mesh.vertices = (np.asarray(mesh.vertices) / scale) @ back[:3, :3].T + back[:3, 3]
+            self.parts[part["id"]] = mesh
+        self.solids = {name: solid_of(mesh) for name, mesh in self.parts.items()}
+        self.thick = self.sheet["sheet"]["thickness_mm"]
+        self.faults = []
+
+    def check(self, name, found, holds, limit):
+        print(f"  {'ok  ' if holds else 'FAIL'} {name}: {found:.6g} ({limit})")
+        if not holds:
+            self.faults.append(name)
+
+    def panel_solid(self, panel):
+        ring = np.array(panel["outline_mm"])
+        section = manifold3d.CrossSection([ring])
+        body = manifold3d.Manifold.extrude(section, self.thick)
+        axes = np.array(panel["axes"]).T
+        place = np.column_stack([axes, np.array(panel["origin_mm"]) - axes[:, 2] * self.thick])
+        return body.transform(place)
+
+    def base_solid(self, by):
+        """The base from its planes, each moved out by a distance."""
+        inside = self.middle()
+        half = np.column_stack([self.planes[:, :3], -(self.planes[:, 3] + by)])
+        corners = scipy.spatial.HalfspaceIntersection(half, inside).intersections
+        return manifold3d.Manifold.hull_points(corners), corners
+
+    def middle(self):
+        """A point inside the base: the middle of its largest ball."""
+        count = len(self.planes)
+        rows = np.column_stack([self.planes[:, :3], np.ones(count)])
+        best = scipy.optimize.linprog([0, 0, 0, -1], A_ub=rows, b_ub=self.planes[:, 3], bounds=[(None, None)] * 3 + [(0, None)])
+        return best.x[:3]
+
+
+def judge_files(kit):
+    listed = kit.sheet["files"]
+    wrong = [file for file, sha in listed.items() if hashlib.sha256((kit.folder / file).read_bytes()).hexdigest() != sha]
+    kit.check("files that changed", len(wrong), not wrong, "0")
+
+
+def pieces(triangles, longest):
+    """Halves triangles at the middle of their longest edge until all edges are short; keeps their order."""
+    order = np.arange(len(triangles), dtype=np.float64)
+    width = np.ones(len(triangles))
+    done, keys = [], []
+    while len(triangles):
+        squared = np.stack([((triangles[:, (k + 1) % 3] - triangles[:, k]) ** 2).sum(axis=1) for k in range(3)], axis=1)
+        edge = np.argmax(squared, axis=1)
+        short = squared.max(axis=1) <= longest * longest
+        done.append(triangles[short])
+        keys.append(order[short])
+        triangles, edge, order, width = triangles[~short], edge[~short], order[~short], width[~short] / 2
+        rows = np.arange(len(triangles))
+        a, b, c = (triangles[rows, (edge + k) % 3] for k in range(3))
+        middle = 0.5 * a + 0.5 * b
+        triangles = np.concatenate([np.stack([a, middle, c], axis=1), np.stack([middle, b, c], axis=1)])
+        order, width = np.concatenate([order, order + width]), np.concatenate([width, width])
+    done, keys = np.concatenate(done), np.concatenate(keys)
+    return done[np.argsort(keys, kind="stable")]
+
+
+def judge_base(kit):
+    certificate, distance = kit.certificate, kit.certificate["distance_mm"]
+    cut = pieces(np.asarray(kit.model.triangles), certificate["longest_edge_mm"])
+    named = np.array(certificate["faces"])
+    same = len(cut) == len(named) and named.max() < len(kit.planes)
+    kit.check("pieces of the surface", len(cut), same, f"{len(named)} in the certificate")
+    if same:
+        planes = kit.planes[named]
+        heights = np.einsum("ijk,ik->ij", cut, planes[:, :3]) - planes[:, 3:]
+        kit.check("parted by, mm", heights.min(), heights.min() >= distance - PARTED_MM, f"at least {distance}")
+    model = trimesh.Trimesh(kit.model.vertices, kit.model.faces, process=True)
+    base, corners = kit.base_solid(0.0)
+    kit.check("volume of the base outside, mm³", (base - solid_of(model)).volume(), (base - solid_of(model)).volume() <= OUTSIDE_MM3, OUTSIDE_MM3)
+    hull = trimesh.convex.convex_hull(corners)
+    points = np.concatenate([trimesh.sample.sample_surface(hull, SAMPLES, seed=7)[0], corners])
+    near = np.abs(trimesh.proximity.closest_point(model, points)[1]).min()
+    kit.check("sampled distance of the base, mm", near, near >= distance - SAMPLED_MM, f"at least {distance}")
+    return solid_of(model)
+
+
+def judge_panels(kit):
+    bodies = [kit.panel_solid(panel) for panel in kit.panels]
+    shared = [(a ^ b).volume() for at, a in enumerate(bodies) for b in bodies[:at]]
+    kit.check("volume that two panels share, mm³", max(shared, default=0), max(shared, default=0) <= PANELS_MM3, PANELS_MM3)
+    corners = np.concatenate([body.to_mesh64().vert_properties[:, :3] for body in bodies])
+    out = (corners @ kit.planes[:, :3].T - kit.planes[:, 3]).max()
+    kit.check("panels out of the base, mm", out, out <= 1e-6, 1e-6)
+    screws = [one for one in kit.sheet["fasteners"] if one["kind"] == "screw"]
+    loose = 0
+    for screw in screws:
+        panel = kit.panels[screw["panel"] - 1]
+        local = np.array(panel["axes"]) @ (np.array(screw["center_mm"]) - panel["origin_mm"])
+        loose += not any(math.dist(hole["at_mm"], local[:2]) < NEAR_MM for hole in panel["holes"])
+    kit.check("screws without a hole", loose, loose == 0, f"0 of {len(screws)}")
+    return bodies
+
+
+def judge_sheet(kit, index, promised):
+    faults = []
+    lines, size = read_both(kit.folder / promised["dxf"], kit.folder / promised["svg"], faults)
+    cut = kit.sheet["sheet"]
+    kerf, spacing, margin = cut["offset_kerf_mm"], cut["spacing_mm"], cut["margin_mm"]
+    paths = [Polygon(points) for layer, _, points in lines if layer == "CUT_OUTER"]
+    holes = [points for layer, kind, points in lines if layer == "CUT_INNER" and kind == "circle"]
+    rings, count = [], 0
+    for place in promised["panels"]:
+        panel = kit.panels[place["panel"] - 1]
+        turn = np.array([[math.cos(place["turn_rad"]), -math.sin(place["turn_rad"])], [math.sin(place["turn_rad"]), math.cos(place["turn_rad"])]])
+        put = lambda points: np.asarray(points, float).reshape(-1, 2) @ turn.T + place["at_mm"]
+        ring = Polygon(put(panel["outline_mm"]))
+        rings.append(ring)
+        own = [path for path in paths if path.intersection(ring).area > 0.9 * ring.area]
+        if len(own) != 1:
+            faults.append(f"panel {place['panel']} has {len(own)} paths")
+            continue
+        left = own[0].buffer(-kerf / 2, join_style=2, mitre_limit=20)
+        relief = kerf**2 * len(panel["outline_mm"]) + 2 * NEAR_MM * ring.length
+        if left.symmetric_difference(ring).area > relief:
+            faults.append(f"panel {place['panel']} comes out {left.symmetric_difference(ring).area:.3f} mm² off")
+        # The beam takes no more of a panel than reliefs in its inner corners.
+        beam = shapely.LineString([*own[0].exterior.coords]).buffer(kerf / 2)
+        if beam.intersection(ring.buffer(-NEAR_MM)).area > relief:
+            faults.append(f"the beam cuts into panel {place['panel']}")
+        for hole in panel["holes"]:
+            count += 1
+            at = put(hole["at_mm"])[0]
+            fits = [abs(2 * radius + kerf - hole["diameter_mm"]) < NEAR_MM for middle, (radius, _) in holes if math.dist(middle, at) < NEAR_MM]
+            if fits != [True] or not ring.contains(Point(at).buffer(hole["diameter_mm"] / 2)):
+                faults.append(f"a hole of panel {place['panel']} is wrong")
+    if count != len(holes) or len(paths) != len(rings):
+        faults.append(f"{len(holes)} holes of {count}, {len(paths)} paths of {len(rings)}")
+    apart = [a.distance(b) for at, a in enumerate(rings) for b in rings[:at]]
+    if min(apart, default=math.inf) < spacing - NEAR_MM:
+        faults.append(f"two panels are {min(apart):.3f} mm apart")
+    room = box(0, 0, *size).buffer(-margin + NEAR_MM, join_style=2)
+    if list(size) != list(promised["size_mm"]) or not all(room.contains(ring) for ring in rings):
+        faults.append("a panel lies in the margin, or the sheet has another size")
+    print(f"  {promised['dxf']}: {len(rings)} panels, {len(holes)} holes, least distance {min(apart, default=math.nan):.3f} mm")
+    for fault in faults:
+        print(f"    {fault}")
+    kit.check(f"faults of sheet {index + 1}", len(faults), not faults, "0")
+    return [place["panel"] for place in promised["panels"]]
+
+
+def judge_parts(kit, model):
+    shell = [part for part in kit.sheet["parts"] if part["kind"] == "shell"]
+    broken = [name for name, mesh in kit.parts.items() if not mesh.is_watertight or mesh.body_count != 1]
+    kit.check("parts that are no closed body", len(broken), not broken, "0")
+    room = kit.sheet["printer"]["build_volume_mm"]
+    for part in kit.sheet["parts"]:
+        pose = np.array(part["print_from_model"])
+        points = kit.parts[part["id"]].vertices @ pose[:3, :3].T + pose[:3, 3]
+        low, size = points.min(axis=0), np.ptp(points, axis=0)
+        lies = lambda x, y: size[0] <= x + NEAR_MM and size[1] <= y + NEAR_MM
+        fits = room is None or size[2] <= room[2] + NEAR_MM and (lies(room[0], room[1]) or lies(room[1], room[0]))
+        if abs(low[2]) > NEAR_MM or not fits:
+            kit.faults.append(f"part {part['id']} does not lie in the printer's room")
+    grown, _ = kit.base_solid(kit.sheet["gap_mm"])
+    clear, _ = kit.base_solid(kit.sheet["gap_mm"] - 0.01)
+    inside = sum((kit.solids[part["id"]] ^ clear).volume() for part in shell)
+    kit.check("parts within the gap, mm³", inside, inside <= IN_BASE_MM3, IN_BASE_MM3)
+    parts = math.fsum(moments(kit.parts[part["id"]])[0] + part["void_mm3"] + part["bores_mm3"] for part in shell)
+    whole = moments(kit.model)[0]
+    off = (parts + (grown ^ model).volume()) / whole - 1
+    kit.check("sum of volumes, relative", off, abs(off) <= VOLUME_RATIO, VOLUME_RATIO)
+
+
+def judge_ways(kit, panels):
+    """Takes the object apart: every unit, the last joined first, in steps along its way."""
+    units = kit.sheet["units"]
+    named = sorted(name for unit in units for name in unit["parts"])
+    kit.check("things in units", len(named), named == sorted(kit.parts), len(kit.parts))
+    bodies = []
+    for unit in units:
+        own = [kit.solids[name] for name in unit["parts"]]
+        bodies.append(own + ([panels[unit["panel"] - 1]] if unit["panel"] else []))
+    worst, where = 0.0, "none"
+    for at in reversed(range(len(units))):
+        way = np.array(units[at]["way"])
+        standing = [body for earlier in bodies[:at] for body in earlier]
+        for step in STEPS_MM:
+            moved = [body.translate(way * step) for body in bodies[at]]
+            shared = sum((a ^ b).volume() for a in moved for b in standing if meets(a, b))
+            if shared > worst:
+                worst, where = shared, f"{units[at]['id']} at {step} mm"
+    kit.check(f"shared on the way, mm³, worst {where}", worst, worst <= WAY_MM3, WAY_MM3)
+
+
+def meets(a, b):
+    a, b = np.reshape(a.bounding_box(), (2, 3)), np.reshape(b.bounding_box(), (2, 3))
+    return bool((a[0] < b[1]).all() and (b[0] < a[1]).all())
+
+
+def judge_heads(kit, panels):
+    """Screws' heads must lie in nothing else."""
+    inside = 0.0
+    for screw in kit.sheet["fasteners"]:
+        diameter, height = screw["head_mm"]
+        if not height:
+            continue
+        back = -np.array(screw["axis"])
+        place = trimesh.geometry.align_vectors([0, 0, 1], back)
+        place[:3, 3] = screw["seat_mm"]
+        head = manifold3d.Manifold.cylinder(height, diameter / 2, circular_segments=24).transform(place[:3])
+        inside += sum((head ^ other).volume() for other in [*kit.solids.values(), *panels] if meets(head, other))
+    kit.check("screws' heads in other things, mm³", inside, inside <= HEADS_MM3, HEADS_MM3)
+
+
+def judge_mass(kit):
+    sheet = kit.sheet
+    mass, first = 0.0, np.zeros(3)
+    for mesh in kit.parts.values():
+        volume, own = moments(mesh)
+        mass, first = mass + volume * sheet["material"]["density_g_cm3"] / 1e3, first + own * sheet["material"]["density_g_cm3"] / 1e3
+    density = sheet["sheet"]["density_g_cm3"] / 1e3
+    for panel in kit.panels:
+        ring = Polygon(panel["outline_mm"])
+        axes, origin = np.array(panel["axes"]), np.array(panel["origin_mm"])
+        put = lambda x, y: origin + axes[0] * x + axes[1] * y - axes[2] * kit.thick / 2
+        terms = [(ring.area, put(ring.centroid.x, ring.centroid.y))]
+        terms += [(-math.pi / 4 * hole["diameter_mm"] ** 2, put(*hole["at_mm"])) for hole in panel["holes"]]
+        for area, middle in terms:
+            mass, first = mass + area * kit.thick * density, first + middle * area * kit.thick * density
+    for thing in [*sheet["fasteners"], *sheet["glue"]]:
+        mass, first = mass + thing["mass_g"], first + np.array(thing["center_mm"]) * thing["mass_g"]
+    centre = first / mass
+    kit.check("mass, relative", mass / sheet["mass_g"] - 1, abs(mass / sheet["mass_g"] - 1) <= MASS_RATIO, f"{MASS_RATIO} of {sheet['mass_g']:.1f} g")
+    far = np.linalg.norm(centre - sheet["centre_mm"])
+    kit.check("centre, mm", far, far <= CENTRE_MM, CENTRE_MM)
+    if sheet["least_angle_deg"] is None:
+        return
+    up = np.array(sheet["up"])
+    u = np.cross(up, np.eye(3)[np.argmin(np.abs(up))])
+    u /= np.linalg.norm(u)
+    axes = np.stack([u, np.cross(up, u), up])
+    shell = [kit.parts[part["id"]].vertices for part in sheet["parts"] if part["kind"] == "shell"]
+    points = np.concatenate(shell) @ axes.T
+    low, high = points[:, 2].min(), points[:, 2].max()
+    feet = points[points[:, 2] <= low + BAND_RATIO * (high - low), :2]
+    hull = scipy.spatial.ConvexHull(feet)
+    at = axes @ centre
+    inward = -(hull.equations[:, :2] @ at[:2] + hull.equations[:, 2])
+    lean = math.degrees(math.atan2(inward.min(), at[2] - low))
+    kit.check("topples at, °", lean, lean >= sheet["least_angle_deg"] and abs(lean - sheet["toppling_deg"]) <= TOPPLING_DEG, f"{sheet['toppling_deg']:.4f} told, {sheet['least_angle_deg']} asked")
+
+
+def judge(folder):
+    print(folder)
+    kit = Kit(folder)
+    judge_files(kit)
+    model = judge_base(kit)
+    panels = judge_panels(kit)
+    cut = [panel for index, promised in enumerate(kit.sheet["cut_sheets"]) for panel in judge_sheet(kit, index, promised)]
+    kit.check("panels that are cut", len(cut), sorted(cut) == list(range(1, len(kit.panels) + 1)), len(kit.panels))
+    judge_parts(kit, model)
+    judge_ways(kit, panels)
+    judge_heads(kit, panels)
+    judge_mass(kit)
+    for fault in kit.faults:
+        print(f"  broken: {fault}")
+    return not kit.faults
+
+
+if __name__ == "__main__":
+    folders = sys.argv[1:]
+    if not folders or not all((Path(folder) / "checklist.json").is_file() for folder in folders):
+        print(__doc__)
+        sys.exit(2)
+    sys.exit(0 if all([judge(folder) for folder in folders]) else 1)
