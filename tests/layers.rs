@@ -218,7 +218,7 @@ fn the_images_of_another_slicer_agree_with_the_parts() {
     assert!(sliced.is_file(), "{}", printed(&output));
     let output = judge(&sliced);
     assert_exit(&output, 0);
-    // That slicer closes gaps up to 0.05 mm, and rounds its pixels otherwise: walls of 1 mm and
-    // less get up to 0.03 % more.
+    // That slicer closes gaps up to 0.05 mm and rounds its pixels otherwise. Walls of 1 mm and less
+    // get up to 0.03 % more.
     assert_exact(&json(&output), 5e-4);
 }

@@ -148,3 +148,23 @@ fn firmer(placed: &Placed, watch: &Watch) -> Result<Vec<Remedy>, Cancelled> {
     let is_firmer = |remedy: &Remedy| remedy.kind != Kind::LeastBallast && remedy.helps();
     Ok(found.filter(is_firmer).collect())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::verify::Limit;
+
+    #[test]
+    fn no_promise_of_less_than_a_degree_is_offered() {
+        let standing = |reached_deg: f64| {
+            let limit = Limit::at_least(5.0, "°");
+            Check::new(CheckKind::Standing, "it stands", Some(reached_deg), limit)
+        };
+        let offered = smaller_promise(&standing(2.87)).unwrap();
+        assert!(offered.contains("2.8"), "{offered}");
+        assert!(smaller_promise(&standing(1.02)).is_some());
+        for reached_deg in [0.99, 0.2, -3.0] {
+            assert_eq!(smaller_promise(&standing(reached_deg)), None);
+        }
+    }
+}

@@ -179,3 +179,43 @@ fn impossible(placed: &Placed, solution: &Solution) -> Impossible {
         warnings: warnings.map(ToString::to_string).collect(),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::goal::GoalKind;
+
+    #[test]
+    fn a_hint_that_calls_for_what_was_ordered_is_not_given() {
+        let hints = [
+            "make it larger",
+            "move the contact (contact center)",
+            "turn it (up principal)",
+        ];
+        let usual = Request::new(GoalKind::Top);
+        assert_eq!(new_hints(&usual, &hints), hints);
+        let ordered = Request {
+            contact: Some(Contact::Center),
+            up: Up::Principal,
+            ..usual
+        };
+        assert_eq!(new_hints(&ordered, &hints), ["make it larger"]);
+    }
+
+    #[test]
+    fn every_option_in_a_hint_is_one_that_is_known() {
+        let known = ["(contact center)", "(up principal)", "(waterline auto)"];
+        let text = include_str!("../hollow/status.rs");
+        for option in known {
+            assert!(text.contains(option), "no hint has {option}");
+        }
+        let written = text.matches("(contact ").count()
+            + text.matches("(up ").count()
+            + text.matches("(waterline ").count();
+        let found: usize = known
+            .iter()
+            .map(|option| text.matches(option).count())
+            .sum();
+        assert_eq!(written, found);
+    }
+}

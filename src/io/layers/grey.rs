@@ -32,8 +32,8 @@ pub fn encode_grey(count: [u32; 2], bytes: &[u8]) -> Result<Vec<u8>, png::Encodi
 }
 
 impl GreyImage {
-    /// Reads a PNG file in grey with this number of columns and rows. One with 1, 2, 4 or 16 bits is
-    /// brought to 8. Another size is refused before memory is taken for it.
+    /// Reads a PNG file in grey with this number of columns and rows. One with 1, 2, 4 or 16 bits
+    /// is brought to 8. Another size is refused before memory is taken for it.
     pub(super) fn decode(part: &str, file: &[u8], wanted: [u32; 2]) -> Result<Self, LayersError> {
         let fault = |reason: String| LayersError::Image {
             part: part.to_owned(),
