@@ -59,6 +59,26 @@ fn without_a_tip_no_lean_is_promised_and_the_sheet_says_so() {
 }
 
 #[test]
+fn a_top_that_spins_on_nothing_is_refused_whatever_lean_it_waives() {
+    let folder = tempfile::tempdir().unwrap();
+    let kit = folder.path().join("kit");
+    for lean in ["", "--least-lean 0"] {
+        let options =
+            format!("{QUICK} --goal top --wall 1mm --up y --contact center --tip none {lean}");
+        let line = [
+            &["prepare", ELLIPSOID, "--out", path(&kit)],
+            &words(&options)[..],
+        ]
+        .concat();
+        let output = equipoise(&line);
+        assert_exit(&output, 2);
+        let said = printed(&output);
+        assert!(said.contains("mm below the model"), "{said}");
+        assert!(said.contains("--tip=auto") && !kit.exists(), "{said}");
+    }
+}
+
+#[test]
 fn a_tip_that_is_too_short_for_the_lean_is_refused_with_the_one_that_does_it() {
     let folder = tempfile::tempdir().unwrap();
     let kit = folder.path().join("kit");
