@@ -38,7 +38,8 @@ fn an_ellipsoid_spins_on_its_own_round_end() {
 fn a_contact_in_the_air_brings_its_tip_and_leans_as_promised() {
     let folder = tempfile::tempdir().unwrap();
     let kit = folder.path().join("kit");
-    let sheet = make_kit(&kit, "--goal top --wall 1mm --up y --contact center");
+    // Below the centre of mass the surface lies 0.6 mm above the lowest point.
+    let sheet = make_kit(&kit, "--goal top --wall 1mm --up 1,1,0 --contact center");
     let [tip] = list(&sheet, "hardware") else {
         panic!("{}", sheet["hardware"])
     };
@@ -64,7 +65,7 @@ fn a_top_that_spins_on_nothing_is_refused_whatever_lean_it_waives() {
     let kit = folder.path().join("kit");
     for lean in ["", "--least-lean 0"] {
         let options =
-            format!("{QUICK} --goal top --wall 1mm --up y --contact center --tip none {lean}");
+            format!("{QUICK} --goal top --wall 1mm --up 1,1,0 --contact center --tip none {lean}");
         let line = [
             &["prepare", ELLIPSOID, "--out", path(&kit)],
             &words(&options)[..],
@@ -73,7 +74,7 @@ fn a_top_that_spins_on_nothing_is_refused_whatever_lean_it_waives() {
         let output = equipoise(&line);
         assert_exit(&output, 2);
         let said = printed(&output);
-        assert!(said.contains("mm below the model"), "{said}");
+        assert!(said.contains("0.6 mm below the model"), "{said}");
         assert!(said.contains("--tip=auto") && !kit.exists(), "{said}");
     }
 }

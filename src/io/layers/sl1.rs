@@ -64,7 +64,7 @@ impl Sl1Settings {
         let stated = stated.map(|text| text.and_then(|text| text.parse::<usize>().ok()));
         let count = match stated {
             [None, None] => layers.len(),
-            counts => counts.into_iter().flatten().sum(),
+            counts => counts.into_iter().flatten().fold(0, usize::saturating_add),
         };
         let is_right = |at: usize| {
             layers
