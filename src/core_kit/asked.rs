@@ -1,4 +1,4 @@
-//! What is asked of an object on a base, in the measures of the machines.
+//! The order of an object on a base, in the measures of the machines.
 
 use super::error::CoreRunError;
 use super::load::{Loaded, Shop};
@@ -26,7 +26,7 @@ const CORE_HOLE_RATIO: f64 = 2.5 / 3.0;
 const FLANGE_MM: f64 = 4.0;
 const GRIP_RATIO: f64 = 0.75;
 
-/// What is asked of an object, in mm.
+/// The order of an object, in mm.
 pub struct Asked<'a> {
     pub job: &'a CoreJob,
     pub shop: &'a Shop,

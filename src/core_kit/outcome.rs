@@ -52,6 +52,6 @@ pub struct Impossible {
 pub struct Remedy {
     /// The options to set.
     pub settings: Vec<Setting>,
-    /// What it gives, in words.
+    /// The gain, in words.
     pub words: String,
 }

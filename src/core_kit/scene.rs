@@ -1,4 +1,4 @@
-//! What the pictures of an object show: its units apart, and its base with the panels.
+//! The scenes of an object's pictures: its units apart, and its base with the panels.
 
 use super::asked::Asked;
 use super::error::CoreRunError;

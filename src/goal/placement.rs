@@ -64,6 +64,16 @@ pub enum Footing {
     },
 }
 
+impl Placement {
+    /// Returns the air between the contact and the surface above it, mm; `None` if it touches.
+    pub fn air_mm(&self) -> Option<f64> {
+        self.warnings.iter().find_map(|warning| match warning {
+            Warning::ContactInAir { missing_mm } => Some(*missing_mm),
+            _ => None,
+        })
+    }
+}
+
 impl Footing {
     /// Returns how far the top leans.
     pub fn lean(&self) -> Lean {

@@ -84,11 +84,7 @@ pub(super) fn place(site: &Site, wall_mm: f64, order: Order) -> Result<Placement
 
 /// Refuses a top without a tip, as ordered, whose contact hangs in the air: it spins on nothing.
 fn refuse_air(order: Order, placed: &Placement) -> Result<(), GoalError> {
-    let missing_mm = placed.warnings.iter().find_map(|warning| match warning {
-        Warning::ContactInAir { missing_mm } => Some(*missing_mm),
-        _ => None,
-    });
-    match missing_mm {
+    match placed.air_mm() {
         Some(missing_mm) if order.tip == TipChoice::None && !order.is_unpromised() => {
             Err(GoalError::NothingToSpinOn { missing_mm })
         }

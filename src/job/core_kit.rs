@@ -32,7 +32,7 @@ choice! {
 }
 
 choice! {
-    /// What the object does.
+    /// The goal of the object.
     CoreGoal, "goal of an object on a base" {
         /// It stands on its own foot.
         Stand = "stand",
@@ -81,7 +81,7 @@ pub struct CoreJob {
     pub shell: CoreShell,
     /// The wall asked for; 3 mm, or the printer's minimum if that is more, if `None`.
     pub wall: Option<Length>,
-    /// What the object does.
+    /// The goal of the object.
     pub goal: CoreGoal,
     /// The toppling angle that it promises if it stands, degrees.
     pub least_angle_deg: f64,

@@ -281,6 +281,17 @@ mod tests {
     use crate::geom::play::Play;
     use crate::testing::sample;
 
+    #[test]
+    fn a_contact_in_the_air_is_told_with_its_gap_and_one_that_touches_is_not() {
+        let mut sheet = sample().0;
+        assert_eq!(tip_line(&sheet), None);
+        sheet.goal.contact_gap_mm = 0.04;
+        assert_eq!(tip_line(&sheet), None);
+        sheet.goal.contact_gap_mm = 12.6;
+        let said = tip_line(&sheet).unwrap().replace('\u{a0}', " ");
+        assert!(said.contains("is 12.6 mm below it"), "{said}");
+    }
+
     fn page_of(foot: Option<FootRow>) -> String {
         let mut sheet = sample().0;
         sheet.foot = foot;

@@ -6,7 +6,7 @@ use crate::base::watch::Watch;
 use crate::error::Error;
 use crate::goal::{
     Contact, GoalError, GoalKind, MeasuredSolid, Placement, PrintStock, Request, TipChoice, Up,
-    Warning, place_in_material, spins_on_lowest,
+    place_in_material, spins_on_lowest,
 };
 use crate::hollow::Fill;
 use crate::job::Job;
@@ -94,11 +94,7 @@ fn choose_axis(
 
 /// Refuses a top that is ordered without a tip and spins on nothing, whatever lean it waives.
 fn refuse_air(request: &Request, placement: &Placement) -> Result<(), GoalError> {
-    let missing_mm = placement.warnings.iter().find_map(|warning| match warning {
-        Warning::ContactInAir { missing_mm } => Some(*missing_mm),
-        _ => None,
-    });
-    match missing_mm {
+    match placement.air_mm() {
         Some(missing_mm) if request.ordered_tip() == TipChoice::None => {
             Err(GoalError::NothingToSpinOn { missing_mm })
         }

@@ -37,7 +37,7 @@ pub struct CoreArgs {
     /// The base.
     #[command(flatten)]
     pub base: BaseArgs,
-    /// What the object does.
+    /// The goal of the object.
     #[command(flatten)]
     pub stance: CoreStanceArgs,
     /// The folder of the kit [default: such as bunny-core]

@@ -257,11 +257,8 @@ impl Catalogue<'_> {
         whole: &Piece,
     ) -> Result<(&PromisedPlate, [f64; 2]), PrintedError> {
         let shape = source.shape(whole, self.promise);
-        let is_stated = |plate: &&PromisedPlate| {
-            !source.is_images
-                || !source.name.ends_with(".3mf")
-                || source.name.ends_with(&plate.file)
-        };
+        let stated = source.plate.as_ref();
+        let is_stated = |plate: &&PromisedPlate| stated.is_none_or(|file| *file == plate.file);
         let plates = self.promise.plates.iter().filter(is_stated);
         let fitting: Vec<(&PromisedPlate, [f64; 2])> = plates
             .filter_map(|plate| Some((plate, plate_shift_mm(plate, &shape)?)))

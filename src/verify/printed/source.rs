@@ -30,6 +30,8 @@ pub(super) struct Source {
     pub(super) name: String,
     /// What is printed.
     pub(super) toolpath: Toolpath,
+    /// The plate of the kit that it says it prints.
+    pub(super) plate: Option<String>,
     /// Whether the file holds images of layers, and no lines.
     pub(super) is_images: bool,
 }
@@ -67,11 +69,15 @@ pub(super) fn read_sources(files: &[PathBuf], watch: &Watch) -> Result<Vec<Sourc
         if holds_layers(path) {
             let plates = read_images(path, watch)?.into_iter().enumerate();
             sources.extend(plates.map(|(index, (plate, toolpath))| {
-                let plate = plate.map(|plate| format!(", {plate}"));
+                let name = path.display();
                 Source {
                     path: path.clone(),
                     index,
-                    name: format!("{}{}", path.display(), plate.unwrap_or_default()),
+                    name: match &plate {
+                        Some(plate) => format!("{name}, {plate}"),
+                        None => name.to_string(),
+                    },
+                    plate,
                     toolpath,
                     is_images: true,
                 }
@@ -87,6 +93,7 @@ pub(super) fn read_sources(files: &[PathBuf], watch: &Watch) -> Result<Vec<Sourc
                 index,
                 name: format!("{}{}", path.display(), number.unwrap_or_default()),
                 toolpath: plate.toolpath,
+                plate: None,
                 is_images: false,
             });
         }
