@@ -4,30 +4,18 @@ use super::asked::Asked;
 use super::build::Refused;
 use super::made::Made;
 use super::mass::{Weighed, point, weigh};
-use super::outcome::{Impossible, Remedy};
 use crate::base::numbers::measured;
 use crate::base::setting::{Key, Setting};
 use crate::cladding::Scene;
 use crate::geom::Point;
-use crate::goal::{Goal, compute_figures, support_edges};
-use crate::job::core_kit::{CoreJoints, CoreShell};
+use crate::goal::{Goal, Up, compute_figures, support_edges};
+use crate::job::core_kit::{CoreGoal, CoreJoints, CoreShell};
 use crate::mass::moments_of_mesh;
 use crate::panels::PanelError;
+use crate::wing::{Impossible, Remedy};
 
 /// Words for a remedy against a sheet that is too thick.
 const THINNER: &str = "use a thinner sheet, ask for fewer faces, or make the model larger";
-
-impl Impossible {
-    fn new(reason: String) -> Self {
-        Self {
-            verdict: "impossible",
-            is_proved: false,
-            reason,
-            remedies: Vec::new(),
-            hints: Vec::new(),
-        }
-    }
-}
 
 /// Tells why there is no such object, and what helps.
 pub fn refused(asked: &Asked, refused: &Refused) -> Impossible {
@@ -102,8 +90,37 @@ pub fn falls(asked: &Asked, made: &Made, weighed: &Weighed) -> Option<Impossible
         });
     }
     answer.remedies.extend(solid_shell(asked, made, goal));
-    answer.hints.extend(ballast(asked, made, goal, weighed));
+    match ballast(asked, made, goal, weighed) {
+        Some(hint) => answer.hints.push(hint),
+        None => answer.tried.push("ballast on the lowest panel".to_owned()),
+    }
+    answer.remedies.extend(another_way_up(asked, weighed));
+    answer.remedies.push(Remedy {
+        settings: vec![Setting::new(Key::Goal, CoreGoal::None)],
+        words: "promises nothing about standing: fix the object to the floor or to a plate"
+            .to_owned(),
+    });
     Some(answer)
+}
+
+/// Returns the remedy of standing on another side, if the object then stands as asked. It is the
+/// one of the model's six axes on which it leans the farthest.
+fn another_way_up(asked: &Asked, weighed: &Weighed) -> Option<Remedy> {
+    let words = ["x", "y", "z", "-x", "-y", "-z"];
+    let leans = words.into_iter().filter_map(|word| {
+        let up: Up = word.parse().ok()?;
+        let goal = asked.standing(up).ok()?;
+        Some((toppling_deg(&goal, weighed), word))
+    });
+    let best = leans.reduce(|a, b| if b.0 > a.0 { b } else { a });
+    let (lean_deg, word) = best.filter(|(deg, _)| *deg >= asked.job.least_angle_deg)?;
+    Some(Remedy {
+        settings: vec![Setting::new(Key::Up, word)],
+        words: format!(
+            "stands on that side until leaned by {}",
+            measured(lean_deg, "°")
+        ),
+    })
 }
 
 /// Returns the remedy of solid parts, if the object then stands as asked.

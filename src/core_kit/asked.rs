@@ -31,6 +31,8 @@ pub struct Asked<'a> {
     pub job: &'a CoreJob,
     pub shop: &'a Shop,
     pub ground: &'a Ground,
+    /// The bytes of the model's file.
+    pub model_bytes: &'a [u8],
     pub warnings: Vec<String>,
     pub wall_mm: f64,
     pub gap_mm: f64,
@@ -81,6 +83,7 @@ pub fn measure<'a>(
         job,
         shop,
         ground: &loaded.ground,
+        model_bytes: &loaded.bytes,
         warnings: loaded.warnings.clone(),
         wall_mm,
         gap_mm: GAP_MM,
@@ -97,6 +100,15 @@ impl Asked<'_> {
     /// Returns the printer's room, mm; `None` if it is not known.
     pub fn room_mm(&self) -> Option<[f64; 3]> {
         self.shop.printer.usable_volume_mm()
+    }
+
+    /// Returns the goal of standing with a direction of the model up.
+    ///
+    /// # Errors
+    /// The model has no foot on that side.
+    pub fn standing(&self, up: Up) -> Result<Goal, GoalError> {
+        let request = standing_request(up, self.job.least_angle_deg);
+        Ok(place(self.ground.solid(), self.wall_mm, &request)?.goal)
     }
 
     /// Returns the density of the printed material, g/mm³.
@@ -160,6 +172,15 @@ fn room_mm(shop: &Shop) -> Result<[f64; 2], CoreRunError> {
     largest.ok_or_else(|| SheetError::NoSize(shop.sheet.id.clone()).into())
 }
 
+/// Returns the request for standing with a direction up, until leaned by so many degrees.
+fn standing_request(up: Up, least_angle_deg: f64) -> GoalRequest {
+    GoalRequest {
+        up,
+        least_angle_deg,
+        ..GoalRequest::new(GoalKind::Stand)
+    }
+}
+
 /// Returns the direction up, and the goal if one is promised.
 fn stance(
     job: &CoreJob,
@@ -174,11 +195,7 @@ fn stance(
     } else {
         job.up
     };
-    let request = GoalRequest {
-        up,
-        least_angle_deg: job.least_angle_deg,
-        ..GoalRequest::new(GoalKind::Stand)
-    };
+    let request = standing_request(up, job.least_angle_deg);
     match (place(solid, wall_mm, &request), job.goal) {
         (Ok(placed), CoreGoal::Stand) => Ok((placed.goal.frame.axis(), Some(placed.goal))),
         (Ok(placed), CoreGoal::None) => Ok((placed.goal.frame.axis(), None)),

@@ -39,6 +39,14 @@
 //!   Computer Graphics Forum 31(5), 2012; M. Botsch, L. Kobbelt, "A Remeshing Approach to
 //!   Multiresolution Modeling", SGP 2004; J. Ma, S. W. Bae, S. Choi, "3D medial axis point
 //!   approximation using nearest neighbors and the normal field", The Visual Computer 28, 2012.
+//! * **CofiFab** (objects on a laser-cut base): P. Song, B. Deng, Z. Wang, Z. Dong, W. Li, C.-W.
+//!   Fu, L. Liu, "CofiFab: coarse-to-fine fabrication of large 3D objects", ACM Transactions on
+//!   Graphics 35(4), 2016, with its supplement.
+//! * **Linear programmes in few unknowns**: R. Seidel, "Small-dimensional linear programming and
+//!   convex hulls made easy", Discrete & Computational Geometry 6, 1991.
+//! * **Nesting of convex outlines**: E. K. Burke, R. S. R. Hellier, G. Kendall, G. Whitwell, "A new
+//!   bottom-left-fill heuristic algorithm for the two-dimensional irregular packing problem",
+//!   Operations Research 54(3), 2006.
 //! * **Sparse factors**: A. George, "Nested dissection of a regular finite element mesh", SIAM
 //!   Journal on Numerical Analysis 10, 1973; T. A. Davis, "Algorithm 849: a concise sparse Cholesky
 //!   factorization package", ACM Transactions on Mathematical Software 31, 2005.

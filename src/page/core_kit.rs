@@ -234,8 +234,10 @@ fn cut(page: &CorePage) -> Markup {
             " Engrave first, then cut holes, then outlines. The engraved side is the outside."
         }
         @for (index, (of, row)) in sheet.cut_sheets.iter().zip(&sheet.sheet_rows).enumerate() {
-            (cut_sheet(of, row))
-            @if let Some(svg) = page.drawings.get(index) { (PreEscaped(fitted(svg))) }
+            div class="together" {
+                (cut_sheet(of, row))
+                @if let Some(svg) = page.drawings.get(index) { (PreEscaped(fitted(svg))) }
+            }
         }
     }
 }
@@ -258,12 +260,12 @@ fn cut_sheet(of: &CutSheetPromise, row: &CutSheetRow) -> Markup {
 const HAIRLINE: &str = "stroke-width=\"0.1\"";
 const SEEN: &str = "stroke-width=\"0.8\"";
 
-/// Returns a drawing as wide as the page.
+/// Returns a drawing as wide as the page, but so low that two sheets share one on paper.
 fn fitted(svg: &str) -> String {
     let body = svg.split_once("viewBox=").map_or("", |(_, body)| body);
     let body = body.replace(HAIRLINE, SEEN);
     format!(
-        "<svg role=\"img\" aria-label=\"The sheet with its panels\" style=\"width:100%\" viewBox={body}"
+        "<svg role=\"img\" aria-label=\"The sheet with its panels\" style=\"width:100%;max-height:105mm\" viewBox={body}"
     )
 }
 

@@ -68,6 +68,16 @@ impl FingerJoint {
         }
     }
 
+    /// Returns how far fingers reach beyond a plain edge, mm.
+    pub fn reach_mm(&self) -> f64 {
+        self.setback_mm() - self.tip_mm()
+    }
+
+    /// Returns how deep gaps are below a plain edge, mm.
+    pub fn depth_mm(&self) -> f64 {
+        self.ground_mm() - self.setback_mm()
+    }
+
     /// Returns whether the angle is one at which fingers hold: from 30 to 150 degrees.
     pub fn holds(&self) -> bool {
         let limit = PI / 6.0;

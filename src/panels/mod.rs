@@ -12,6 +12,7 @@
 mod beam;
 mod bracket;
 mod edge;
+mod ends;
 mod engraving;
 mod fingers;
 mod lines;

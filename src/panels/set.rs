@@ -12,8 +12,10 @@ use crate::polyhedra::{Edge, Polyhedron};
 
 /// Length of a finger along the edge, in thicknesses of the sheet.
 const FINGER_SHEETS: f64 = 8.0;
-/// Length without fingers at both ends of an edge, in thicknesses.
-const END_SHEETS: f64 = 2.0;
+/// Length of the shortest edge that gets fingers, in thicknesses.
+const EDGE_SHEETS: f64 = 12.0;
+/// Length of the shortest stretch of an edge that holds as a single finger, in thicknesses.
+const LEAST_SHEETS: f64 = 4.0;
 /// The largest angle at which fingers hold, radians: 150°.
 const FLATTEST_RAD: f64 = PI * 5.0 / 6.0;
 /// Rounding of that angle, radians.
@@ -83,7 +85,7 @@ fn ring_of(face: usize, edges: &[Edge]) -> Option<Vec<usize>> {
 }
 
 /// Returns the ends of an edge, counterclockwise about a face.
-fn about(face: usize, edge: &Edge) -> [Point; 2] {
+pub(super) fn about(face: usize, edge: &Edge) -> [Point; 2] {
     let [from, to] = edge.ends;
     if edge.planes[0] == face {
         [from, to]
@@ -93,19 +95,19 @@ fn about(face: usize, edge: &Edge) -> [Point; 2] {
 }
 
 /// The faces and edges from which panels are made.
-struct Layout<'a> {
-    body: &'a Polyhedron,
-    request: &'a PanelRequest,
+pub(super) struct Layout<'a> {
+    pub(super) body: &'a Polyhedron,
+    pub(super) request: &'a PanelRequest,
     /// The edges of the body moved inward by the thickness.
-    inner: Vec<Edge>,
+    pub(super) inner: Vec<Edge>,
     /// The faces that get panels.
-    faces: Vec<usize>,
+    pub(super) faces: Vec<usize>,
     /// The edges about each of them.
-    rings: Vec<Vec<usize>>,
+    pub(super) rings: Vec<Vec<usize>>,
 }
 
 impl Layout<'_> {
-    fn plane(&self, face: usize) -> &Plane {
+    pub(super) fn plane(&self, face: usize) -> &Plane {
         &self.body.faces()[face].plane
     }
 
@@ -154,22 +156,28 @@ impl Layout<'_> {
     fn fingers(&self, edge: usize) -> Option<FingerJoint> {
         let sheet_mm = self.request.sheet_mm;
         let edge_mm = (self.inner[edge].ends[1] - self.inner[edge].ends[0]).norm();
-        let room_mm = edge_mm - 2.0 * END_SHEETS * sheet_mm;
         let angle_rad = self.angle_rad(edge);
-        let fits = room_mm >= FINGER_SHEETS * sheet_mm && angle_rad <= FLATTEST_RAD + ROUNDING_RAD;
+        let fits = edge_mm >= EDGE_SHEETS * sheet_mm && angle_rad <= FLATTEST_RAD + ROUNDING_RAD;
         if !fits || self.request.joints == JointStyle::Brackets {
             return None;
         }
-        let pairs = (room_mm / (FINGER_SHEETS * sheet_mm) - 1.0) / 2.0;
         let joint = FingerJoint {
             sheet_mm,
             angle_rad: angle_rad.min(FLATTEST_RAD),
             edge_mm,
-            end_mm: END_SHEETS * sheet_mm,
-            stretches: 2 * pairs.round() as usize + 1,
+            end_mm: 0.0,
+            stretches: 1,
             press_mm: self.request.press_mm,
         };
-        joint.holds().then_some(joint)
+        let end_mm = self.plain_end_mm(edge, &joint);
+        let room_mm = edge_mm - 2.0 * end_mm;
+        let pairs = (room_mm / (FINGER_SHEETS * sheet_mm) - 1.0) / 2.0;
+        let joint = FingerJoint {
+            end_mm,
+            stretches: 2 * pairs.round().max(0.0) as usize + 1,
+            ..joint
+        };
+        (room_mm >= LEAST_SHEETS * sheet_mm && joint.holds()).then_some(joint)
     }
 
     /// Returns a panel with the fingers of its edges.

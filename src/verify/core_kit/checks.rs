@@ -245,7 +245,7 @@ fn of_ways(facts: &CoreFacts) -> Vec<Check> {
         .at(ways.worst.clone()),
         none(
             CheckKind::WaysFree,
-            "no corner of a unit meets what still stands, all the way",
+            "no point of a unit meets what still stands, all the way",
             &barred,
         ),
     ]

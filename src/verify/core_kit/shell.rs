@@ -152,22 +152,21 @@ fn heads_mm3(evidence: &CoreEvidence) -> Result<f64, CoreVerifyError> {
     Ok(inside_mm3)
 }
 
-/// Returns the planes between the faces of the base, at which parts of two cells meet.
-fn seams(planes: &[Plane]) -> Vec<Plane> {
-    let mut seams = Vec::new();
-    for (index, a) in planes.iter().enumerate() {
-        for b in &planes[..index] {
-            let way: Vector = a.normal - b.normal;
-            let length = way.norm();
-            if length > 0.0 {
-                seams.push(Plane {
-                    normal: way / length,
-                    offset_mm: (a.offset_mm - b.offset_mm) / length,
-                });
-            }
-        }
-    }
-    seams
+/// Returns the planes between a face of the base and all others, at which its parts meet those of
+/// their cells. A small triangle elsewhere may lie in a plane between two other faces by chance.
+fn seams(planes: &[Plane], own: usize) -> Vec<Plane> {
+    let Some(a) = planes.get(own) else {
+        return Vec::new();
+    };
+    let others = planes.iter().filter_map(|b| {
+        let way: Vector = a.normal - b.normal;
+        let length = way.norm();
+        (length > 0.0).then(|| Plane {
+            normal: way / length,
+            offset_mm: (a.offset_mm - b.offset_mm) / length,
+        })
+    });
+    others.collect()
 }
 
 /// Returns the thinnest wall of all parts, mm, and the part that has it.
@@ -176,15 +175,17 @@ fn thinnest_wall(
     watch: &Watch,
 ) -> Result<(f64, Option<String>), CoreVerifyError> {
     let surface = MeshDistance::new(&weld(&evidence.model));
-    let seams = seams(&evidence.planes());
+    let planes = evidence.planes();
     let shell: Vec<(usize, &TriMesh)> = evidence.shell().collect();
     let walls = shell.par_iter().map(|&(index, mesh)| {
         watch.check()?;
+        let panel = evidence.promise.parts[index].panel.wrapping_sub(1);
+        let face = evidence.panels.panels.get(panel).map(|panel| panel.plane);
         let judge = WallJudge {
             evidence,
             index,
             surface: &surface,
-            seams: &seams,
+            seams: &face.map_or_else(Vec::new, |face| seams(&planes, face)),
         };
         Ok((
             judge.wall_mm(mesh),

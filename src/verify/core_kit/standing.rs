@@ -5,7 +5,6 @@ use super::panels::panel_moments;
 use crate::base::units::MM3_PER_CM3;
 use crate::geom::{Frame, Point, Vector};
 use crate::mass::moments_of_mesh;
-use crate::mesh::TriMesh;
 use crate::verify::Support;
 
 /// The mass of the whole and its balance.
@@ -51,10 +50,8 @@ pub fn measure_standing(evidence: &CoreEvidence) -> StandFacts {
     });
     let centre = Point::from(first / mass_g);
     let upright = Frame::with_axis(Point::origin(), &Vector::from(promise.up));
-    let outside = evidence
-        .shell()
-        .fold(TriMesh::default(), |all, (_, mesh)| all.joined(mesh));
-    let support = Support::of_mesh(&outside, &upright);
+    // The model's own corners: those of cuts just above the floor carry nothing.
+    let support = Support::of_mesh(&evidence.model, &upright);
     let lean_rad = support.toppling_angle(&upright.to_local(&centre));
     StandFacts {
         mass_g,

@@ -7,13 +7,19 @@ use super::evidence::CoreEvidence;
 use super::panels::{panel_body, shared_mm3};
 use crate::base::watch::Watch;
 use crate::geom::{Aabb, Bvh, Point, Vector};
-use crate::mesh::TriMesh;
+use crate::mesh::{TriMesh, spread_points};
 use crate::repair::weld;
 
 /// Steps on the way out at which overlaps are measured, mm.
 const STEPS_MM: [f64; 3] = [0.2, 3.0, 40.0];
-/// Way at both ends of a ray along which surfaces that touch do not count, mm.
+/// Way at both ends of a ray along which surfaces that touch do not count, mm. A corner that is no
+/// deeper in a body slides along it.
 const TOUCH_MM: f64 = 0.02;
+/// Step at which the depth of a corner is looked at on its way, mm: a sixth of the thinnest wall.
+const STEP_MM: f64 = 0.2;
+/// Number of points on each body's surface that are looked at besides its corners: thin things can
+/// pass between corners.
+const SPREAD: usize = 4000;
 /// Depth into its own body from which a corner is looked at, mm.
 const IN_MM: f64 = 0.01;
 
@@ -54,17 +60,25 @@ pub fn measure_ways(evidence: &CoreEvidence, watch: &Watch) -> Result<WayFacts, 
         let standing: Vec<&TriMesh> = units[..unit].iter().flat_map(|one| &one.bodies).collect();
         measure_way(&units[unit], &standing)
     });
-    let ways: Vec<(f64, f64, usize)> = ways.collect::<Result<_, CoreVerifyError>>()?;
-    for (unit, (overlap_mm3, standing_mm3, barred)) in units.iter().zip(ways) {
+    let ways: Vec<Way> = ways.collect::<Result<_, CoreVerifyError>>()?;
+    for (unit, way) in units.iter().zip(ways) {
+        let Way {
+            overlap_mm3,
+            standing_mm3,
+            barred,
+        } = way;
         if overlap_mm3 > facts.overlap_mm3 {
             facts.overlap_mm3 = overlap_mm3;
             facts.worst = Some(unit.id.clone());
         }
         facts.standing_mm3 = facts.standing_mm3.max(standing_mm3);
-        if barred > 0 {
-            facts
-                .barred
-                .push(format!("{} meets others at {barred} corners", unit.id));
+        if let Some(first) = barred.first() {
+            let [x, y, z] = [0, 1, 2].map(|k| first[k]);
+            facts.barred.push(format!(
+                "{} meets others at {} points, such as ({x:.1}, {y:.1}, {z:.1}) mm",
+                unit.id,
+                barred.len()
+            ));
         }
     }
     Ok(facts)
@@ -106,12 +120,18 @@ fn bodies(evidence: &CoreEvidence) -> Vec<UnitBodies> {
         .collect()
 }
 
-/// Returns the greatest volume that a unit shares with others on its way, and where it stands. The
-/// third number is that of corners that meet a surface on the way.
-fn measure_way(
-    unit: &UnitBodies,
-    standing: &[&TriMesh],
-) -> Result<(f64, f64, usize), CoreVerifyError> {
+/// The way of a unit.
+struct Way {
+    /// The greatest volume that it shares with others on its way, mm³.
+    overlap_mm3: f64,
+    /// The same where it stands, mm³.
+    standing_mm3: f64,
+    /// The points that meet a surface on the way.
+    barred: Vec<Point>,
+}
+
+/// Measures the way of a unit past what still stands.
+fn measure_way(unit: &UnitBodies, standing: &[&TriMesh]) -> Result<Way, CoreVerifyError> {
     let at = |step_mm: f64| -> Result<f64, CoreVerifyError> {
         let mut shared = 0.0;
         for body in &unit.bodies {
@@ -129,34 +149,61 @@ fn measure_way(
     for step_mm in STEPS_MM {
         overlap_mm3 = overlap_mm3.max(at(step_mm)?);
     }
-    Ok((overlap_mm3, at(0.0)?, barred(unit, standing)))
+    Ok(Way {
+        overlap_mm3,
+        standing_mm3: at(0.0)?,
+        barred: barred(unit, standing),
+    })
 }
 
 fn meets(a: &Aabb, b: &Aabb) -> bool {
     (0..3).all(|k| a.min[k] < b.max[k] && b.min[k] < a.max[k])
 }
 
-/// Counts the corners of a unit that meet what stands on the way out. Those of what stands that
+/// Returns the points of a unit that meet what stands on the way out. Those of what stands that
 /// meet the unit on the way back count too.
-fn barred(unit: &UnitBodies, standing: &[&TriMesh]) -> usize {
+fn barred(unit: &UnitBodies, standing: &[&TriMesh]) -> Vec<Point> {
     let own = Bvh::new(unit.bodies.iter().flat_map(|body| body.iter_corners()));
     let others = Bvh::new(standing.iter().flat_map(|body| body.iter_corners()));
     if own.is_empty() || others.is_empty() {
-        return 0;
+        return Vec::new();
     }
     let reach_mm = own.aabb().union(&others.aabb()).size().norm();
     let is_barred = |bvh: &Bvh, p: &Point, way: Vector| {
         bvh.crosses_segment(&(p + way * TOUCH_MM), &(p + way * reach_mm))
+            && dips(bvh, p, way * reach_mm)
     };
-    let ahead = unit.bodies.iter().flat_map(inner_corners);
+    let ahead = unit.bodies.iter().flat_map(inner_points);
     let ahead = ahead.filter(|p| is_barred(&others, p, unit.way));
-    let back = standing.iter().flat_map(|body| inner_corners(body));
+    let back = standing.iter().flat_map(|body| inner_points(body));
     let back = back.filter(|p| is_barred(&own, p, -unit.way));
-    ahead.count() + back.count()
+    ahead.chain(back).collect()
 }
 
-/// Returns the corners of a body, each moved into it by a little. Surfaces that slide along each
-/// other, as fingers do, then do not count.
+/// Returns whether a point on its way goes deeper into a body than surfaces that slide along each
+/// other. At a sharp edge between such surfaces a corner crosses one without going in.
+fn dips(bvh: &Bvh, from: &Point, way: Vector) -> bool {
+    let steps = (way.norm() / STEP_MM).ceil().max(1.0);
+    (1..=steps as usize).any(|step| {
+        let at = from + way * (step as f64 / steps);
+        bvh.winding(&at) > 0 && bvh.closest(&at, TOUCH_MM, &[]).is_none()
+    })
+}
+
+/// Returns the corners of a body and points spread over its surface, each moved into it by a
+/// little. Surfaces that slide along each other, as fingers do, then do not count.
+fn inner_points(body: &TriMesh) -> Vec<Point> {
+    let triangles: Vec<[Point; 3]> = body.iter_corners().collect();
+    let spread = spread_points(&triangles, SPREAD);
+    let spread = spread.iter().map(|sample| {
+        let [a, b, c] = triangles[sample.triangle];
+        let normal = (b - a).cross(&(c - a)).try_normalize(0.0);
+        sample.at - normal.unwrap_or_default() * IN_MM
+    });
+    inner_corners(body).into_iter().chain(spread).collect()
+}
+
+/// Returns the corners of a body, each moved into it by a little.
 fn inner_corners(body: &TriMesh) -> Vec<Point> {
     let mut normals = vec![Vector::zeros(); body.vertices().len()];
     for (triangle, [a, b, c]) in body.triangles().iter().zip(body.iter_corners()) {
@@ -169,4 +216,65 @@ fn inner_corners(body: &TriMesh) -> Vec<Point> {
     let inner =
         corners.map(|(p, normal)| p - normal.try_normalize(0.0).unwrap_or_default() * IN_MM);
     inner.collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::primitives;
+
+    /// Returns a wedge that is sharp along x: its lower side is level, its upper one slopes.
+    fn wedge(slope: f64) -> TriMesh {
+        let at = |x: f64, y: f64, z: f64| Point::new(x, y, z);
+        let corners = vec![
+            at(0.0, 0.0, 0.0),
+            at(10.0, 0.0, 0.0),
+            at(0.0, 10.0, 0.0),
+            at(10.0, 10.0, 0.0),
+            at(0.0, 10.0, 10.0 * slope),
+            at(10.0, 10.0, 10.0 * slope),
+        ];
+        let triangles = vec![
+            [0, 2, 3],
+            [0, 3, 1],
+            [0, 1, 5],
+            [0, 5, 4],
+            [2, 4, 5],
+            [2, 5, 3],
+            [0, 4, 2],
+            [1, 3, 5],
+        ];
+        TriMesh::new(corners, triangles).unwrap()
+    }
+
+    fn unit(body: TriMesh, way: Vector) -> UnitBodies {
+        UnitBodies {
+            bodies: vec![body],
+            way,
+            id: "unit 1".to_owned(),
+        }
+    }
+
+    #[test]
+    fn a_sharp_edge_that_slides_along_its_neighbour_is_free() {
+        // A block lies on the level side of the wedge, and the wedge leaves along that side.
+        let block =
+            primitives::cuboid(&Point::new(-5.0, -5.0, -10.0), &Point::new(15.0, 15.0, 0.0));
+        for slope in [0.3, 0.05, 0.01] {
+            for way in [Vector::x(), Vector::y(), -Vector::y()] {
+                let found = barred(&unit(wedge(slope), way), &[&block]);
+                assert!(found.is_empty(), "{slope} {way:?}: {found:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_corner_that_goes_into_another_body_is_barred() {
+        let wall = primitives::cuboid(&Point::new(20.0, 4.0, -5.0), &Point::new(20.5, 6.0, 5.0));
+        let moving = primitives::cuboid(&Point::origin(), &Point::new(10.0, 10.0, 1.0));
+        let found = barred(&unit(moving.clone(), Vector::x()), &[&wall]);
+        assert!(!found.is_empty());
+        let found = barred(&unit(moving, -Vector::x()), &[&wall]);
+        assert!(found.is_empty());
+    }
 }

@@ -1,0 +1,58 @@
+//! Objects larger than the printer: why the base is inside, why panels fit, and why all comes
+//! apart.
+//!
+//! The idea of a laser-cut base below printed parts is that of CofiFab
+//! ([`super::bibliography`], \[CofiFab\]). Its authors move the vertices of a polyhedron and
+//! sample its surface. Here planes move and nothing is sampled. Cells, joints and certificates
+//! below are this program's.
+//!
+//! # 1. The base is inside, with proof
+//! The base is P = {x : n_i·x ≤ h_i}. A triangle of the model is *parted* by face i if n_i·v −
+//! h_i ≥ d at its three corners v. Let every triangle be parted by some face, and let one point
+//! of P be in the model. Then P is inside, and nowhere nearer than d to the surface. A segment
+//! in P from that point never meets the surface, which lies outside of P. The proof is one
+//! index a triangle. The kit holds it, and the judge looks at every triangle again
+//! ([`crate::polyhedra::Separation`]).
+//!
+//! A model that is only just too thin gets no base: a plane must part each triangle whole. Long
+//! triangles are cut at the middles of their edges first, which changes no surface.
+//!
+//! # 2. The base is large
+//! Each triangle goes to the face that parts it best. Then every face alone is a linear
+//! programme in three unknowns: two tilts of its normal and its offset. The volume grows to
+//! first order by the face's area times its shift, so that is what the programme makes largest.
+//! Every step keeps the proof. Limits of the joints are further rows. The result is a local
+//! optimum: the share of the model that it fills is told, and no bound is claimed.
+//!
+//! # 3. Panels do not meet
+//! A laser cuts square edges. The outline of a panel is the face of P moved inward by the
+//! thickness s on *all* sides, laid back on the face's plane. Let p be in panel i, below its
+//! plane by t < s. Move all planes inward by s. Then p is above plane i by s − t, and above
+//! every other plane by less, as n_i·n_j < 1. So p is in no other panel. Neighbours touch in
+//! one line on the bisector, s·cot(φ/2) from the edge.
+//!
+//! # 4. Fingers at any angle
+//! Two panels of thickness s meet at the inner angle φ. Distances are from the edge on the
+//! outer side. A finger ends at max(0, s·cot φ), its gap at s (1 + max(0, cos φ))/sin φ. Both
+//! are s/sin φ long ([`crate::panels::FingerJoint`]). All sides of fingers are square to the
+//! edge and to the sheet. So a panel leaves along its own normal at every φ, and cannot slide
+//! along the edge.
+//!
+//! Near a corner a finger could reach through the plane of the next face, and two gaps could
+//! meet. So the ends of every edge stay plain. The inner side of a finger then lies below all
+//! other planes by s. Half a thickness is left from a gap to the corner's bisector.
+//!
+//! # 5. Everything comes apart
+//! The cell of face i is {x : n_i·x − h_i ≥ n_j·x − h_j for all j}. Add n_i to a point of it:
+//! the left side grows by 1, and the right side by n_j·n_i ≤ 1. So the cell moved along n_i
+//! stays within itself. A part in it leaves that way without touching a part of another cell
+//! ([`crate::cladding::cells`]). Panel i leaves that way too, by section 4. So a panel with its
+//! parts is a *unit* that leaves as a whole, and any unit can be the last one. Cuts for the
+//! printer's room are parallel to n_i, which keeps all of it. A piece that bears on no panel is
+//! glued to a part that does. Where that part is of another cell, the order is found by
+//! looking.
+//!
+//! # 6. What is not proved
+//! The base does not lock by its shape: glue, screws and brackets hold it. A wall is kept, but
+//! how much it carries is not worked out. How wide the beam cuts is a figure of the profile,
+//! until the shop cuts its coupon.
