@@ -5,9 +5,10 @@
 #![allow(clippy::print_stdout, reason = "an example prints what it found")]
 
 use equipoise::base::watch::Watch;
-use equipoise::core_kit::{Outcome, prepare};
+use equipoise::core_kit::prepare;
 use equipoise::job::core_kit::{CoreGoal, CoreJob, CutChoice};
 use equipoise::job::{ModelChoice, PrinterChoice, Scaling};
+use equipoise::wing::Outcome;
 
 fn main() -> anyhow::Result<()> {
     let usual = "examples/models/tilted-ellipsoid.stl".to_owned();

@@ -75,7 +75,7 @@ pub mod solve {
 /// The stages of a run between the solver and the judge, and the facts that pass between them.
 pub mod stages {
     #[doc(inline)]
-    pub use crate::{advice, error, make, open, poses, run};
+    pub use crate::{advice, error, make, open, poses, run, wing};
 }
 
 /// Telescopes: the curves and skeletons that they are to follow, and the shells that do.
@@ -177,3 +177,5 @@ pub(crate) mod testing;
 pub mod thin;
 #[doc(hidden)]
 pub mod voids;
+#[doc(hidden)]
+pub mod wing;

@@ -20,8 +20,13 @@ use common::{
 
 /// Prepares the shipped model as a small top, without JSON.
 fn prepare_top(out: &Path, options: &[&str]) -> Output {
+    prepare_top_of(ELLIPSOID, out, options)
+}
+
+/// Prepares a model as a small top.
+fn prepare_top_of(model: &str, out: &Path, options: &[&str]) -> Output {
     let usual = format!("{QUICK} --goal top --up z --wall 1.5mm");
-    let start = ["prepare", ELLIPSOID, "--out", path(out)];
+    let start = ["prepare", model, "--out", path(out)];
     equipoise(&[&start[..], &words(&usual), options].concat())
 }
 
@@ -75,19 +80,25 @@ fn a_replayed_job_makes_the_same_bytes() {
 fn a_job_is_replayed_elsewhere_with_the_model_of_its_kit() {
     let folder = tempfile::tempdir().unwrap();
     let kit = copy_kit(folder.path());
-    // The path of the model leads nowhere from here.
+    // The model's name leads nowhere from here, but its copy lies in the kit.
     let job = fs::read_to_string(kit.join("job.toml")).unwrap();
-    let lost = job.replace(ELLIPSOID, "nowhere/tilted-ellipsoid.stl");
-    assert_ne!(job, lost);
-    fs::write(kit.join("job.toml"), lost).unwrap();
+    assert!(job.contains("path = \"tilted-ellipsoid.stl\""), "{job}");
     let replay = ["-q", "prepare", "--job", "kit/job.toml", "--out", "again"];
     assert_exit(&equipoise_in(folder.path(), &replay), 0);
-    let again = folder.path().join("again");
-    let parts = |kit: &Path| {
-        let is_part = |(name, _): &(PathBuf, Vec<u8>)| name.starts_with("parts");
-        files(kit).into_iter().filter(is_part).collect::<Vec<_>>()
-    };
-    assert_eq!(parts(&again), parts(&kit));
+    assert_same_files(&kit, &folder.path().join("again"));
+}
+
+#[test]
+fn a_kit_has_the_same_bytes_whatever_path_its_model_is_typed_by() {
+    let folder = tempfile::tempdir().unwrap();
+    let (lies, out) = (folder.path().join("inbox"), folder.path().join("top"));
+    fs::create_dir(&lies).unwrap();
+    let model = lies.join("tilted-ellipsoid.stl");
+    fs::copy(ELLIPSOID, &model).unwrap();
+    assert_exit(&prepare_top_of(path(&model), &out, &[]), 0);
+    assert_same_files(&kit().0, &out);
+    let told = fs::read_to_string(out.join("job.toml")).unwrap();
+    assert!(!told.contains("inbox"), "{told}");
 }
 
 #[test]

@@ -33,11 +33,16 @@ mod toolpaths;
 mod values;
 pub mod verify;
 pub mod voice;
+pub mod wing;
 mod wrap;
 
 use std::error::Error;
 
 pub use exit::Exit;
+
+use core_kit::CoreWing;
+use telescope::TelescopeWing;
+use wing::Ends;
 
 use args::{Cli, Command, DEFAULT_PLANS, PrepareArgs};
 use prepare::PrepareError;
@@ -69,13 +74,16 @@ fn dispatch(cli: Cli, manner: Manner) -> Result<Exit, Box<dyn Error + Send + Syn
             let count = *args.plans.get_or_insert(DEFAULT_PLANS);
             show_plans(*args, count, voice)
         }
-        Command::Telescope(args) => Ok(telescope::telescope(
-            *args,
-            voice,
-            &Stop::on_signals(),
-            out,
-        )?),
-        Command::Core(args) => Ok(core_kit::core(*args, voice, &Stop::on_signals(), out)?),
+        Command::Telescope(args) => {
+            let stop = &Stop::on_signals();
+            let ends = Ends { voice, stop, out };
+            Ok(wing::run::<TelescopeWing>(args.order(), ends)?)
+        }
+        Command::Core(args) => {
+            let stop = &Stop::on_signals();
+            let ends = Ends { voice, stop, out };
+            Ok(wing::run::<CoreWing>(args.order(), ends)?)
+        }
         Command::Inspect(args) => {
             end_process_on_signal();
             Ok(inspect::inspect(&args, voice, out)?)

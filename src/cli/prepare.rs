@@ -142,7 +142,7 @@ fn beyond_plate(job: &Job) -> Option<String> {
     let size_mm = match job.model.scaling {
         Scaling::Size(size) => size.mm(),
         scaling => {
-            let drawn_mm = read_model(&job.model.path).ok()?.longest_side_mm();
+            let drawn_mm = read_model(job.model_file()).ok()?.longest_side_mm();
             scaling.factor(drawn_mm) * drawn_mm
         }
     };
@@ -158,7 +158,7 @@ fn beyond_plate(job: &Job) -> Option<String> {
 /// Returns a warning if the model has a size that nobody prints, as `inspect` does; `None` if its
 /// size is plausible.
 fn unit_hint(job: &Job) -> Option<String> {
-    let mesh = read_model(&job.model.path).ok()?;
+    let mesh = read_model(job.model_file()).ok()?;
     let longest = mesh.longest_side_mm();
     let hint = size_hint(job.model.scaling.factor(longest) * longest)?;
     Some(format!("warning: {}", with_flags(&hint)))

@@ -2,12 +2,14 @@
 
 use std::path::Path;
 
+use super::wing::Wing;
 use crate::base::watch::Watch;
 use crate::error::Error;
 use crate::job::Job;
 use crate::kit::Kit;
-use crate::prepare::{Outcome, prepare};
+use crate::prepare::prepare;
 use crate::verify::{Check, CheckKind, JOB_FILE, Limit, find_model};
+use crate::{prepare as main_line, wing};
 
 /// Makes the kit in `folder` again, and checks that every file of it has the same bytes.
 ///
@@ -18,26 +20,43 @@ use crate::verify::{Check, CheckKind, JOB_FILE, Limit, find_model};
 pub fn replay(folder: &Path, model: Option<&Path>, watch: &Watch) -> Result<Check, Error> {
     let mut job = Job::read(&folder.join(JOB_FILE))?;
     job.model_copy = model.map(Path::to_owned).or_else(|| find_model(folder));
-    let other = match prepare(&job, watch)? {
-        Outcome::Prepared(prepared) => find_other_files(folder, &prepared.kit),
-        Outcome::Impossible(why) => vec![why.reason],
-    };
-    let check = Check::new(
-        CheckKind::Replay,
-        "made again from its job, the kit has the same bytes, but for files",
-        Some(other.len() as f64),
-        Limit::at_most(0.0, ""),
-    );
-    Ok(check.at((!other.is_empty()).then(|| other.join(", "))))
+    Ok(match prepare(&job, watch)? {
+        main_line::Outcome::Prepared(prepared) => compare(folder, &prepared.kit),
+        main_line::Outcome::Impossible(why) => check(&[why.reason]),
+    })
 }
 
-/// Returns the files that differ from those of a kit, by their names.
-fn find_other_files(folder: &Path, kit: &Kit) -> Vec<String> {
+/// Makes a kit of its own kind again from the copy in it, and compares it.
+///
+/// # Errors
+/// The job or its input cannot be read, or the run fails.
+pub fn replay_wing<W: Wing>(folder: &Path, watch: &Watch) -> Result<Check, W::Error> {
+    let job = W::job_in(folder)?;
+    Ok(match W::prepare(&job, watch)? {
+        wing::Outcome::Prepared(prepared) => compare(folder, &prepared.kit),
+        wing::Outcome::Impossible(why) => check(&[why.reason]),
+    })
+}
+
+/// Returns the check that a folder holds the files of a kit.
+fn compare(folder: &Path, kit: &Kit) -> Check {
     let is_other = |file: &str, bytes: &[u8]| {
         let found = std::fs::read(folder.join(file));
         !found.is_ok_and(|found| found == bytes)
     };
     let files = kit.files();
     let other = files.filter(|(file, bytes)| is_other(file, bytes));
-    other.map(|(file, _)| file.to_owned()).collect()
+    let other: Vec<String> = other.map(|(file, _)| file.to_owned()).collect();
+    check(&other)
+}
+
+/// Returns the check, given what differs.
+fn check(other: &[String]) -> Check {
+    let check = Check::new(
+        CheckKind::Replay,
+        "made again from its job, the kit has the same bytes, but for files",
+        Some(other.len() as f64),
+        Limit::at_most(0.0, ""),
+    );
+    check.at((!other.is_empty()).then(|| other.join(", ")))
 }

@@ -4,18 +4,22 @@ use std::io::Write;
 use std::path::Path;
 
 use super::args::VerifyArgs;
+use super::core_kit::CoreWing;
 use super::exit::Exit;
-use super::replay::replay;
+use super::replay::{replay, replay_wing};
 use super::show::{GREEN, RED, paint, say};
 use super::summary::{checks_table, summary};
+use super::telescope::TelescopeWing;
 use super::toolpaths::toolpaths_text;
 use super::voice::{Manner, Voice};
 use crate::base::watch::Watch;
+use crate::core_kit::CoreRunError;
 use crate::error::Error;
 use crate::press;
+use crate::telescope::TelescopeRunError;
 use crate::verify::{
-    Check, CheckKind, CoreVerifyError, FileChange, PrintedError, TelescopeVerifyError, VerifyError,
-    files_check, is_core, is_telescope, verify_core, verify_printed, verify_telescope,
+    Check, CheckKind, CoreVerifyError, FileChange, KindJudgement, KitKind, PrintedError,
+    TelescopeVerifyError, VerifyError, files_check, verify_core, verify_printed, verify_telescope,
 };
 
 /// Greatest number of files that are not on the list and are named.
@@ -34,34 +38,27 @@ pub enum VerifyCommandError {
     /// The kit of an object on a base cannot be judged.
     #[error(transparent)]
     Core(#[from] Box<CoreVerifyError>),
-    /// An object on a base is compared with the kit's own model alone.
-    #[error("this kit is compared with the model in it; remedy: verify it without another one")]
-    OwnModel,
-    /// The toolpaths of an object on a base are not judged.
-    #[error(
-        "this kit is that of an object on a base, whose toolpaths are not judged; remedy: verify it \
-         without them"
-    )]
-    NoCoreToolpaths,
-    /// An object on a base is not made again.
-    #[error(
-        "the kit of an object on a base is not made again; remedy: verify it without that order"
-    )]
-    NoCoreReplay,
-    /// A telescope is made of no model.
-    #[error("this kit is a telescope's, which is made of no model; remedy: verify it without one")]
-    NoModel,
     /// The toolpaths cannot be judged.
     #[error(transparent)]
     Printed(#[from] PrintedError),
-    /// The toolpaths of a telescope are not judged.
-    #[error(
-        "this kit is a telescope's, whose toolpaths are not judged; remedy: verify it without them"
-    )]
-    NoToolpaths,
-    /// A telescope is not made again.
-    #[error("a telescope's kit is not made again; remedy: verify it without that order")]
-    NoReplay,
+    /// The kit is judged by itself.
+    #[error("{kit} is judged without another model; remedy: verify it without one")]
+    OwnModel {
+        /// The kind of kit.
+        kit: &'static str,
+    },
+    /// The toolpaths of the kit are not judged.
+    #[error("the toolpaths of {kit} are not judged; remedy: verify it without them")]
+    NoToolpaths {
+        /// The kind of kit.
+        kit: &'static str,
+    },
+    /// The telescope cannot be made again.
+    #[error(transparent)]
+    ReplayTelescope(#[from] Box<TelescopeRunError>),
+    /// The object on a base cannot be made again.
+    #[error(transparent)]
+    ReplayCore(#[from] Box<CoreRunError>),
     /// The kit cannot be made again.
     #[error(transparent)]
     Replay(#[from] Box<Error>),
@@ -80,13 +77,9 @@ pub fn verify(
     out: &mut dyn Write,
 ) -> Result<Exit, VerifyCommandError> {
     let (folder, model) = (args.kit.as_path(), args.model.as_deref());
-    let is_telescope = is_telescope(folder);
-    if args.replay && is_telescope {
-        return Err(VerifyCommandError::NoReplay);
-    }
-    let is_core = is_core(folder);
-    if args.replay && is_core {
-        return Err(VerifyCommandError::NoCoreReplay);
+    let kind = KitKind::of(folder);
+    if let Some(kit) = own_kind(kind) {
+        refuse(args, kit)?;
     }
     if !args.gcode.is_empty() {
         return verify_toolpaths(args, voice, out);
@@ -95,16 +88,15 @@ pub fn verify(
         mut checks,
         changes,
         unlisted,
-    } = if is_telescope {
-        judge_telescope(folder, model)?
-    } else if is_core {
-        judge_core(folder, model)?
-    } else {
-        judge_kit(folder, model)?
+    } = match kind {
+        KitKind::Hollowed => judge_kit(folder, model)?,
+        KitKind::Telescope => verify_telescope(folder, &Watch::silent())?.into(),
+        KitKind::Core => verify_core(folder, &Watch::silent())
+            .map_err(Box::new)?
+            .into(),
     };
     if args.replay {
-        let again = replay(folder, model, &Watch::silent()).map_err(Box::new)?;
-        checks.push(again);
+        checks.push(made_again(kind, folder, model)?);
     }
     let is_kept = checks.iter().all(|check| check.pass);
     if voice.json {
@@ -118,18 +110,46 @@ pub fn verify(
     Ok(if is_kept { Exit::Kept } else { Exit::NotKept })
 }
 
+/// Makes a kit again from its job, and compares it.
+fn made_again(
+    kind: KitKind,
+    folder: &Path,
+    model: Option<&Path>,
+) -> Result<Check, VerifyCommandError> {
+    let watch = &Watch::silent();
+    Ok(match kind {
+        KitKind::Hollowed => replay(folder, model, watch).map_err(Box::new)?,
+        KitKind::Telescope => replay_wing::<TelescopeWing>(folder, watch).map_err(Box::new)?,
+        KitKind::Core => replay_wing::<CoreWing>(folder, watch).map_err(Box::new)?,
+    })
+}
+
+/// Returns the name of a kind of kit that has its own line; `None` for hollowed models.
+fn own_kind(kind: KitKind) -> Option<&'static str> {
+    match kind {
+        KitKind::Hollowed => None,
+        KitKind::Telescope => Some("the kit of a telescope"),
+        KitKind::Core => Some("the kit of an object on a base"),
+    }
+}
+
+/// Refuses what is ordered and cannot be done with kits of their own kind.
+fn refuse(args: &VerifyArgs, kit: &'static str) -> Result<(), VerifyCommandError> {
+    if !args.gcode.is_empty() {
+        return Err(VerifyCommandError::NoToolpaths { kit });
+    }
+    if args.model.is_some() {
+        return Err(VerifyCommandError::OwnModel { kit });
+    }
+    Ok(())
+}
+
 /// Judges the toolpaths of a kit; prints the findings to `out`.
 fn verify_toolpaths(
     args: &VerifyArgs,
     voice: Voice,
     out: &mut dyn Write,
 ) -> Result<Exit, VerifyCommandError> {
-    if is_telescope(&args.kit) {
-        return Err(VerifyCommandError::NoToolpaths);
-    }
-    if is_core(&args.kit) {
-        return Err(VerifyCommandError::NoCoreToolpaths);
-    }
     let found = verify_printed(&args.kit, &args.gcode, &Watch::silent())?;
     if voice.json {
         writeln!(out, "{}", serde_json::to_string_pretty(&found)?)?;
@@ -152,6 +172,16 @@ struct Judged {
     unlisted: Vec<String>,
 }
 
+impl From<KindJudgement> for Judged {
+    fn from(judgement: KindJudgement) -> Self {
+        Self {
+            checks: judgement.checks,
+            changes: judgement.changes,
+            unlisted: judgement.unlisted,
+        }
+    }
+}
+
 fn judge_kit(folder: &Path, model: Option<&Path>) -> Result<Judged, VerifyError> {
     match press::verify(folder, model, &Watch::silent()) {
         Ok(judgement) => Ok(Judged {
@@ -168,30 +198,6 @@ fn judge_kit(folder: &Path, model: Option<&Path>) -> Result<Judged, VerifyError>
             }),
         },
     }
-}
-
-fn judge_telescope(folder: &Path, model: Option<&Path>) -> Result<Judged, VerifyCommandError> {
-    if model.is_some() {
-        return Err(VerifyCommandError::NoModel);
-    }
-    let judgement = verify_telescope(folder, &Watch::silent())?;
-    Ok(Judged {
-        checks: judgement.checks,
-        changes: judgement.changes,
-        unlisted: judgement.unlisted,
-    })
-}
-
-fn judge_core(folder: &Path, model: Option<&Path>) -> Result<Judged, VerifyCommandError> {
-    if model.is_some() {
-        return Err(VerifyCommandError::OwnModel);
-    }
-    let judgement = verify_core(folder, &Watch::silent()).map_err(Box::new)?;
-    Ok(Judged {
-        checks: judgement.checks,
-        changes: judgement.changes,
-        unlisted: judgement.unlisted,
-    })
 }
 
 /// Returns a line about the files that are not on the kit's list; empty without any.

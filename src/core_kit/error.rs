@@ -18,6 +18,7 @@ use crate::polyhedra::{RequestError, SeparationError};
 use crate::printer::{MaterialError, ProfileError, WallError};
 use crate::repair::NotOneBody;
 use crate::verify::CoreVerifyError;
+use crate::wing::Unwritable;
 
 /// A reason why a run could not reach an answer.
 #[derive(Debug, thiserror::Error)]
@@ -114,14 +115,9 @@ pub enum CoreRunError {
     /// The kit cannot be judged.
     #[error(transparent)]
     Verify(#[from] CoreVerifyError),
-    /// A file cannot be put into JSON.
-    #[error("{file} cannot be written: {why}; this is a fault of the program, please report it")]
-    Unwritable {
-        /// The file.
-        file: &'static str,
-        /// The fault.
-        why: String,
-    },
+    /// A file cannot be written as text.
+    #[error(transparent)]
+    Unwritable(#[from] Unwritable),
     /// The caller stopped the run.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),

@@ -15,6 +15,7 @@ use crate::verify::{
     CHECKLIST_FILE, CORE_CERTIFICATE_FILE, CoreEvidence, CorePromise, PANELS_FILE, core_checks,
     judge_core,
 };
+use crate::wing::{Unwritable, json, read_back};
 
 /// An object that was judged.
 pub struct Draft {
@@ -65,33 +66,12 @@ pub fn draft(
 }
 
 /// Returns the lines of all drawings, as their files hold them.
-fn lines(drawings: &[File], sheets: usize) -> Result<Vec<[Vec<DrawnLine>; 2]>, CoreRunError> {
-    let unreadable = |error: DrawingError| unwritable("sheets", &error);
+fn lines(drawings: &[File], sheets: usize) -> Result<Vec<[Vec<DrawnLine>; 2]>, Unwritable> {
+    let unreadable = |error: DrawingError| Unwritable::new("sheets", &error);
     let both = drawings.chunks_exact(2).take(sheets).map(|files| {
         let dxf = decode_dxf(&files[0].1).map_err(unreadable)?;
         let (svg, _) = decode_cut_svg(&files[1].1).map_err(unreadable)?;
         Ok([dxf, svg])
     });
     both.collect()
-}
-
-/// Returns a value as JSON.
-pub fn json<T: serde::Serialize>(file: &'static str, value: &T) -> Result<String, CoreRunError> {
-    let text = serde_json::to_string_pretty(value);
-    text.map(|text| text + "\n")
-        .map_err(|error| unwritable(file, &error))
-}
-
-fn read_back<T: serde::de::DeserializeOwned>(
-    file: &'static str,
-    text: &str,
-) -> Result<T, CoreRunError> {
-    serde_json::from_str(text).map_err(|error| unwritable(file, &error))
-}
-
-fn unwritable(file: &'static str, error: &dyn std::error::Error) -> CoreRunError {
-    CoreRunError::Unwritable {
-        file,
-        why: error.to_string(),
-    }
 }

@@ -26,6 +26,8 @@ pub struct Loaded {
     pub ground: Ground,
     /// The job, bound to the bytes of the model.
     pub job: CoreJob,
+    /// These bytes.
+    pub bytes: Vec<u8>,
     pub warnings: Vec<String>,
 }
 
@@ -50,7 +52,7 @@ pub fn shop(job: &CoreJob, watch: &Watch) -> Result<Shop, CoreRunError> {
 /// Reads the job's model, repairs it and proves that it bounds one solid body.
 pub fn model(job: &CoreJob, shop: &Shop, watch: &Watch) -> Result<Loaded, CoreRunError> {
     let path = || job.model.path.clone();
-    let bytes = io::read_bytes(&job.model.path)?;
+    let bytes = io::read_bytes(job.model_file())?;
     let content = |source| io::ReadError::Content {
         path: path(),
         source,
@@ -85,6 +87,7 @@ pub fn model(job: &CoreJob, shop: &Shop, watch: &Watch) -> Result<Loaded, CoreRu
     Ok(Loaded {
         ground: Ground::new(&solid).map_err(not_solid)?,
         job: bound,
+        bytes,
         warnings: fits.then_some(warning).into_iter().collect(),
     })
 }

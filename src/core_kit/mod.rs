@@ -19,7 +19,6 @@ mod load;
 mod made;
 mod mass;
 mod names;
-mod outcome;
 mod papers;
 mod pockets;
 mod scene;
@@ -27,23 +26,24 @@ mod sheet;
 mod units;
 
 pub use error::CoreRunError;
-pub use outcome::{Impossible, Outcome, Prepared, Remedy};
 
 use crate::base::verdict::Verdict;
 use crate::base::watch::Watch;
 use crate::job::core_kit::CoreJob;
+use crate::sheet::core_kit::CoreSheet;
+use crate::wing::Outcome;
 
 /// Prepares an object on a base to its end: a kit with its checklist, or the reason why there is
 /// none.
 ///
-/// Nothing is written: [`Prepared::kit`] is in memory. The same job gives the same bytes on any
-/// number of threads.
+/// Nothing is written: the kit ([`crate::wing::Prepared`]) is in memory. The same job gives the
+/// same bytes on any number of threads.
 ///
 /// # Errors
 /// An error means that no answer was reached: the model cannot be read, the job contradicts itself,
 /// the caller stopped the run. A model without room for a base, or an object that falls, is an
 /// answer.
-pub fn prepare(job: &CoreJob, watch: &Watch) -> Result<Outcome, CoreRunError> {
+pub fn prepare(job: &CoreJob, watch: &Watch) -> Result<Outcome<CoreSheet>, CoreRunError> {
     let shop = load::shop(job, watch)?;
     let loaded = load::model(job, &shop, watch)?;
     let asked = asked::measure(&shop, &loaded, watch)?;

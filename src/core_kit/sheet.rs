@@ -64,7 +64,7 @@ pub fn checklist(asked: &Asked, made: &Made, weighed: &Weighed) -> CoreSheet {
 
 fn model(asked: &Asked) -> CoreModelRow {
     CoreModelRow {
-        source: asked.job.model.path.display().to_string(),
+        source: asked.job.in_kit().model.path.display().to_string(),
         sha256: asked.job.model.sha256.clone(),
         size_mm: asked.ground.solid().mesh().aabb().size().into(),
         volume_mm3: asked.ground.volume_mm3(),

@@ -1,6 +1,6 @@
 //! The whole input of an object on a laser-cut base. `job.toml` replays the run exactly.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Deserializer, Serialize, de::Error as _};
 
@@ -93,6 +93,9 @@ pub struct CoreJob {
     pub printer: PrinterChoice,
     /// The cutter and its sheet.
     pub cutting: CutChoice,
+    /// A copy of the model that is read in its place. It is no part of the file.
+    #[serde(skip)]
+    pub model_copy: Option<PathBuf>,
 }
 
 /// The cutter and the sheet.
@@ -121,6 +124,7 @@ impl CoreJob {
             model,
             printer,
             cutting,
+            model_copy: None,
         }
     }
 
@@ -132,6 +136,19 @@ impl CoreJob {
         let is_plain = |c: char| c.is_alphanumeric() || c == '-' || c == '_';
         let plain = |c: char| if is_plain(c) { c } else { '-' };
         stem.unwrap_or_default().chars().map(plain).collect()
+    }
+
+    /// Returns the file that the model is read from.
+    pub fn model_file(&self) -> &Path {
+        self.model_copy.as_ref().unwrap_or(&self.model.path)
+    }
+
+    /// Returns the job as its kit tells it: without the folder in which the model lay.
+    pub fn in_kit(&self) -> Self {
+        Self {
+            model: self.model.without_folder(),
+            ..self.clone()
+        }
     }
 
     /// Binds the job to the bytes of its model file. Refuses if it was bound to others.

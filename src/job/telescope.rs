@@ -149,6 +149,9 @@ pub struct TelescopeJob {
     pub curve: CurveChoice,
     /// The printer and its material.
     pub printer: PrinterChoice,
+    /// A copy of the curve's file that is read in its place. It is no part of the file.
+    #[serde(skip)]
+    pub curve_copy: Option<PathBuf>,
 }
 
 /// The curve and its size.
@@ -191,7 +194,28 @@ impl TelescopeJob {
                 scaling,
             },
             printer,
+            curve_copy: None,
         }
+    }
+
+    /// Returns the file that the curve is read from; `None` if it is given by its measures.
+    pub fn curve_file(&self) -> Option<&Path> {
+        let named = Path::new(&self.curve.source);
+        let is_measures = self.curve.source.contains(':') && !named.is_file();
+        let own = (!is_measures).then_some(named);
+        self.curve_copy.as_deref().or(own)
+    }
+
+    /// Returns the job as its kit tells it: without the folder in which the curve's file lay.
+    pub fn in_kit(&self) -> Self {
+        let mut job = self.clone();
+        let named = self
+            .curve_file()
+            .and_then(|_| Path::new(&self.curve.source).file_name());
+        if let Some(name) = named {
+            job.curve.source = name.to_string_lossy().into_owned();
+        }
+        job
     }
 
     /// Reads the job in the file at `path`.

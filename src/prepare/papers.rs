@@ -8,7 +8,7 @@ use crate::base::watch::{Phase, Watch};
 use crate::cut::CutOrder;
 use crate::error::Error;
 use crate::io::read_bytes;
-use crate::job::JobError;
+use crate::job::{Job, JobError, ModelChoice};
 use crate::kit::Kit;
 use crate::page::cup_warning;
 use crate::run::Placed;
@@ -81,7 +81,12 @@ fn files(placed: &Placed, draft: &Draft, slicer: Option<&Slicer>) -> Result<Kit,
     for (file, bytes) in &draft.packages.files {
         kit.add(file, bytes.clone());
     }
+    // Where the model lay is nobody's business, and no reason for other bytes.
     let job = slice::record(&placed.job, slicer);
+    let job = Job {
+        model: job.model.without_folder(),
+        ..job
+    };
     kit.add(JOB_FILE, job.to_toml()?.into_bytes());
     let cuts = CutOrder {
         keep_clear: placed.job.keep_clear.clone(),
@@ -101,16 +106,11 @@ fn files(placed: &Placed, draft: &Draft, slicer: Option<&Slicer>) -> Result<Kit,
 
 /// Returns the copy of the model that goes into the kit, with its path there.
 fn model_copy(placed: &Placed) -> Result<(String, Vec<u8>), Error> {
-    let path = &placed.job.model.path;
     let bytes = read_bytes(placed.job.model_file())?;
     // A model that was changed during the run is not the one that the kit was made of.
     placed.job.clone().bind_to(&bytes)?;
-    let ending = path
-        .extension()
-        .map(|ending| ending.to_string_lossy().to_lowercase());
-    let ending = ending.filter(|ending| ending.chars().all(|c| c.is_ascii_alphanumeric()));
-    let ending = ending.map_or_else(String::new, |ending| format!(".{ending}"));
-    Ok((format!("{MODEL_FOLDER}{}{ending}", placed.name()), bytes))
+    let copy = ModelChoice::copy_name(&placed.job.model.path, &placed.name());
+    Ok((format!("{MODEL_FOLDER}{copy}"), bytes))
 }
 
 /// Adds the job sheet, for people and for machines, without anything that differs from run to run,

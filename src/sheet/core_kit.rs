@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 
 use super::Verdict;
+use super::kind::kind_sheet;
 use crate::verify::{
     Check, CorePartPromise, CutPromise, CutSheetPromise, FastenerPromise, GluePromise,
     PrinterLimits, UnitPromise,
@@ -81,6 +82,8 @@ pub struct CoreSheet {
     /// The SHA-256 of every other file of the kit.
     pub files: BTreeMap<String, String>,
 }
+
+kind_sheet!(CoreSheet);
 
 /// The model of an object.
 #[derive(Debug, Clone, PartialEq, Serialize)]

@@ -6,6 +6,7 @@ pub mod core_kit;
 pub mod from_run;
 mod goal;
 mod joints;
+mod kind;
 mod parts;
 mod print_time;
 mod printer;
@@ -22,6 +23,7 @@ pub use checklist::{
 };
 pub use goal::{FootRow, GoalRow, ObjectiveName, ShaftKind, ShaftRow, TurnRow};
 pub use joints::{BallastRow, BossRow, CutListRow, JigRow, JointRow, RoundRow};
+pub use kind::KindSheet;
 pub use parts::{Half, PartRow, SupportRow, finished_size_mm, part_picture_file};
 pub use print_time::{PlateTimeRow, PrintTimeRow};
 pub use printer::{

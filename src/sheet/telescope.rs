@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 
 use super::Verdict;
+use super::kind::kind_sheet;
 use crate::verify::{
     BalancePromise, Check, DeviationPromise, JointPromise, PrinterLimits, TelescopePartPromise,
 };
@@ -97,6 +98,8 @@ pub struct TelescopeSheet {
     /// The SHA-256 of every other file of the kit.
     pub files: BTreeMap<String, String>,
 }
+
+kind_sheet!(TelescopeSheet);
 
 /// The printer of a telescope.
 #[derive(Debug, Clone, PartialEq, Serialize)]

@@ -13,7 +13,7 @@ use crate::job::Job;
 use crate::kit::{Kit, SLICES_FILE};
 use crate::printer::{Plate, Printer};
 use crate::slicer::{PlateFile, SliceSettings, Slicer};
-use crate::verify::{JOB_FILE, is_core, is_telescope};
+use crate::verify::{JOB_FILE, KitKind};
 
 /// Largest profile of a slicer, bytes: real ones have some 20 000.
 const MOST_PROFILE: u64 = 1_000_000;
@@ -99,13 +99,11 @@ pub(super) fn read_job(folder: &Path) -> Result<Job, SliceError> {
         let path = folder.to_owned();
         return Err(SliceError::NoKit { path });
     }
-    if is_telescope(folder) {
-        return Err(SliceError::Telescope);
+    match KitKind::of(folder) {
+        KitKind::Telescope => Err(SliceError::Telescope),
+        KitKind::Core => Err(SliceError::Core),
+        KitKind::Hollowed => Ok(Job::read(&path)?),
     }
-    if is_core(folder) {
-        return Err(SliceError::Core);
-    }
-    Ok(Job::read(&path)?)
 }
 
 /// Reads a profile of a slicer: lines of `key = value`.

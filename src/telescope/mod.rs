@@ -47,7 +47,7 @@ pub use fits::{axis_excess_mm, lock_slack_mm, turning_offset_mm};
 pub use limits::{Limit, ball_limit, budget_limit, strands_limit};
 pub use motion::{Collision, Key, Opening, Order};
 pub use nest::{Joint, JointState, Shell, Telescope};
-pub use prepare::{Impossible, Outcome, Prepared, Remedy, TelescopeRunError, prepare};
+pub use prepare::{TelescopeRunError, Tried, prepare};
 pub use profile::Profile;
 pub use sizes::{JointSizes, Radii};
 pub use sweep::{Sector, sweep_profile, sweep_sector};

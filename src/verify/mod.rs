@@ -71,8 +71,10 @@ mod sheet;
 mod strangers;
 // The toolpaths of a kit.
 mod printed;
-// Objects on a base, and telescopes.
+// Objects on a base, telescopes, and what the judges of both read alike.
 mod core_kit;
+mod kind_packages;
+mod kit_folder;
 mod telescope;
 
 #[cfg(test)]
@@ -157,19 +159,19 @@ pub use printed::{
     PRINTED_SKIN_MM, PRINTED_TILT_LIMIT_DEG, PrintedError, PrintedFile, PrintedJudgement,
     PrintedPart, verify_printed,
 };
+// The kinds of kits.
+pub use kit_folder::{KindJudgement, KitFolderError, KitKind};
 // Objects on a base.
 pub use core_kit::{
-    BossPromise, CORE_CERTIFICATE_FILE, CoreCertificate, CoreEvidence, CoreFacts, CoreJudgement,
-    CorePartKind, CorePartPromise, CorePromise, CoreVerifyError, CutPromise, CutSheetPromise,
-    EdgePromise, FastenerKind, FastenerPromise, GluePromise, HolePromise, MODEL_FILE, PANELS_FILE,
-    PanelPromise, PanelsFile, PlacedPanel, UnitPromise, core_checks, is_core, judge_core,
-    verify_core,
+    BossPromise, CORE_CERTIFICATE_FILE, CoreCertificate, CoreEvidence, CoreFacts, CorePartKind,
+    CorePartPromise, CorePromise, CoreVerifyError, CutPromise, CutSheetPromise, EdgePromise,
+    FastenerKind, FastenerPromise, GluePromise, HolePromise, MODEL_FILE, PANELS_FILE, PanelPromise,
+    PanelsFile, PlacedPanel, UnitPromise, core_checks, judge_core, verify_core,
 };
 // Telescopes.
 pub use telescope::{
     BalancePromise, DeviationPromise, JointMotion, JointPromise, MotionKey, ShellMotion,
-    TelescopeEvidence, TelescopeFacts, TelescopeJudgement, TelescopeMotion, TelescopePartPromise,
-    TelescopePromise, TelescopeVerifyError, is_telescope, judge_telescope, telescope_checks,
-    verify_telescope,
+    TelescopeEvidence, TelescopeFacts, TelescopeMotion, TelescopePartPromise, TelescopePromise,
+    TelescopeVerifyError, judge_telescope, telescope_checks, verify_telescope,
 };
 pub use telescope::{CURVE_FILE, MOTION_FILE, asked_points};

@@ -11,10 +11,12 @@ use crate::geom::Vector;
 use crate::io::read_model;
 use crate::mesh::TriMesh;
 
-/// Returns the copy of the model in a kit; `None` if it has none, or no checklist.
+/// Returns the copy of the model or curve in a kit of any kind; `None` if it has none, or no
+/// checklist.
 pub fn find_model(folder: &Path) -> Option<PathBuf> {
-    let promise = read_promise(folder).ok()?;
-    let mut files = promise.files.keys();
+    let bytes = std::fs::read(folder.join(CHECKLIST_FILE)).ok()?;
+    let sheet: Value = serde_json::from_slice(&bytes).ok()?;
+    let mut files = sheet["files"].as_object()?.keys();
     let file = files.find(|file| file.starts_with(MODEL_FOLDER) && is_inside_kit(file))?;
     Some(folder.join(file)).filter(|path| path.is_file())
 }

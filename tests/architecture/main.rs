@@ -123,13 +123,15 @@ const ARROWS: &[(&str, &[&str])] = &[
             "base", "draw", "geom", "goal", "mass", "mesh", "poses", "repair", "sheet", "verify",
         ],
     ),
+    // What kits of all other kinds end with: files, a checklist and pages, or an answer.
+    ("wing", &["base", "kit", "sheet", "verify"]),
     // Telescopes have a line of their own, from a curve to a kit. They share the parts' files, the
     // papers and the judge with other kits, and see nothing of hollowing.
     (
         "telescope",
         &[
             "base", "curve", "draw", "error", "geom", "io", "job", "kit", "make", "mass", "mesh",
-            "page", "printer", "repair", "sheet", "verify",
+            "page", "printer", "repair", "sheet", "verify", "wing",
         ],
     ),
     // Objects on a base have a line of their own, from a model to a kit. It joins the rooms of
@@ -159,6 +161,7 @@ const ARROWS: &[(&str, &[&str])] = &[
             "repair",
             "sheet",
             "verify",
+            "wing",
         ],
     ),
     // `prepare` prints a kit's papers with the press, and `verify` on the command line again.
@@ -255,6 +258,7 @@ const ARROWS: &[(&str, &[&str])] = &[
             "slice",
             "telescope",
             "verify",
+            "wing",
         ],
     ),
     ("guide", &[]),
@@ -296,6 +300,7 @@ const ARROWS: &[(&str, &[&str])] = &[
             "slicer",
             "telescope",
             "voids",
+            "wing",
         ],
     ),
     ("main", &["cli"]),

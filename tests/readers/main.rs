@@ -22,7 +22,10 @@ use equipoise::base::watch::Watch;
 use equipoise::cutter::AnyProfile;
 use equipoise::io::gcode::{Options, read_plates};
 use equipoise::io::layers::read_layers;
-use equipoise::io::{decode_curve, decode_model, decode_points};
+use equipoise::io::{
+    DrawnLine, DrawnShape, decode_curve, decode_cut_svg, decode_dxf, decode_model, decode_points,
+};
+use equipoise::job::core_kit::CoreJob;
 use equipoise::job::telescope::TelescopeJob;
 use equipoise::job::{Job, read_plan};
 use equipoise::printer::Printer;
@@ -182,6 +185,32 @@ fn profiles_of_printers_cutters_sheets_and_fasteners() {
 }
 
 #[test]
+fn drawings_of_sheets() {
+    let is_finite = |lines: &[DrawnLine]| {
+        let points = |shape: &DrawnShape| match shape {
+            DrawnShape::Closed(points) | DrawnShape::Open(points) => points.clone(),
+            DrawnShape::Circle {
+                center_mm,
+                radius_mm,
+            } => vec![*center_mm, [*radius_mm, 0.0]],
+        };
+        let mut all = lines.iter().flat_map(|line| points(&line.shape));
+        assert!(all.all(|point| point.iter().all(|x| x.is_finite())));
+        true
+    };
+    let [dxf, svg] = seeds::drawings();
+    fuzz("dxf", &[dxf], |bytes| {
+        decode_dxf(bytes).is_ok_and(|lines| is_finite(&lines))
+    });
+    fuzz("svg", &[svg], |bytes| {
+        decode_cut_svg(bytes).is_ok_and(|(lines, size_mm)| {
+            assert!(size_mm.iter().all(|x| x.is_finite()));
+            is_finite(&lines)
+        })
+    });
+}
+
+#[test]
 fn orders_of_cuts_jobs_and_skeletons() {
     fuzz_files("cuts", "cuts.toml", &[seeds::cuts()], |path| {
         read_plan(path).is_ok()
@@ -195,6 +224,9 @@ fn orders_of_cuts_jobs_and_skeletons() {
         &[seeds::telescope_job()],
         |path| TelescopeJob::read(path).is_ok(),
     );
+    fuzz_files("core job", "job.toml", &[seeds::core_job()], |path| {
+        CoreJob::read(path).is_ok()
+    });
     let reads = |bytes: &[u8]| {
         std::str::from_utf8(bytes).is_ok_and(|text| Skeleton::from_toml("s.toml", text).is_ok())
     };

@@ -11,6 +11,8 @@ use equipoise::io::layers::{
 };
 use equipoise::io::stl;
 use equipoise::io::threemf::{Build, Object, Package, Transform};
+use equipoise::io::{CutDrawing, CutLayer, DrawnLine, DrawnShape, encode_cut_svg, encode_dxf};
+use equipoise::job::core_kit::{CoreJob, CutChoice};
 use equipoise::job::telescope::TelescopeJob;
 use equipoise::job::{Job, ModelChoice, PrinterChoice, Scaling};
 use equipoise::mesh::TriMesh;
@@ -262,4 +264,43 @@ pub fn skeleton() -> Vec<u8> {
       nodes = [0, 1]\nsolid = false\n\n[[branch]]\nnodes = [1, 2]\nsolid = true\n\n[[branch]]\n\
       nodes = [1, 3]\nsolid = false\n"
         .to_vec()
+}
+
+/// Returns a drawing of a sheet as DXF and as SVG.
+pub fn drawings() -> [Vec<u8>; 2] {
+    let square = [[10.0, 10.0], [60.0, 10.0], [60.0, 40.0], [10.0, 40.0]];
+    let line = |layer, shape| DrawnLine { layer, shape };
+    let circle = DrawnShape::Circle {
+        center_mm: [30.0, 25.0],
+        radius_mm: 1.7,
+    };
+    let drawing = CutDrawing {
+        size_mm: [600.0, 400.0],
+        lines: vec![
+            line(CutLayer::Engrave, DrawnShape::Open(square[..2].to_vec())),
+            line(CutLayer::Inner, circle),
+            line(CutLayer::Outer, DrawnShape::Closed(square.to_vec())),
+        ],
+        colors: [[0, 128, 0], [0, 0, 255], [0, 0, 0], [255, 0, 0]],
+    };
+    [encode_dxf(&drawing), encode_cut_svg(&drawing)].map(String::into_bytes)
+}
+
+/// Returns the job of an object on a base.
+pub fn core_job() -> Vec<u8> {
+    let model = ModelChoice {
+        path: "a.stl".into(),
+        sha256: None,
+        scaling: Scaling::Size(Length::from_mm(600.0).unwrap()),
+    };
+    let printer = PrinterChoice {
+        id: "prusa-mk4".to_owned(),
+        material: None,
+    };
+    let machines = CutChoice {
+        cutter: "makerspace-900x600".to_owned(),
+        sheet: "birch-5".to_owned(),
+    };
+    let job = CoreJob::new(model, printer, machines);
+    job.to_toml().unwrap().into_bytes()
 }

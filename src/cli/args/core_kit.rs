@@ -1,14 +1,16 @@
 //! The arguments of `core`, and the job they make.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 
+use super::beside::copy_beside;
 use super::error::ArgsError;
 use super::scaling::ScalingArgs;
 use super::values::{angle, words};
 use crate::base::units::Length;
 use crate::cli::shop::chosen_printer;
+use crate::cli::wing::Order;
 use crate::goal::Up;
 use crate::job::ModelChoice;
 use crate::job::core_kit::{CoreGoal, CoreJob, CoreJoints, CoreShell, CutChoice};
@@ -103,30 +105,19 @@ const DECIDED_BY_JOB: [&str; 14] = [
     "up",
 ];
 
-/// The order for `core`: the job, and the target of its kit.
-#[derive(Debug, Clone, PartialEq)]
-pub struct CoreRequest {
-    /// The job, which decides the bytes of the kit.
-    pub job: CoreJob,
-    /// The folder to write the kit to.
-    pub out: PathBuf,
-    /// True if an existing folder is replaced.
-    pub force: bool,
-}
-
 impl CoreArgs {
     /// Returns the job that was ordered, and the target of its kit.
     ///
     /// # Errors
     /// A machine or the sheet is missing, or a file they name cannot be used.
-    pub fn request(self) -> Result<CoreRequest, ArgsError> {
+    pub fn order(self) -> Result<Order<CoreJob>, ArgsError> {
         let (out, force) = (self.out.clone(), self.force);
         let job = match &self.job {
-            Some(path) => replay(CoreJob::read(path)?, self.model),
+            Some(path) => replay(path, self.model)?,
             None => self.new_job()?,
         };
         let usual = || PathBuf::from(format!("{}-core", job.name()));
-        Ok(CoreRequest {
+        Ok(Order {
             out: out.unwrap_or_else(usual),
             force,
             job,
@@ -161,10 +152,16 @@ impl CoreArgs {
     }
 }
 
-/// Returns the job with another model, if one is given.
-fn replay(mut job: CoreJob, model: Option<PathBuf>) -> CoreJob {
-    if let Some(model) = model {
-        job.model.path = model;
+/// Returns the job in a file, with another model if one is given. Else the model is read from the
+/// kit of the job, or from the file's folder.
+fn replay(file: &Path, model: Option<PathBuf>) -> Result<CoreJob, ArgsError> {
+    let mut job = CoreJob::read(file)?;
+    match model {
+        Some(model) => job.model.path = model,
+        None => {
+            let sha256 = job.model.sha256.as_deref();
+            job.model_copy = copy_beside(file, &job.model.path, sha256);
+        }
     }
-    job
+    Ok(job)
 }

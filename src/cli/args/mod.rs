@@ -2,6 +2,7 @@
 
 mod again;
 mod ballast;
+mod beside;
 mod core_kit;
 mod cut;
 mod cutters;
@@ -27,7 +28,7 @@ use clap::{Args, Parser, Subcommand};
 use clap_complete::Shell;
 
 pub use again::again;
-pub use core_kit::{CoreArgs, CoreRequest};
+pub use core_kit::CoreArgs;
 pub use cutters::{CalibrateCutterArgs, CuttersAction, CuttersArgs, NewCutterArgs};
 pub use error::ArgsError;
 pub use missing::Missing;
@@ -38,7 +39,7 @@ pub use read::ReadError;
 pub use scaling::ScalingArgs;
 pub use skeleton::{Root, RootError, SkeletonArgs};
 pub use slice::SliceArgs;
-pub use telescope::{TelescopeArgs, TelescopeRequest};
+pub use telescope::TelescopeArgs;
 pub use typed::SplitUnit;
 pub use values::NumberError;
 

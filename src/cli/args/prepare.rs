@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use super::ballast::BallastArgs;
+use super::beside::copy_beside;
 use super::cut::{CutArg, CutArgs};
 use super::error::ArgsError;
 use super::goal::{HardwareArgs, PromiseArgs, RotorArgs, WaterArgs};
@@ -17,7 +18,6 @@ use crate::cli::shop::chosen_printer;
 use crate::goal::{self, Contact, GoalKind, Objective, SpinPoint, Up};
 use crate::job::{Job, ModelChoice, PartFormat, SlicerChoice};
 use crate::repair::RepairOrder;
-use crate::verify::find_model;
 
 /// The usage: the required arguments, and the options.
 const USAGE: &str = "equipoise prepare <MODEL> --goal <GOAL> --printer <ID|FILE> [OPTIONS]";
@@ -353,12 +353,14 @@ impl PrepareArgs {
     }
 }
 
-/// Returns the job in a file, with another path of its model if one is given. If the path in the
-/// job leads nowhere, the model is read from the kit beside it.
+/// Returns the job in a file, with another path of its model if one is given. Else the model is
+/// read from the kit of the job, or from the file's folder.
 fn replay(file: &Path, model: Option<PathBuf>) -> Result<Job, ArgsError> {
     let job = Job::read(file)?;
-    let is_lost = model.is_none() && !job.model.path.exists();
-    let copy = file.parent().filter(|_| is_lost).and_then(find_model);
+    let copy = match &model {
+        Some(_) => None,
+        None => copy_beside(file, &job.model.path, job.model.sha256.as_deref()),
+    };
     let path = model.unwrap_or(job.model.path);
     Ok(Job {
         model: ModelChoice { path, ..job.model },

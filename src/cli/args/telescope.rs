@@ -4,11 +4,13 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
+use super::beside::copy_beside;
 use super::error::ArgsError;
 use super::scaling::ScalingArgs;
 use super::values::{angle, words};
 use crate::base::units::Length;
 use crate::cli::shop::chosen_printer;
+use crate::cli::wing::Order;
 use crate::job::telescope::{
     Bends, FootSize, Lock, Opening, ShellCount, Stance, TelescopeJob, Twists,
 };
@@ -129,30 +131,19 @@ const DECIDED_BY_JOB: [&str; 20] = [
     "foot",
 ];
 
-/// The order for `telescope`: the job, and the target of its kit.
-#[derive(Debug, Clone, PartialEq)]
-pub struct TelescopeRequest {
-    /// The job, which decides the bytes of the kit.
-    pub job: TelescopeJob,
-    /// The folder to write the kit to.
-    pub out: PathBuf,
-    /// True if an existing folder is replaced.
-    pub force: bool,
-}
-
 impl TelescopeArgs {
     /// Returns the job that was ordered, and the target of its kit.
     ///
     /// # Errors
     /// The printer is missing, or a file they name cannot be used.
-    pub fn request(self) -> Result<TelescopeRequest, ArgsError> {
+    pub fn order(self) -> Result<Order<TelescopeJob>, ArgsError> {
         let (out, force) = (self.out.clone(), self.force);
         let job = match &self.job {
-            Some(path) => replay(TelescopeJob::read(path)?, self.input),
+            Some(path) => replay(path, self.input)?,
             None => self.new_job()?,
         };
         let usual = || PathBuf::from(format!("{}-telescope", job.name()));
-        Ok(TelescopeRequest {
+        Ok(Order {
             out: out.unwrap_or_else(usual),
             force,
             job,
@@ -188,10 +179,17 @@ impl TelescopeArgs {
     }
 }
 
-/// Returns the job with another curve, if one is given.
-fn replay(mut job: TelescopeJob, input: Option<String>) -> TelescopeJob {
-    if let Some(input) = input {
-        job.curve.source = input;
+/// Returns the job in a file, with another curve if one is given. Else a curve's file is read from
+/// the kit of the job, or from the file's folder.
+fn replay(file: &Path, input: Option<String>) -> Result<TelescopeJob, ArgsError> {
+    let mut job = TelescopeJob::read(file)?;
+    match input {
+        Some(input) => job.curve.source = input,
+        None => {
+            let sha256 = job.curve.sha256.as_deref();
+            let copy = |named: &Path| copy_beside(file, named, sha256);
+            job.curve_copy = job.curve_file().and_then(copy);
+        }
     }
-    job
+    Ok(job)
 }

@@ -1,17 +1,27 @@
 //! Remedies for a curve that no telescope follows as asked, each confirmed by a design.
 
+use serde::Serialize;
+
 use super::asked::{Asked, measure};
 use super::balance::choose_foot;
 use super::best::{Best, Reason, Refused, design};
 use super::error::TelescopeRunError;
 use super::load::Loaded;
-use super::outcome::{Impossible, Remedy};
 use crate::base::setting::{Key, Setting};
 use crate::base::units::Length;
 use crate::base::verdict::Verdict;
 use crate::base::watch::{Phase, Watch};
 use crate::job::telescope::{FootSize, ShellCount, TelescopeJob};
+use crate::sheet::telescope::TradeRow;
 use crate::telescope::limits::Limit;
+use crate::wing::{Impossible, Remedy};
+
+/// What an answer tells besides its reason.
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+pub struct Tried {
+    /// The numbers of shells that were tried.
+    pub rows: Vec<TradeRow>,
+}
 
 /// Factors by which a curve is made larger, in turn.
 const LARGER: [f64; 4] = [1.25, 1.6, 2.0, 3.0];
@@ -35,7 +45,7 @@ pub fn remedies(
     asked: &Asked,
     refused: Refused,
     watch: &Watch,
-) -> Result<Impossible, TelescopeRunError> {
+) -> Result<Impossible<Tried>, TelescopeRunError> {
     watch.enter(Phase::Advise);
     let (mut remedies, mut tried) = (Vec::new(), Vec::new());
     for group in changes(asked, &refused.reason) {
@@ -59,12 +69,11 @@ pub fn remedies(
         }
     }
     Ok(Impossible {
-        verdict: "impossible",
         is_proved: refused.reason.is_proved(),
-        reason: refused.reason.to_string(),
         remedies,
         tried,
-        rows: refused.rows,
+        more: Tried { rows: refused.rows },
+        ..Impossible::new(refused.reason.to_string())
     })
 }
 
@@ -171,7 +180,7 @@ fn confirm(
         .scaled_to(asked.curve.length_mm() * change.factor);
     let loaded = Loaded {
         curve,
-        sha256: asked.sha256.clone(),
+        file: asked.file.clone(),
     };
     let Ok(anew) = measure(&change.job, asked.shop, &loaded) else {
         return Ok(None);

@@ -1,7 +1,7 @@
 //! What is asked of a telescope, in the printer's measures.
 
 use super::error::TelescopeRunError;
-use super::load::{Loaded, Shop};
+use super::load::{CurveFile, Loaded, Shop};
 use crate::base::units::Length;
 use crate::curve::{Curve, Freedom};
 use crate::job::telescope::{Bends, Lock, Opening, ShellCount, Stance, TelescopeJob, Twists};
@@ -49,7 +49,8 @@ pub struct Asked<'a> {
     pub job: &'a TelescopeJob,
     pub shop: &'a Shop,
     pub curve: &'a Curve,
-    pub sha256: Option<String>,
+    /// The curve's file; `None` for measures.
+    pub file: Option<CurveFile>,
     /// The clearance with which shells slide, and its source.
     pub slide: Sourced<f64>,
     /// Measures of the joints with the least overlap.
@@ -91,7 +92,7 @@ pub fn measure<'a>(
         job,
         shop,
         curve,
-        sha256: loaded.sha256.clone(),
+        file: loaded.file.clone(),
         slide,
         least,
         tip_mm,

@@ -13,6 +13,7 @@ use crate::mesh::ClipError;
 use crate::printer::{MaterialError, ProfileError, WallError};
 use crate::telescope::error::TelescopeError;
 use crate::verify::TelescopeVerifyError;
+use crate::wing::Unwritable;
 
 /// A reason why a run could not reach an answer.
 #[derive(Debug, thiserror::Error)]
@@ -89,14 +90,9 @@ pub enum TelescopeRunError {
     /// The kit cannot be judged.
     #[error(transparent)]
     Verify(#[from] TelescopeVerifyError),
-    /// A file cannot be put into JSON or TOML.
-    #[error("{file} cannot be written: {why}; this is a fault of the program, please report it")]
-    Unwritable {
-        /// The file.
-        file: &'static str,
-        /// The fault.
-        why: String,
-    },
+    /// A file cannot be written as text.
+    #[error(transparent)]
+    Unwritable(#[from] Unwritable),
     /// The caller stopped the run.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),

@@ -12,6 +12,7 @@ use crate::make::{Arrangement, File, plates, print_settings};
 use crate::mesh::TriMesh;
 use crate::sheet::telescope::{ShellRow, TelescopeSheet};
 use crate::telescope::motion::Key;
+use crate::wing::Unwritable;
 
 /// Points of the curve that are written for each shell.
 const CURVE_SAMPLES: usize = 40;
@@ -61,10 +62,8 @@ pub fn telescope_toml(sheet: &TelescopeSheet) -> Result<String, TelescopeRunErro
             .map(|joint| joint.turn_deg)
             .collect(),
     };
-    toml::to_string(&written).map_err(|error| TelescopeRunError::Unwritable {
-        file: "telescope.toml",
-        why: error.to_string(),
-    })
+    let text = toml::to_string(&written);
+    Ok(text.map_err(|error| Unwritable::new("telescope.toml", &error))?)
 }
 
 /// Returns the plates, and the parts together, all in and all out.

@@ -13,6 +13,7 @@ use crate::sheet::telescope::TelescopeSheet;
 use crate::verify::{
     TelescopeEvidence, TelescopePromise, asked_points, judge_telescope, telescope_checks,
 };
+use crate::wing::{Unwritable, json, read_back};
 
 /// A telescope that was judged.
 pub struct Draft {
@@ -34,7 +35,7 @@ pub fn draft(asked: &Asked, made: Made, watch: &Watch) -> Result<Draft, Telescop
     let evidence = TelescopeEvidence {
         motion: read_back("motion.json", &motion_json)?,
         parts: made.parts.iter().map(|part| part.in_shell()).collect(),
-        asked: points.map_err(|error: PointsError| unwritable("curve.csv", &error))?,
+        asked: points.map_err(|error: PointsError| Unwritable::new("curve.csv", &error))?,
         promise,
     };
     let facts = judge_telescope(&evidence, watch)?;
@@ -46,28 +47,4 @@ pub fn draft(asked: &Asked, made: Made, watch: &Watch) -> Result<Draft, Telescop
         motion_json,
         curve_csv,
     })
-}
-
-/// Returns a value as JSON.
-pub fn json<T: serde::Serialize>(
-    file: &'static str,
-    value: &T,
-) -> Result<String, TelescopeRunError> {
-    let text = serde_json::to_string_pretty(value);
-    text.map(|text| text + "\n")
-        .map_err(|error| unwritable(file, &error))
-}
-
-fn read_back<T: serde::de::DeserializeOwned>(
-    file: &'static str,
-    text: &str,
-) -> Result<T, TelescopeRunError> {
-    serde_json::from_str(text).map_err(|error| unwritable(file, &error))
-}
-
-fn unwritable(file: &'static str, error: &dyn std::error::Error) -> TelescopeRunError {
-    TelescopeRunError::Unwritable {
-        file,
-        why: error.to_string(),
-    }
 }

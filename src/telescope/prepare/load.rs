@@ -1,6 +1,6 @@
 //! Load: the printer, and the curve in mm.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use super::error::TelescopeRunError;
 use crate::base::digest::sha256_hex;
@@ -22,8 +22,16 @@ pub struct Shop {
 /// The curve that is asked for, in mm.
 pub struct Loaded {
     pub curve: Curve,
-    /// SHA-256 of its file; `None` for measures.
-    pub sha256: Option<String>,
+    /// Its file; `None` for measures.
+    pub file: Option<CurveFile>,
+}
+
+/// The file of a curve.
+#[derive(Debug, Clone)]
+pub struct CurveFile {
+    pub bytes: Vec<u8>,
+    /// The SHA-256 of these bytes.
+    pub sha256: String,
 }
 
 /// Most points through which a spline is laid. More lie so near that lines between them do.
@@ -50,7 +58,7 @@ pub fn curve(job: &TelescopeJob, shop: &Shop) -> Result<Loaded, TelescopeRunErro
         name: source.clone(),
         fault,
     };
-    let (points, sha256) = points(job)?;
+    let (points, file) = points(job)?;
     let is_dense = points.len() > MOST_SPLINE_POINTS;
     let raw = if is_dense {
         Curve::of_polyline(points)
@@ -65,17 +73,16 @@ pub fn curve(job: &TelescopeJob, shop: &Shop) -> Result<Loaded, TelescopeRunErro
     let longest_mm = factor * longest;
     let checked = shop.printer.check_length(longest_mm);
     checked.map_err(Error::from)?;
-    Ok(Loaded { curve, sha256 })
+    Ok(Loaded { curve, file })
 }
 
-/// Returns the points of the curve as they are given, and the hash of their file.
-fn points(job: &TelescopeJob) -> Result<(Vec<Point>, Option<String>), TelescopeRunError> {
+/// Returns the points of the curve as they are given, and their file.
+fn points(job: &TelescopeJob) -> Result<(Vec<Point>, Option<CurveFile>), TelescopeRunError> {
     let source = &job.curve.source;
-    let path = Path::new(source);
-    if source.contains(':') && !path.is_file() {
+    let Some(path) = job.curve_file() else {
         let named: NamedCurve = source.parse()?;
         return Ok((named.points(), None));
-    }
+    };
     let bytes = read_bytes(path)?;
     let found = sha256_hex(&[&bytes]);
     if let Some(expected) = job.curve.sha256.as_ref().filter(|sha256| **sha256 != found) {
@@ -89,5 +96,6 @@ fn points(job: &TelescopeJob) -> Result<(Vec<Point>, Option<String>), TelescopeR
         path: path.to_owned(),
         fault,
     })?;
-    Ok((points, Some(found)))
+    let sha256 = found;
+    Ok((points, Some(CurveFile { bytes, sha256 })))
 }

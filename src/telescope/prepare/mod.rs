@@ -10,28 +10,32 @@ mod judge;
 mod load;
 mod made;
 mod motion_file;
-mod outcome;
 mod papers;
 mod poses;
 mod scene;
 mod sheet;
 
+pub use advise::Tried;
 pub use error::TelescopeRunError;
-pub use outcome::{Impossible, Outcome, Prepared, Remedy};
 
 use crate::base::verdict::Verdict;
 use crate::base::watch::Watch;
 use crate::job::telescope::TelescopeJob;
+use crate::sheet::telescope::TelescopeSheet;
+use crate::wing::Outcome;
 
 /// Prepares a telescope to its end: a kit with its checklist, or the reason why there is none.
 ///
-/// Nothing is written: [`Prepared::kit`] is in memory. The same job gives the same bytes on any
-/// number of threads.
+/// Nothing is written: the kit ([`crate::wing::Prepared`]) is in memory. The same job gives the
+/// same bytes on any number of threads.
 ///
 /// # Errors
 /// An error means that no answer was reached: the curve cannot be read, the job contradicts itself,
 /// the caller stopped the run. A curve that no telescope follows is an answer.
-pub fn prepare(job: &TelescopeJob, watch: &Watch) -> Result<Outcome, TelescopeRunError> {
+pub fn prepare(
+    job: &TelescopeJob,
+    watch: &Watch,
+) -> Result<Outcome<TelescopeSheet, Tried>, TelescopeRunError> {
     let shop = load::shop(job, watch)?;
     let curve = load::curve(job, &shop)?;
     let asked = asked::measure(job, &shop, &curve)?;

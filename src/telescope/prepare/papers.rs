@@ -1,18 +1,19 @@
 //! The kit in memory: its files, its checklist and its pages.
 
+use std::path::Path;
+
 use super::asked::Asked;
 use super::error::TelescopeRunError;
 use super::files::{packages, telescope_toml};
-use super::judge::{Draft, json};
-use super::outcome::Prepared;
+use super::judge::Draft;
 use super::scene::pictures;
-use crate::base::digest::sha256_hex;
 use crate::base::watch::{Phase, Watch};
+use crate::job::ModelChoice;
 use crate::kit::Kit;
 use crate::page::{TelescopePage, telescope_certificate, telescope_job};
-use crate::verify::{
-    CERTIFICATE_FILE, CHECKLIST_FILE, CURVE_FILE, MOTION_FILE, SHEET_FILE, SUMS_FILE, sums,
-};
+use crate::sheet::telescope::TelescopeSheet;
+use crate::verify::{CERTIFICATE_FILE, CURVE_FILE, MODEL_FOLDER, MOTION_FILE, SHEET_FILE};
+use crate::wing::{Papers, Prepared};
 
 /// File of the job in a kit.
 const JOB: &str = "job.toml";
@@ -20,9 +21,12 @@ const JOB: &str = "job.toml";
 const TELESCOPE: &str = "telescope.toml";
 
 /// Puts a judged kit together, with its pages.
-pub fn finish(asked: &Asked, draft: Draft, watch: &Watch) -> Result<Prepared, TelescopeRunError> {
+pub fn finish(
+    asked: &Asked,
+    draft: Draft,
+    watch: &Watch,
+) -> Result<Prepared<TelescopeSheet>, TelescopeRunError> {
     watch.enter(Phase::Report);
-    let mut sheet = draft.sheet;
     let pictures = pictures(&draft.made, watch)?;
     let mut kit = Kit::default();
     for part in &draft.made.parts {
@@ -33,29 +37,24 @@ pub fn finish(asked: &Asked, draft: Draft, watch: &Watch) -> Result<Prepared, Te
     }
     kit.add(MOTION_FILE, draft.motion_json.into_bytes());
     kit.add(CURVE_FILE, draft.curve_csv.into_bytes());
-    kit.add(TELESCOPE, telescope_toml(&sheet)?.into_bytes());
-    let mut job = asked.job.clone();
-    job.curve.sha256.clone_from(&asked.sha256);
+    kit.add(TELESCOPE, telescope_toml(&draft.sheet)?.into_bytes());
+    let mut job = asked.job.in_kit();
+    if let Some(file) = &asked.file {
+        job.curve.sha256 = Some(file.sha256.clone());
+        let copy = ModelChoice::copy_name(Path::new(&job.curve.source), &job.name());
+        kit.add(&format!("{MODEL_FOLDER}{copy}"), file.bytes.clone());
+    }
     kit.add(JOB, job.to_toml()?.into_bytes());
     for picture in &pictures {
         kit.add(&picture.file, picture.bytes());
     }
     watch.check()?;
-    let hashed = |(file, bytes): (&str, &[u8])| (file.to_owned(), sha256_hex(&[bytes]));
-    sheet.files = kit.files().map(hashed).collect();
-    let text = json(CHECKLIST_FILE, &sheet)?;
-    let sha256 = sha256_hex(&[text.as_bytes()]);
-    kit.add(CHECKLIST_FILE, text.into_bytes());
+    let papers = Papers::listed(kit, draft.sheet)?;
     let page = TelescopePage {
-        sheet: &sheet,
-        sha256: &sha256,
+        sheet: &papers.sheet,
+        sha256: &papers.sha256,
         pictures: &pictures,
     };
-    kit.add(SHEET_FILE, telescope_job(&page).into_bytes());
-    kit.add(CERTIFICATE_FILE, telescope_certificate(&page).into_bytes());
-    kit.add(SUMS_FILE, sums(kit.files()).into_bytes());
-    Ok(Prepared {
-        kit,
-        checklist: sheet,
-    })
+    let (job, certificate) = (telescope_job(&page), telescope_certificate(&page));
+    Ok(papers.sealed([(SHEET_FILE, job), (CERTIFICATE_FILE, certificate)]))
 }

@@ -158,8 +158,8 @@ fn material(asked: &Asked) -> TelescopeMaterial {
 
 fn curve(asked: &Asked) -> CurveRow {
     CurveRow {
-        source: asked.job.curve.source.clone(),
-        sha256: asked.sha256.clone(),
+        source: asked.job.in_kit().curve.source,
+        sha256: asked.file.as_ref().map(|file| file.sha256.clone()),
         length_mm: asked.curve.length_mm(),
     }
 }

@@ -30,6 +30,4 @@ pub use promise::{
     CutSheetPromise, EdgePromise, FastenerKind, FastenerPromise, GluePromise, HolePromise,
     PanelPromise, PanelsFile, PlacedPanel, UnitPromise,
 };
-pub use reading::{
-    CORE_CERTIFICATE_FILE, CoreJudgement, MODEL_FILE, PANELS_FILE, is_core, verify_core,
-};
+pub use reading::{CORE_CERTIFICATE_FILE, MODEL_FILE, PANELS_FILE, verify_core};

@@ -24,7 +24,4 @@ pub use motion::{JointMotion, MotionKey, ShellMotion, TelescopeMotion};
 pub use promise::{
     BalancePromise, DeviationPromise, JointPromise, TelescopePartPromise, TelescopePromise,
 };
-pub use reading::{
-    CURVE_FILE, MOTION_FILE, TelescopeJudgement, TelescopeVerifyError, asked_points, is_telescope,
-    verify_telescope,
-};
+pub use reading::{CURVE_FILE, MOTION_FILE, TelescopeVerifyError, asked_points, verify_telescope};
