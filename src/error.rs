@@ -1,6 +1,10 @@
 //! The union of the stages' errors.
 
+mod graded;
+
 use std::path::PathBuf;
+
+pub use graded::GradedError;
 
 use crate::ballast::{BallastError, Order};
 use crate::base::setting::{Key, Setting};
@@ -135,6 +139,9 @@ pub enum Error {
         /// The filling.
         fill: Filling,
     },
+    /// The print cannot be graded.
+    #[error(transparent)]
+    Graded(#[from] GradedError),
     /// The surface of the voids cannot be made.
     #[error(transparent)]
     Voids(VoidError),

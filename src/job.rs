@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Deserializer, Serialize, de::Error as _};
 
-pub use choices::{CutMode, IdStyle, ModelUnit, PartFormat, PinStyle};
+pub use choices::{CutMode, IdStyle, Interior, ModelUnit, PartFormat, PinStyle};
 pub use effort::Effort;
 pub use filling::Filling;
 pub use slicer::SlicerChoice;
@@ -89,6 +89,9 @@ pub struct Job {
     /// The filling of the voids; air if the key is missing.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fill: Option<Filling>,
+    /// The inside of the print; hollow if the key is missing.
+    #[serde(default = "default_interior", skip_serializing_if = "Interior::is_hollow")]
+    pub interior: Interior,
     /// The repairs of the model asked for; those that everyone gets if the key is missing.
     #[serde(default, skip_serializing_if = "RepairOrder::is_auto")]
     pub repair: RepairOrder,
@@ -241,6 +244,7 @@ impl Job {
             format: PartFormat::Both,
             ballast: Order::None,
             fill: None,
+            interior: Interior::Hollow,
             repair: RepairOrder::default(),
             model,
             printer,
@@ -264,6 +268,11 @@ impl Job {
     /// Returns the file that the model is read from.
     pub fn model_file(&self) -> &Path {
         self.model_copy.as_ref().unwrap_or(&self.model.path)
+    }
+
+    /// Returns true if nothing but air goes into the voids.
+    pub fn is_plain(&self) -> bool {
+        self.fill.is_none() && self.ballast.is_none() && self.interior.is_hollow()
     }
 
     /// Reads the job in the file at `path`.
@@ -321,6 +330,10 @@ fn default_pins() -> PinStyle {
 
 fn default_seam() -> SeamStyle {
     SeamStyle::Hidden
+}
+
+fn default_interior() -> Interior {
+    Interior::Hollow
 }
 
 fn default_effort() -> Effort {
@@ -393,6 +406,7 @@ mod tests {
         other.cut = CutMode::Never;
         other.seam = SeamStyle::Level;
         other.effort = Effort::Thorough;
+        other.interior = Interior::Graded;
         other.least_part = "5%".parse().unwrap();
         other.repair = "remesh:0.1mm,fill".parse().unwrap();
         other.keep_clear = vec!["1,2.5,-3,4".parse().unwrap(), "0,0,9,1".parse().unwrap()];

@@ -76,6 +76,8 @@ pub fn render_pictures(subject: &Subject, watch: &Watch) -> Result<Vec<Picture>,
     let mut whole = model(&outer, &view, upright_caption(subject.aim.kind));
     whole.shot.scene.items.extend(inserts.rods());
     let mut cut_away = cut_away([&outer, &voids], &view, subject);
+    let region = subject.infill.map(|_| voids.reversed());
+    cut_away.shot.scene.items.extend(region.iter().map(infilled));
     cut_away.shot.scene.items.extend(inserts.rods());
     cut_away.shot.scene.items.extend(inserts.lumps());
     let apart = Apart::of(&in_place, &partings);
@@ -184,9 +186,16 @@ fn cut_away<'a>(
     view: &Viewpoint,
     subject: &Subject,
 ) -> Draft<'a> {
+    let is_infilled = subject.infill.is_some();
+    let inside = if is_infilled {
+        "Sparse infill is pale blue, with crossed stripes."
+    } else {
+        "The surfaces of the voids inside are blue."
+    };
     let keys = [
         (true, Key::Cut(Hatch::PRINTED), "material"),
-        (true, Key::Void, "void"),
+        (!is_infilled, Key::Void, "void"),
+        (is_infilled, Key::Cut(Hatch::SPARSE), "sparse infill"),
         (
             !subject.hardware.is_empty(),
             Key::Cut(Hatch::RODS),
@@ -202,9 +211,9 @@ fn cut_away<'a>(
         file: "pictures/cut-away.svg".to_owned(),
         role: Role::CutAway,
         caption: "Cut open from top to bottom.".to_owned(),
-        alt: "The object cut open, its front half taken away. Cut faces are striped: material orange, hardware and ballast grey. The \
-              surfaces of the voids inside are blue."
-            .to_owned(),
+        alt: format!(
+            "The object cut open, its front half taken away. Cut faces are striped: material orange, hardware and ballast grey. {inside}"
+        ),
         shot: Shot {
             scene: Scene {
                 items: vec![Item::new(outer, BODY), Item::new(voids, VOID)],
@@ -219,6 +228,14 @@ fn cut_away<'a>(
                 .map(|(_, key, words)| (key, words))
                 .collect(),
         },
+    }
+}
+
+/// Returns a region of sparse infill as it is drawn.
+fn infilled(region: &TriMesh) -> Item<'_> {
+    Item {
+        hatch: Hatch::SPARSE,
+        ..Item::new(region, VOID)
     }
 }
 

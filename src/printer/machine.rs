@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use super::{ExcludedCorner, Material, MaterialError, Quantity, Sourced, error::suggest};
+use super::{ExcludedCorner, InfillPattern, Material, MaterialError, Quantity, Sourced, error::suggest};
 
 /// The steps of a printer's grid in x and y.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -149,6 +149,9 @@ pub struct Printer {
     /// True if the machine or its software compensates shrinkage; `None` if that is unknown, which
     /// counts as true.
     pub compensates_shrinkage: Option<Sourced<bool>>,
+    /// The pattern of sparse infill; `None` for a printer without infill.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub infill: Option<InfillPattern>,
     /// The thinnest wall that prints and survives cleaning.
     pub min_wall_mm: Sourced<f64>,
     /// The smallest detail that prints.

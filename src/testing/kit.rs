@@ -169,6 +169,7 @@ fn checklist(evidence: &Evidence, found: &Judgement) -> Checklist {
         foot: None,
         ballast: Vec::new(),
         fill: None,
+        infill: None,
         rounds: Vec::new(),
         checks: found.checks.clone(),
         verdict: Verdict::of(&found.checks),

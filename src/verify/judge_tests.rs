@@ -83,6 +83,7 @@ fn promise(poses: &[Pose]) -> Promise {
         string_gap_mm: None,
         ballast: Vec::new(),
         fill: None,
+        infill: None,
         joints: vec![],
         jigs: Vec::new(),
         plates: Vec::new(),

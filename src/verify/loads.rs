@@ -3,6 +3,7 @@
 use super::ballast::{ballast_moments, fill_moments};
 use super::hardware::mass_moments;
 use super::joints::film_moments;
+use super::sparse::sparse_moments;
 use super::{Body, Promise, Setting};
 use crate::mass::Moments;
 
@@ -13,6 +14,8 @@ pub(super) struct Loads {
     pub(super) inside: Moments,
     /// Glue and dowels in the joints.
     pub(super) joined: Moments,
+    /// Sparse infill. It is printed, though its regions are cavities of the written surfaces.
+    pub(super) sparse: Moments,
 }
 
 impl Loads {
@@ -24,6 +27,7 @@ impl Loads {
         Self {
             inside: ballast_moments(&promise.ballast, density_g_mm3)
                 + fill_moments(promise.fill, &voids, setting.density_g_cm3),
+            sparse: sparse_moments(promise.infill.as_ref(), &voids),
             joined: joined_g * density_g_mm3.recip(),
         }
     }

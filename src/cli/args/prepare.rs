@@ -186,7 +186,7 @@ pub struct PrepareArgs {
 pub const DEFAULT_PLANS: u8 = 3;
 
 /// The arguments that a replayed job decides.
-const DECIDED_BY_JOB: [&str; 39] = [
+const DECIDED_BY_JOB: [&str; 40] = [
     "slicer",
     "printer",
     "material",
@@ -225,6 +225,7 @@ const DECIDED_BY_JOB: [&str; 39] = [
     "format",
     "ballast",
     "fill",
+    "interior",
     "repair",
 ];
 
@@ -313,6 +314,7 @@ impl PrepareArgs {
             pitch: self.pitch,
             cut,
             plan,
+            interior: self.cutting.interior.unwrap_or(default.interior),
             seam: self.cutting.seam.unwrap_or(default.seam),
             keep_clear,
             least_part: self.cutting.least_part.unwrap_or(default.least_part),

@@ -113,9 +113,10 @@ struct Weighing {
 impl Weighing {
     fn new(evidence: &Evidence, body: &Body) -> Self {
         let setting = Setting::new(&evidence.promise, &body.outer);
+        let loads = Loads::of(&evidence.promise, body, &setting);
         Self {
-            loads: Loads::of(&evidence.promise, body, &setting),
-            written: assembly_moments(&evidence.parts),
+            written: assembly_moments(&evidence.parts) + loads.sparse,
+            loads,
             setting,
         }
     }
@@ -128,7 +129,7 @@ impl Weighing {
 
     /// Returns the figures of the uncut result with its ballast.
     fn model(&self, body: &Body) -> Figures {
-        let solid = moments_of_mesh(&body.welded);
+        let solid = moments_of_mesh(&body.welded) + self.loads.sparse;
         Figures::with_load(&solid, &self.loads.inside, &self.setting)
     }
 }
@@ -147,9 +148,13 @@ fn catalogue(evidence: &Evidence) -> Catalogue<'_> {
     let scale_ratio = promise.printer.print_scale_ratio;
     let parts = evidence.parts.iter().map(|part| (part, false));
     let jigs = evidence.jigs.iter().map(|jig| (jig, true));
-    let things = parts
-        .chain(jigs)
-        .map(|(read, is_jig)| Thing::new(read, is_jig, scale_ratio, spot(&read.id)));
+    let things = parts.chain(jigs).map(|(read, is_jig)| {
+        let thing = Thing::new(read, is_jig, scale_ratio, spot(&read.id));
+        match promise.infill.as_ref().filter(|_| !is_jig) {
+            Some(infill) => thing.with_infill(read, infill),
+            None => thing,
+        }
+    });
     Catalogue {
         promise,
         things: things.collect(),

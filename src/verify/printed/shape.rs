@@ -6,7 +6,9 @@ use crate::geom::hull::convex_hull;
 use crate::geom::{Aabb, Matrix, Point, Vector};
 use crate::mass::{Moments, moments_of_mesh};
 use crate::mesh::TriMesh;
-use crate::verify::{PartEvidence, PlateSpot, Pose};
+use crate::repair::weld;
+use crate::verify::sparse::sparse_moments;
+use crate::verify::{InfillOrder, PartEvidence, PlateSpot, Pose, Shells};
 
 /// A part or jig of the kit, in the coordinates of its file.
 #[derive(Debug, Clone)]
@@ -94,6 +96,19 @@ impl<'a> Thing<'a> {
             area_mm2: area_mm2(&file),
             moments: moments_of_mesh(&file),
             spot,
+        }
+    }
+
+    /// Returns the thing with sparse infill laid in its cavities, and the area of its outside.
+    pub(super) fn with_infill(self, read: &PartEvidence, infill: &InfillOrder) -> Self {
+        let file = read
+            .mesh
+            .map_vertices(|p| p.coords.component_mul(&self.scale_ratio).into());
+        let shells = Shells::of_mesh(&weld(&file));
+        Self {
+            moments: self.moments + sparse_moments(Some(infill), &shells.inner_mesh()),
+            area_mm2: area_mm2(&shells.outer_mesh()),
+            ..self
         }
     }
 
