@@ -90,7 +90,10 @@ pub struct Job {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fill: Option<Filling>,
     /// The inside of the print; hollow if the key is missing.
-    #[serde(default = "default_interior", skip_serializing_if = "Interior::is_hollow")]
+    #[serde(
+        default = "default_interior",
+        skip_serializing_if = "Interior::is_hollow"
+    )]
     pub interior: Interior,
     /// The repairs of the model asked for; those that everyone gets if the key is missing.
     #[serde(default, skip_serializing_if = "RepairOrder::is_auto")]

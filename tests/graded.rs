@@ -115,12 +115,16 @@ fn a_graded_kit_is_one_part_with_its_region_and_keeps_its_promise() {
 #[test]
 fn the_mass_is_that_of_the_solid_less_what_the_region_lacks() {
     let sheet = &bench().sheet;
-    let [volume_mm3, laid] = ["/infill/volume_mm3", "/infill/laid_ratio"].map(|key| number(sheet, key));
+    let [volume_mm3, laid] =
+        ["/infill/volume_mm3", "/infill/laid_ratio"].map(|key| number(sheet, key));
     let density_g_mm3 = number(sheet, "/material/density_g_cm3/value") / 1000.0;
     let solid_g = number(sheet, "/solid/mass_g");
     let expected_g = solid_g - (1.0 - laid) * volume_mm3 * density_g_mm3;
     let mass_g = number(sheet, "/assembly/mass_g");
-    assert!((mass_g / expected_g - 1.0).abs() < 1e-5, "{mass_g} {expected_g}");
+    assert!(
+        (mass_g / expected_g - 1.0).abs() < 1e-5,
+        "{mass_g} {expected_g}"
+    );
 }
 
 #[test]
@@ -148,7 +152,10 @@ fn the_plate_names_the_region_as_prusaslicer_wants_it() {
     };
     assert_eq!(ids(body, "firstid"), 0);
     assert_eq!(ids(body, "lastid") + 1, ids(region, "firstid"));
-    assert_eq!(model.matches("<triangle ").count(), ids(region, "lastid") + 1);
+    assert_eq!(
+        model.matches("<triangle ").count(),
+        ids(region, "lastid") + 1
+    );
 }
 
 #[test]
@@ -172,15 +179,30 @@ fn equal_jobs_give_equal_bytes_and_the_kits_own_job_makes_it_again() {
     let folder = TempDir::new().unwrap();
     let again = folder.path().join("again");
     let job = bench().kit().join("job.toml");
-    assert!(fs::read_to_string(&job).unwrap().contains("interior = \"graded\""));
-    let output = equipoise(&["--json", "prepare", "--job", path(&job), "--out", path(&again)]);
+    assert!(
+        fs::read_to_string(&job)
+            .unwrap()
+            .contains("interior = \"graded\"")
+    );
+    let output = equipoise(&[
+        "--json",
+        "prepare",
+        "--job",
+        path(&job),
+        "--out",
+        path(&again),
+    ]);
     assert_exit(&output, 0);
     assert_eq!(files(&again), files(&bench().kit()));
 }
 
 #[test]
 fn what_one_closed_piece_cannot_have_is_refused_with_a_remedy() {
-    let with = |options: &str| refuse(&format!("--goal top --size 60mm --interior graded {options}"));
+    let with = |options: &str| {
+        refuse(&format!(
+            "--goal top --size 60mm --interior graded {options}"
+        ))
+    };
     for (options, named) in [
         ("--printer formlabs-form4", "without infill"),
         ("--printer objet-connex350", "without infill"),
@@ -194,7 +216,11 @@ fn what_one_closed_piece_cannot_have_is_refused_with_a_remedy() {
     }
     let folder = TempDir::new().unwrap();
     let cuts = folder.path().join("cuts.toml");
-    fs::write(&cuts, "[[cuts]]\nid = \"C1\"\npoint_mm = [0.0, 0.0, 0.0]\nnormal = [0.0, 0.0, 1.0]\n").unwrap();
+    fs::write(
+        &cuts,
+        "[[cuts]]\nid = \"C1\"\npoint_mm = [0.0, 0.0, 0.0]\nnormal = [0.0, 0.0, 1.0]\n",
+    )
+    .unwrap();
     let said = with(&format!("--printer prusa-mk4 --cut {}", path(&cuts)));
     assert!(said.contains("cuts are ordered"), "{said}");
 }
@@ -230,16 +256,50 @@ fn the_toolpaths_of_a_real_slicer_keep_the_promise_and_lost_regions_are_told() {
     let off_mm = number(part, "/center_off_mm");
     assert!(off_mm < 0.1, "{off_mm}");
     // Sliced from the part's file alone, the region is solid.
-    let part = bench.sheet.pointer("/parts/0/file").unwrap().as_str().unwrap();
+    let part = bench
+        .sheet
+        .pointer("/parts/0/file")
+        .unwrap()
+        .as_str()
+        .unwrap();
     let wrong = bench.folder.join("wrong.gcode");
     let sliced = Command::new("prusa-slicer")
-        .args(["--export-gcode", "--fill-density", "100%", "--fill-pattern", "rectilinear"])
-        .args(["--layer-height", "0.2", "--first-layer-height", "0.2", "--perimeters", "2"])
-        .args(["--gcode-label-objects", "--filament-density", "1.24", "--center", "125,105"])
-        .args(["--extrusion-width", "0.45", "-o", path(&wrong), path(&kit.join(part))])
+        .args([
+            "--export-gcode",
+            "--fill-density",
+            "100%",
+            "--fill-pattern",
+            "rectilinear",
+        ])
+        .args([
+            "--layer-height",
+            "0.2",
+            "--first-layer-height",
+            "0.2",
+            "--perimeters",
+            "2",
+        ])
+        .args([
+            "--gcode-label-objects",
+            "--filament-density",
+            "1.24",
+            "--center",
+            "125,105",
+        ])
+        .args([
+            "--extrusion-width",
+            "0.45",
+            "-o",
+            path(&wrong),
+            path(&kit.join(part)),
+        ])
         .output();
     assert!(sliced.unwrap().status.success());
     let output = equipoise(&["verify", path(&kit), "--gcode", path(&wrong)]);
     assert_exit(&output, 1);
-    assert!(printed(&output).contains("region of sparse infill is lost"), "{}", printed(&output));
+    assert!(
+        printed(&output).contains("region of sparse infill is lost"),
+        "{}",
+        printed(&output)
+    );
 }

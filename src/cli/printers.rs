@@ -10,9 +10,7 @@ use super::profiles::{self, ProfilesError};
 use super::show::table;
 use super::values::{kebab, show_box, show_number};
 use crate::base::units::{show_mm, show_percent};
-use crate::printer::{
-    InfillPattern, Printer, ProfileError, Quantity, Sourced, Sure, Unknown,
-};
+use crate::printer::{InfillPattern, Printer, ProfileError, Quantity, Sourced, Sure, Unknown};
 
 /// A reason why `printers` could not run.
 #[derive(Debug, thiserror::Error)]

@@ -94,9 +94,7 @@ mod tests {
             GradedError::Filling {
                 fill: "2.3".parse().unwrap(),
             },
-            GradedError::Ballast {
-                order: Order::Auto,
-            },
+            GradedError::Ballast { order: Order::Auto },
             GradedError::Halves,
             GradedError::Cavities,
         ];
@@ -104,7 +102,10 @@ mod tests {
             let words = refusal.to_string();
             assert!(words.contains("`interior = \"graded\"`"), "{words}");
             assert!(words.contains("remedy: "), "{words}");
-            assert!(words.ends_with("hollow the print (`interior = \"hollow\"`)"), "{words}");
+            assert!(
+                words.ends_with("hollow the print (`interior = \"hollow\"`)"),
+                "{words}"
+            );
         }
     }
 }

@@ -77,7 +77,11 @@ pub fn render_pictures(subject: &Subject, watch: &Watch) -> Result<Vec<Picture>,
     whole.shot.scene.items.extend(inserts.rods());
     let mut cut_away = cut_away([&outer, &voids], &view, subject);
     let region = subject.infill.map(|_| voids.reversed());
-    cut_away.shot.scene.items.extend(region.iter().map(infilled));
+    cut_away
+        .shot
+        .scene
+        .items
+        .extend(region.iter().map(infilled));
     cut_away.shot.scene.items.extend(inserts.rods());
     cut_away.shot.scene.items.extend(inserts.lumps());
     let apart = Apart::of(&in_place, &partings);

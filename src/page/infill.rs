@@ -16,7 +16,7 @@ pub(super) fn orders(sheet: &Checklist, infill: &InfillOrder) -> Markup {
         li {
             strong { "One piece, two infills: " }
             "the object is 100 % rectilinear infill; the region inside it is " (percent) " "
-            (infill.pattern) ", without anchors. The plate sets both. Line width "
+            (infill.pattern) ". The plate sets both. Line width "
             (quantity(printer.pixel_mm[0], "mm")) ", layers of " (quantity(printer.layer_mm, "mm"))
             ". Do not change them: the balance depends on them."
         }
@@ -103,7 +103,13 @@ mod tests {
     fn the_orders_name_the_pattern_the_density_and_the_file_of_the_region() {
         let (sheet, infill) = graded();
         let words = orders(&sheet, &infill).into_string();
-        for said in ["15", "gyroid", "bunny_15percent.stl", "PrusaSlicer", "Not tried"] {
+        for said in [
+            "15",
+            "gyroid",
+            "bunny_15percent.stl",
+            "PrusaSlicer",
+            "Not tried",
+        ] {
             assert!(words.contains(said), "{said}: {words}");
         }
     }

@@ -3,7 +3,8 @@
 use crate::geom::{Parting, Plane};
 use crate::mesh::TriMesh;
 use crate::verify::{
-    Aim, BallastOrder, Hardware, HardwareKind, InfillOrder, PartEvidence, Peg, PromisedJig, PromisedPart, Shells,
+    Aim, BallastOrder, Hardware, HardwareKind, InfillOrder, PartEvidence, Peg, PromisedJig,
+    PromisedPart, Shells,
 };
 
 /// The subject of the pictures.

@@ -41,7 +41,10 @@ pub fn remedies(
 ) -> Result<Impossible, Error> {
     if placed.fill != Fill::AIR {
         // The searches know of air only.
-        let hints = impossible.hints.into_iter().chain(hollow_hint(placed, watch)?);
+        let hints = impossible
+            .hints
+            .into_iter()
+            .chain(hollow_hint(placed, watch)?);
         return Ok(Impossible {
             hints: hints.collect(),
             ..impossible

@@ -46,7 +46,9 @@ pub fn goal(job: &Job, model: Model, shop: Shop, watch: &Watch) -> Result<Placed
     let mut bound = job.clone();
     bound.model.sha256 = Some(model.sha256.clone());
     let sparse = graded::sparse_print(job, &shop.printer)?;
-    let laid = sparse.as_ref().and_then(|sparse| Fill::new(sparse.laid_ratio));
+    let laid = sparse
+        .as_ref()
+        .and_then(|sparse| Fill::new(sparse.laid_ratio));
     let placed = Placed {
         fill: match laid {
             Some(laid) => laid,

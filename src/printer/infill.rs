@@ -22,7 +22,10 @@ impl InfillPattern {
     pub fn laid_ratio(&self, nominal_ratio: f64) -> f64 {
         let rows = &self.core_ratio.value;
         let above = rows.partition_point(|[nominal, _]| *nominal < nominal_ratio);
-        match (above.checked_sub(1).map(|below| rows[below]), rows.get(above)) {
+        match (
+            above.checked_sub(1).map(|below| rows[below]),
+            rows.get(above),
+        ) {
             (Some([from, laid]), Some([to, more])) => {
                 laid + (more - laid) * (nominal_ratio - from) / (to - from)
             }
@@ -85,8 +88,17 @@ mod tests {
     #[test]
     fn a_density_between_two_rows_lies_on_the_line_between_them() {
         let infill = table(&[[0.1, 0.09], [0.2, 0.19], [0.5, 0.46]]);
-        for (nominal, laid) in [(0.1, 0.09), (0.15, 0.14), (0.2, 0.19), (0.35, 0.325), (0.5, 0.46)] {
-            assert!((infill.laid_ratio(nominal) - laid).abs() < 1e-12, "{nominal}");
+        for (nominal, laid) in [
+            (0.1, 0.09),
+            (0.15, 0.14),
+            (0.2, 0.19),
+            (0.35, 0.325),
+            (0.5, 0.46),
+        ] {
+            assert!(
+                (infill.laid_ratio(nominal) - laid).abs() < 1e-12,
+                "{nominal}"
+            );
         }
     }
 

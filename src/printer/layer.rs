@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use toml::Spanned;
 
 use super::{
-    ExcludedCorner, Grid, InfillPattern, Material, PrintPose, Quantity, SizedWall, Sourced, Support,
-    profile::ProfileText, reader::Reader,
+    ExcludedCorner, Grid, InfillPattern, Material, PrintPose, Quantity, SizedWall, Sourced,
+    Support, profile::ProfileText, reader::Reader,
 };
 
 /// An id that a profile refers to.

@@ -4,7 +4,9 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use super::{ExcludedCorner, InfillPattern, Material, MaterialError, Quantity, Sourced, error::suggest};
+use super::{
+    ExcludedCorner, InfillPattern, Material, MaterialError, Quantity, Sourced, error::suggest,
+};
 
 /// The steps of a printer's grid in x and y.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]

@@ -149,7 +149,11 @@ impl<'a> Reader<'a> {
         let (key, at) = ("infill_core_ratio", table.span().start);
         let range = INFILL_RATIOS;
         let core_ratio = self.check(Entry { key, at, range }, table.get_ref().clone());
-        let rows = table.get_ref().value.iter().flat_map(|rows| rows.windows(2));
+        let rows = table
+            .get_ref()
+            .value
+            .iter()
+            .flat_map(|rows| rows.windows(2));
         for rows in rows.filter(|rows| rows[0][0] >= rows[1][0]) {
             let problem = Problem::Contradiction {
                 key: key.to_owned(),

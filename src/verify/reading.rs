@@ -39,7 +39,10 @@ pub(super) fn read_evidence(folder: &Path, promise: Promise) -> Result<Evidence,
             pose,
         })
     };
-    let region = promise.infill.as_ref().and_then(|infill| infill.file.as_ref());
+    let region = promise
+        .infill
+        .as_ref()
+        .and_then(|infill| infill.file.as_ref());
     let parts = promise.parts.par_iter();
     let parts = parts.map(|part| {
         let whole = read(&part.id, &part.file, part.print_from_model)?;

@@ -127,7 +127,10 @@ impl Printed<'_> {
         let infill = self.promise.infill.as_ref()?;
         let is_solid = |part: &PrintedPart| part.sparse_ratio < SPARSE_RATIO;
         let parts = self.those(|part| wrong_ratio(part, self.promise) > 0.0 && is_solid(part));
-        let finding = format!("{} solid: the region of sparse infill is lost", are(&ids(&parts)));
+        let finding = format!(
+            "{} solid: the region of sparse infill is lost",
+            are(&ids(&parts))
+        );
         let percent = 100.0 * infill.nominal_ratio;
         let remedy = format!(
             "slice the kit's plate with PrusaSlicer, or add {} to the part as a modifier with \

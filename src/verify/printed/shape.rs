@@ -99,7 +99,8 @@ impl<'a> Thing<'a> {
         }
     }
 
-    /// Returns the thing with sparse infill laid in its cavities, and the area of its outside.
+    /// Returns the thing with sparse infill laid in its cavities. Lines end at their walls as at
+    /// the outside, so that both count as its surface.
     pub(super) fn with_infill(self, read: &PartEvidence, infill: &InfillOrder) -> Self {
         let file = read
             .mesh
@@ -107,7 +108,6 @@ impl<'a> Thing<'a> {
         let shells = Shells::of_mesh(&weld(&file));
         Self {
             moments: self.moments + sparse_moments(Some(infill), &shells.inner_mesh()),
-            area_mm2: area_mm2(&shells.outer_mesh()),
             ..self
         }
     }
