@@ -94,7 +94,7 @@ mod tests {
         };
         let sheet = Checklist {
             infill: Some(infill.clone()),
-            ..sample()
+            ..sample().0
         };
         (sheet, infill)
     }

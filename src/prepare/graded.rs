@@ -4,13 +4,12 @@ use crate::ballast::Load;
 use crate::base::setting::{Key, Setting};
 use crate::base::verdict::Verdict;
 use crate::base::watch::Watch;
-use crate::cut::Hollowed;
 use crate::error::{Error, GradedError};
 use crate::hollow::Fill;
 use crate::job::{Interior, Job};
+use crate::mesh::{TriMesh, shells};
 use crate::printer::{Printer, SparsePrint};
 use crate::run::Placed;
-use crate::voids::VoidError;
 
 use super::levels::with_load;
 
@@ -49,12 +48,11 @@ pub fn refuse_pieces(placed: &Placed) -> Result<(), Error> {
     if placed.string_gap_mm().is_some() {
         return Err(GradedError::Halves.into());
     }
-    let given = Hollowed::of_solid(placed.solid()).map_err(VoidError::from)?;
-    if given.voids.is_empty() {
-        Ok(())
-    } else {
-        Err(GradedError::Cavities.into())
+    let faces_inward = |shell: &TriMesh| shell.signed_volume_mm3() < 0.0;
+    if shells(placed.solid().mesh()).iter().any(faces_inward) {
+        return Err(GradedError::Cavities.into());
     }
+    Ok(())
 }
 
 /// Returns the hint that voids do what sparse infill does not, if a solve confirms it.

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::{Printer, Quantity, Sourced};
+use super::Sourced;
 
 /// A pattern of sparse infill, with what slicers lay of it.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -55,23 +55,10 @@ impl SparsePrint {
     }
 }
 
-impl Printer {
-    /// Returns the sparsest print with infill; `None` for a printer without infill.
-    pub fn sparsest_print(&self) -> Option<SparsePrint> {
-        let infill = self.infill.as_ref()?;
-        let nominal_ratio = self.number(Quantity::LeastInfillRatio)?.value;
-        Some(SparsePrint {
-            pattern: infill.pattern.clone(),
-            nominal_ratio,
-            laid_ratio: infill.laid_ratio(nominal_ratio),
-        })
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::printer::Sure;
+    use crate::printer::{Printer, Sure};
 
     fn table(rows: &[[f64; 2]]) -> InfillPattern {
         InfillPattern {

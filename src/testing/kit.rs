@@ -81,6 +81,7 @@ pub fn sample_pictures(sheet: &Checklist, evidence: &Evidence) -> (Vec<Picture>,
         ..
     } = &evidence.promise;
     let subject = Subject {
+        infill: None,
         jigs: &evidence.jigs,
         promised_jigs: &evidence.promise.jigs,
         shells: &shells,

@@ -6,7 +6,7 @@ use std::ops::Range;
 
 use quick_xml::escape::escape;
 
-use super::sparse::Infill;
+use super::sparse::{Infill, Pair};
 use crate::mesh::{BRIM_MM, GOOD_FOOT_MM2};
 
 /// Path of PrusaSlicer's settings; SuperSlicer reads them too.
@@ -52,9 +52,6 @@ impl Subject<'_> {
         brim.into_iter().filter(|_| is_needed).collect()
     }
 }
-
-/// A setting: its name and its value.
-pub(super) type Pair = (&'static str, String);
 
 /// Support that takes little material, in PrusaSlicer's words: it follows the overhang, has no
 /// sheath, and ends in two dense layers.
