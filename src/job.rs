@@ -4,6 +4,7 @@ mod choices;
 pub mod core_kit;
 mod effort;
 mod filling;
+mod sliced;
 mod slicer;
 pub mod telescope;
 
@@ -14,6 +15,7 @@ use serde::{Deserialize, Deserializer, Serialize, de::Error as _};
 pub use choices::{CutMode, IdStyle, Interior, ModelUnit, PartFormat, PinStyle};
 pub use effort::Effort;
 pub use filling::Filling;
+pub use sliced::SlicedRound;
 pub use slicer::SlicerChoice;
 
 use crate::ballast::Order;
@@ -108,6 +110,9 @@ pub struct Job {
     /// The balls that no seam enters; none if the key is missing.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub keep_clear: Vec<KeepClear>,
+    /// The rounds in which the graded kit was sliced; the last one holds. None if the key is missing.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub sliced: Vec<SlicedRound>,
     /// The cuts and pins that the user ordered, in place of the planner's.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub plan: Option<CutOrder>,
@@ -253,6 +258,7 @@ impl Job {
             printer,
             goal,
             keep_clear: Vec::new(),
+            sliced: Vec::new(),
             plan: None,
             model_copy: None,
         }
@@ -410,6 +416,10 @@ mod tests {
         other.seam = SeamStyle::Level;
         other.effort = Effort::Thorough;
         other.interior = Interior::Graded;
+        other.sliced = vec![SlicedRound {
+            miss_mm: 0.0317,
+            beyond: [460.1, -3.0, 0.1 + 0.2, 0.0, 1e-7, 2.0, 3.0, 4e9, 5.0, 6.0],
+        }];
         other.least_part = "5%".parse().unwrap();
         other.repair = "remesh:0.1mm,fill".parse().unwrap();
         other.keep_clear = vec!["1,2.5,-3,4".parse().unwrap(), "0,0,9,1".parse().unwrap()];

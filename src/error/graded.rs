@@ -58,6 +58,19 @@ pub enum GradedError {
         hollow()
     )]
     Halves,
+    /// Only graded prints are solved again with their toolpaths.
+    #[error(
+        "the toolpaths of a hollow kit are not solved for; remedy: order one piece (`{}`), or \
+         slice the kit by itself",
+        graded()
+    )]
+    Hollow,
+    /// The toolpaths of a kit lack its part.
+    #[error(
+        "the toolpaths of `{}` lack its part; remedy: slice the kit by itself to see why",
+        graded()
+    )]
+    NotAllLaid,
     /// The model has cavities of its own.
     #[error(
         "the model has cavities, and `{}` prints no void; remedy: fill them (`{}`), or {}",

@@ -90,6 +90,8 @@ mod tests {
             regions: 1,
             volume_mm3: 2000.0,
             mass_g: 0.35,
+            beyond: None,
+            misses_mm: Vec::new(),
             file: Some("modifiers/bunny_15percent.stl".to_owned()),
         };
         let sheet = Checklist {

@@ -14,12 +14,14 @@ mod place;
 pub mod plans;
 mod reason;
 mod rotor;
+mod rounds;
 mod slice;
 mod solve;
 mod upright;
 mod waterline;
 
 pub use outcome::{Failure, Impossible, Outcome, Prepared};
+pub use rounds::{SlicedOutcome, prepare_sliced};
 pub use slice::time_kit;
 
 use crate::ballast::Order;

@@ -252,7 +252,10 @@ pub(super) fn restate_before_rounding(findings: &Findings) -> Value {
 fn part_row(findings: &Findings, part: usize, facts: &PartFacts) -> Value {
     let promise = &findings.evidence.promise;
     let density = promise.material.density_g_cm3;
-    let infill_g = promise.infill.as_ref().map_or(0.0, |infill| infill.mass_g);
+    let infill_g = promise
+        .infill
+        .as_ref()
+        .map_or(0.0, |infill| infill.extra_g(density));
     let mut row = json!({
         "id": facts.id,
         "triangles": facts.surface.triangles,

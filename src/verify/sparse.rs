@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::base::units::MM3_PER_CM3;
 use crate::mass::{Moments, moments_of_mesh};
 use crate::mesh::TriMesh;
 
@@ -20,9 +21,28 @@ pub struct InfillOrder {
     pub volume_mm3: f64,
     /// Their mass as laid, g.
     pub mass_g: f64,
+    /// The moments of what a slicer lays beyond this: of 1, x, y, z, xy, yz, xz, x², y², z² in the
+    /// model frame, mm³ to mm⁵. `None` if it was not asked.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub beyond: Option<[f64; 10]>,
+    /// The distances between the centre of the toolpaths and the promised one, round by round, mm.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub misses_mm: Vec<f64>,
     /// The file that bounds them, relative to the kit; `None` if they are in the part's file.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub file: Option<String>,
+}
+
+impl InfillOrder {
+    /// Returns the moments of what a slicer lays beyond surfaces and regions, model frame.
+    pub(super) fn beyond(&self) -> Moments {
+        self.beyond.map_or(Moments::default(), Moments)
+    }
+
+    /// Returns the mass that is laid besides solid print, g.
+    pub fn extra_g(&self, density_g_cm3: f64) -> f64 {
+        self.mass_g + self.beyond().volume() * density_g_cm3 / MM3_PER_CM3
+    }
 }
 
 /// Returns the moments of what is laid in the cavities of a surface, in volumes of solid print.
@@ -49,6 +69,8 @@ mod tests {
             regions: 1,
             volume_mm3: 64.0,
             mass_g: 0.011,
+            beyond: None,
+            misses_mm: Vec::new(),
             file: None,
         };
         let laid = sparse_moments(Some(&order), &region.reversed());

@@ -34,7 +34,8 @@ pub fn part_rows(facts: &Facts) -> Vec<PartRow> {
         let sockets: Vec<Peg> = sockets.collect();
         let volume_mm3 = measured.surface.volume_mm3;
         let infill = infill.as_ref().filter(|_| written.sparse.is_some());
-        let infill_g = infill.map_or(0.0, |infill| infill.mass_g);
+        let density_g_cm3 = facts.placed.density_g_cm3();
+        let infill_g = infill.map_or(0.0, |infill| infill.extra_g(density_g_cm3));
         PartRow {
             id: part.id.to_string(),
             file: written.file.clone(),

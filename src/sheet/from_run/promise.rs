@@ -170,6 +170,13 @@ pub fn infill_order(placed: &Placed, made: &Made) -> Option<InfillOrder> {
         regions: made.hollowed.voids.len(),
         volume_mm3,
         mass_g: sparse.laid_ratio * volume_mm3 * density_g_mm3,
+        beyond: placed.job.sliced.last().map(|round| round.beyond),
+        misses_mm: placed
+            .job
+            .sliced
+            .iter()
+            .map(|round| round.miss_mm)
+            .collect(),
         file: written.file.as_ref().map(|(file, _)| file.clone()),
     })
 }

@@ -21,8 +21,8 @@ use crate::mass::{Moments, moments_of_mesh};
 use crate::verify::changes::find_changes;
 use crate::verify::loads::Loads;
 use crate::verify::{
-    Body, Evidence, Figures, HOLLOWED_FILE, PlateSpot, Promise, Setting, assembly_moments,
-    files_check, read_kit,
+    Body, Evidence, Figures, HOLLOWED_FILE, InfillOrder, PlateSpot, Promise, Setting,
+    assembly_moments, files_check, read_kit,
 };
 
 /// Judges the toolpaths of the kit in `folder`: all plates together, in any order.
@@ -76,17 +76,20 @@ pub(super) fn judge_toolpaths(
     let ids = evidence.parts.iter().map(|part| &part.id);
     let missing: Vec<String> = ids.filter(is_missing).cloned().collect();
     let weighing = Weighing::new(evidence, body);
-    let toolpaths = missing.is_empty().then(|| {
+    let laid = missing.is_empty().then(|| {
         let sum = |sum: Moments, part: &PrintedPart| sum + part.moments_g;
         let mass_g = parts.iter().fold(Moments::default(), sum);
-        weighing.weigh(&(mass_g * weighing.setting.density_g_mm3().recip()))
+        mass_g * weighing.setting.density_g_mm3().recip()
     });
+    let stated = promise.infill.as_ref();
+    let stated = stated.map_or(Moments::default(), InfillOrder::beyond);
     let mut judgement = PrintedJudgement {
         files: describe_files(&catalogue, &matches, sources),
         promise: promise.promise,
         model: weighing.model(body),
         written: weighing.weigh(&weighing.written),
-        toolpaths,
+        toolpaths: laid.map(|laid| weighing.weigh(&laid)),
+        beyond: laid.map(|laid| laid - (weighing.written - stated)),
         causes: find_causes(promise, &parts, &missing, sources),
         notes: write_notes(promise, &matches, &parts, sources),
         checks: Vec::new(),

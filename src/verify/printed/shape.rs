@@ -29,6 +29,8 @@ pub(super) struct Thing<'a> {
     pub(super) area_mm2: f64,
     /// Its moments.
     pub(super) moments: Moments,
+    /// The moments of what its slicer was found to lay beyond them, model frame and nominal size.
+    beyond: Moments,
     /// Its place on a plate; `None` in kits without plates.
     pub(super) spot: Option<&'a PlateSpot>,
 }
@@ -95,6 +97,7 @@ impl<'a> Thing<'a> {
             outline: convex_hull(file.vertices().iter().map(|p| [p.x, p.y]).collect()),
             area_mm2: area_mm2(&file),
             moments: moments_of_mesh(&file),
+            beyond: Moments::default(),
             spot,
         }
     }
@@ -108,6 +111,7 @@ impl<'a> Thing<'a> {
         let shells = Shells::of_mesh(&weld(&file));
         Self {
             moments: self.moments + sparse_moments(Some(infill), &shells.inner_mesh()),
+            beyond: infill.beyond(),
             ..self
         }
     }
@@ -273,7 +277,7 @@ impl<'a> Thing<'a> {
 
     /// Returns its own moments in the model frame and in nominal size.
     pub(super) fn model_moments(&self) -> Moments {
-        self.pose.moments_to_model(&self.unscaled(&self.moments))
+        self.pose.moments_to_model(&self.unscaled(&self.moments)) + self.beyond
     }
 
     /// Takes the scale against shrinkage off moments of the file.
