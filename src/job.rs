@@ -110,7 +110,8 @@ pub struct Job {
     /// The balls that no seam enters; none if the key is missing.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub keep_clear: Vec<KeepClear>,
-    /// The rounds in which the graded kit was sliced; the last one holds. None if the key is missing.
+    /// The rounds in which the graded kit was sliced. The last one holds; none if the key is
+    /// missing.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub sliced: Vec<SlicedRound>,
     /// The cuts and pins that the user ordered, in place of the planner's.

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 pub struct SlicedRound {
     /// The distance between the centre of its toolpaths and the promised one, mm.
     pub miss_mm: f64,
-    /// The moments of what its toolpaths lay beyond the written parts: of 1, x, y, z, xy, yz, xz,
-    /// x², y², z² in the model frame, mm³ to mm⁵.
+    /// The moments of what its toolpaths lay beyond the written parts, in the model frame, mm³ to
+    /// mm⁵. They are those of 1, x, y, z, xy, yz, xz, x², y² and z².
     pub beyond: [f64; 10],
 }

@@ -21,8 +21,8 @@ pub struct InfillOrder {
     pub volume_mm3: f64,
     /// Their mass as laid, g.
     pub mass_g: f64,
-    /// The moments of what a slicer lays beyond this: of 1, x, y, z, xy, yz, xz, x², y², z² in the
-    /// model frame, mm³ to mm⁵. `None` if it was not asked.
+    /// The moments of what a slicer lays beyond this, in the model frame, mm³ to mm⁵. They are
+    /// those of 1, x, y, z, xy, yz, xz, x², y² and z². `None` if it was not asked.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub beyond: Option<[f64; 10]>,
     /// The distances between the centre of the toolpaths and the promised one, round by round, mm.
