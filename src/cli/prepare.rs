@@ -117,7 +117,9 @@ fn run(request: &Request, watch: &Watch) -> Result<Outcome, Error> {
     existing.allows(&request.out)?;
     let outcome = if request.slice {
         let sliced = prepare::prepare_sliced(&request.job, watch)?;
-        say(&rounds_words(&sliced.misses_mm));
+        if !sliced.misses_mm.is_empty() {
+            say(&rounds_words(&sliced.misses_mm));
+        }
         sliced.outcome
     } else {
         prepare::prepare(&request.job, watch)?

@@ -20,7 +20,7 @@ use crate::draw::{
     BALLAST, BODY, HARDWARE, Hatch, Item, Key, Label, PictureError, Scene, Shot, TEXT_PX, VOID,
     convex_section, part_color,
 };
-use crate::geom::{Parting, Point};
+use crate::geom::{Parting, Point, Vector};
 use crate::goal::GoalKind;
 use crate::mesh::TriMesh;
 use crate::sheet::Checklist;
@@ -28,6 +28,8 @@ use crate::sheet::Checklist;
 /// Height of the words on the cover, whose pictures are smaller, pixels: 10 points at 60 mm of
 /// height.
 const COVER_TEXT_PX: f64 = 33.0;
+/// Distance by which a region of infill is drawn inside of its cavity, mm: less than a pixel.
+const INSET_MM: f64 = 0.05;
 
 /// The meshes that are put into the parts, model frame.
 struct Inserts {
@@ -76,7 +78,7 @@ pub fn render_pictures(subject: &Subject, watch: &Watch) -> Result<Vec<Picture>,
     let mut whole = model(&outer, &view, upright_caption(subject.aim.kind));
     whole.shot.scene.items.extend(inserts.rods());
     let mut cut_away = cut_away([&outer, &voids], &view, subject);
-    let region = subject.infill.map(|_| voids.reversed());
+    let region = subject.infill.map(|_| inset(&voids.reversed()));
     cut_away
         .shot
         .scene
@@ -233,6 +235,24 @@ fn cut_away<'a>(
                 .collect(),
         },
     }
+}
+
+/// Returns a region a little smaller than it is. Its walls would else lie in those of its cavity,
+/// and either would be drawn by chance.
+fn inset(region: &TriMesh) -> TriMesh {
+    let mut normals = vec![Vector::zeros(); region.vertices().len()];
+    for (triangle, [a, b, c]) in region.triangles().iter().zip(region.iter_corners()) {
+        let normal = (b - a).cross(&(c - a));
+        for corner in triangle {
+            normals[*corner as usize] += normal;
+        }
+    }
+    let moved = region.vertices().iter().zip(normals);
+    let moved = moved.map(|(p, normal)| match normal.try_normalize(0.0) {
+        Some(normal) => p - normal * INSET_MM,
+        None => *p,
+    });
+    TriMesh::new(moved.collect(), region.triangles().to_vec()).unwrap_or_default()
 }
 
 /// Returns a region of sparse infill as it is drawn.

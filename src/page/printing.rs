@@ -156,7 +156,8 @@ fn load(sheet: &Checklist) -> Markup {
         @if plates.is_empty() { "the part files below" }
         @else {
             @for (index, plate) in plates.iter().enumerate() { @if index > 0 { ", " } code { (plate) } }
-            (all_that_is_on(plates.len())) ", or the part files below one by one"
+            (all_that_is_on(plates.len()))
+            @if sheet.infill.is_none() { ", or the part files below one by one" }
         }
         ". Lengths are in mm; every part lies as in its picture. " (handling(&sheet.printer.process))
     }
