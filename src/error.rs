@@ -1,6 +1,10 @@
 //! The union of the stages' errors.
 
+mod graded;
+
 use std::path::PathBuf;
+
+pub use graded::GradedError;
 
 use crate::ballast::{BallastError, Order};
 use crate::base::setting::{Key, Setting};
@@ -20,9 +24,10 @@ use crate::printer::{MaterialError, ProfileError, SizeError, WallError};
 use crate::repair::NotOneBody;
 use crate::sheet::ChecklistError;
 use crate::shell::ShellError;
+use crate::slice::SliceError;
 use crate::slicer::SlicerError;
 use crate::thin::ThickenError;
-use crate::verify::VerifyError;
+use crate::verify::{PrintedError, VerifyError};
 use crate::voids::VoidError;
 
 /// A reason why a run could not reach an answer. An unmet goal is an answer, not an error.
@@ -135,6 +140,9 @@ pub enum Error {
         /// The filling.
         fill: Filling,
     },
+    /// The print cannot be graded.
+    #[error(transparent)]
+    Graded(#[from] GradedError),
     /// The surface of the voids cannot be made.
     #[error(transparent)]
     Voids(VoidError),
@@ -167,6 +175,12 @@ pub enum Error {
     /// A kit cannot be judged.
     #[error(transparent)]
     Verify(VerifyError),
+    /// A kit cannot be sliced.
+    #[error(transparent)]
+    Slice(SliceError),
+    /// The toolpaths of a kit cannot be judged.
+    #[error(transparent)]
+    Printed(PrintedError),
     /// The caller stopped the run.
     #[error("stopped before the end")]
     Cancelled,
@@ -209,6 +223,8 @@ from_stoppable! {
     CutError => Cut,
     KitError => Kit,
     PictureError => Picture,
+    PrintedError => Printed,
+    SliceError => Slice,
     ThickenError => Thicken,
     VerifyError => Verify,
     VoidError => Voids

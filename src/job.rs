@@ -4,6 +4,7 @@ mod choices;
 pub mod core_kit;
 mod effort;
 mod filling;
+mod sliced;
 mod slicer;
 pub mod telescope;
 
@@ -11,9 +12,10 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Deserializer, Serialize, de::Error as _};
 
-pub use choices::{CutMode, IdStyle, ModelUnit, PartFormat, PinStyle};
+pub use choices::{CutMode, IdStyle, Interior, ModelUnit, PartFormat, PinStyle};
 pub use effort::Effort;
 pub use filling::Filling;
+pub use sliced::SlicedRound;
 pub use slicer::SlicerChoice;
 
 use crate::ballast::Order;
@@ -89,6 +91,12 @@ pub struct Job {
     /// The filling of the voids; air if the key is missing.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fill: Option<Filling>,
+    /// The inside of the print; hollow if the key is missing.
+    #[serde(
+        default = "default_interior",
+        skip_serializing_if = "Interior::is_hollow"
+    )]
+    pub interior: Interior,
     /// The repairs of the model asked for; those that everyone gets if the key is missing.
     #[serde(default, skip_serializing_if = "RepairOrder::is_auto")]
     pub repair: RepairOrder,
@@ -102,6 +110,10 @@ pub struct Job {
     /// The balls that no seam enters; none if the key is missing.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub keep_clear: Vec<KeepClear>,
+    /// The rounds in which the graded kit was sliced. The last one holds; none if the key is
+    /// missing.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub sliced: Vec<SlicedRound>,
     /// The cuts and pins that the user ordered, in place of the planner's.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub plan: Option<CutOrder>,
@@ -262,11 +274,13 @@ impl Job {
             format: PartFormat::Both,
             ballast: Order::None,
             fill: None,
+            interior: Interior::Hollow,
             repair: RepairOrder::default(),
             model,
             printer,
             goal,
             keep_clear: Vec::new(),
+            sliced: Vec::new(),
             plan: None,
             model_copy: None,
         }
@@ -285,6 +299,11 @@ impl Job {
     /// Returns the file that the model is read from.
     pub fn model_file(&self) -> &Path {
         self.model_copy.as_ref().unwrap_or(&self.model.path)
+    }
+
+    /// Returns true if nothing but air goes into the voids.
+    pub fn is_plain(&self) -> bool {
+        self.fill.is_none() && self.ballast.is_none() && self.interior.is_hollow()
     }
 
     /// Reads the job in the file at `path`.
@@ -342,6 +361,10 @@ fn default_pins() -> PinStyle {
 
 fn default_seam() -> SeamStyle {
     SeamStyle::Hidden
+}
+
+fn default_interior() -> Interior {
+    Interior::Hollow
 }
 
 fn default_effort() -> Effort {
@@ -414,6 +437,11 @@ mod tests {
         other.cut = CutMode::Never;
         other.seam = SeamStyle::Level;
         other.effort = Effort::Thorough;
+        other.interior = Interior::Graded;
+        other.sliced = vec![SlicedRound {
+            miss_mm: 0.0317,
+            beyond: [460.1, -3.0, 0.1 + 0.2, 0.0, 1e-7, 2.0, 3.0, 4e9, 5.0, 6.0],
+        }];
         other.least_part = "5%".parse().unwrap();
         other.repair = "remesh:0.1mm,fill".parse().unwrap();
         other.keep_clear = vec!["1,2.5,-3,4".parse().unwrap(), "0,0,9,1".parse().unwrap()];

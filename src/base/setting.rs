@@ -47,6 +47,8 @@ choice! {
         Ballast = "ballast",
         /// The filling of the voids.
         Fill = "fill",
+        /// The inside of the print.
+        Interior = "interior",
         /// The repairs of the model.
         Repair = "repair",
         /// The unit of the model file's numbers.

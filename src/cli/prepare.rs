@@ -115,12 +115,27 @@ fn run(request: &Request, watch: &Watch) -> Result<Outcome, Error> {
         Existing::Keep
     };
     existing.allows(&request.out)?;
-    let outcome = prepare::prepare(&request.job, watch)?;
+    let outcome = if request.slice {
+        let sliced = prepare::prepare_sliced(&request.job, watch)?;
+        if !sliced.misses_mm.is_empty() {
+            say(&rounds_words(&sliced.misses_mm));
+        }
+        sliced.outcome
+    } else {
+        prepare::prepare(&request.job, watch)?
+    };
     if let Outcome::Prepared(prepared) = &outcome {
         let kit = &prepared.kit;
         kit.write_watched(&request.out, existing, watch)?;
     }
     Ok(outcome)
+}
+
+/// Words how far the centre of the toolpaths was off in every round.
+fn rounds_words(misses_mm: &[f64]) -> String {
+    let misses = misses_mm.iter().map(|miss_mm| format!("{miss_mm:.4}"));
+    let misses = misses.collect::<Vec<String>>().join(", ");
+    format!("centre of the toolpaths off the promised one, by round: {misses} mm")
 }
 
 /// Checks what the arguments alone decide: the printer, its material, the size and the wall.

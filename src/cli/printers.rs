@@ -10,7 +10,7 @@ use super::profiles::{self, ProfilesError};
 use super::show::table;
 use super::values::{kebab, show_box, show_number};
 use crate::base::units::{show_mm, show_percent};
-use crate::printer::{Printer, ProfileError, Quantity, Sourced, Sure, Unknown};
+use crate::printer::{InfillPattern, Printer, ProfileError, Quantity, Sourced, Sure, Unknown};
 
 /// A reason why `printers` could not run.
 #[derive(Debug, thiserror::Error)]
@@ -180,7 +180,17 @@ fn plate(printer: &Printer) -> Vec<[String; 4]> {
     }
     let flag = printer.compensates_shrinkage.iter();
     rows.extend(flag.map(|flag| number_row("compensates_shrinkage", flag.value.to_string(), flag)));
+    rows.extend(printer.infill.as_ref().map(infill_row));
     rows
+}
+
+/// Returns the row for what slicers lay of the infill.
+fn infill_row(infill: &InfillPattern) -> [String; 4] {
+    let rows = infill.core_ratio.value.iter();
+    let rows = rows.map(|[nominal, laid]| format!("{nominal}: {laid}"));
+    let value = rows.collect::<Vec<String>>().join(", ");
+    let value = format!("{} {value}", infill.pattern);
+    number_row("infill_core_ratio", value, &infill.core_ratio)
 }
 
 /// Returns the consequence of a value that is not known.

@@ -76,7 +76,8 @@ fn bound_words(checklist: &Checklist) -> String {
     let proof = &checklist.certificate;
     let unit = proof.figure.unit();
     let best = measured(proof.bound, unit);
-    let is_solid = proof.kept_solid_mm3 + proof.bosses_mm3 > 0.0;
+    let is_cut = checklist.infill.is_none();
+    let is_solid = is_cut && proof.kept_solid_mm3 + proof.bosses_mm3 > 0.0;
     let of_what = if is_solid {
         " with these cuts and pins"
     } else {

@@ -1,7 +1,7 @@
 //! The hatching of cut faces. The stripes of printed material, hardware and ballast run in
 //! different directions, so that they differ in grey print and to every colour vision.
 
-use super::palette::{BALLAST, CROSSED, Color, HARDWARE, HATCH, RODS, SECTION};
+use super::palette::{BALLAST, CROSSED, Color, HARDWARE, HATCH, RODS, SECTION, SPARSE, VOID};
 use super::svg::{Drawing, Paint, Spot, Stroke};
 
 /// Period of the stripes in samples of a shaded picture, and how many of them are stripe: finer
@@ -43,6 +43,12 @@ impl Hatch {
         dark: SECTION,
         pale: HATCH,
         stripes: Stripes::Up,
+    };
+    /// Sparse infill.
+    pub const SPARSE: Self = Self {
+        dark: SPARSE,
+        pale: VOID,
+        stripes: Stripes::Crossed,
     };
     /// Axles, tips, stems and dowels.
     pub const RODS: Self = Self {

@@ -22,6 +22,9 @@ pub const SECTION: Color = [213, 94, 0];
 /// The stripes of cut faces of material: pale orange.
 pub const HATCH: Color = [255, 214, 170];
 
+/// The ground of sparse infill: pale blue.
+pub const SPARSE: Color = [226, 241, 251];
+
 /// Hardware: dark grey.
 pub const HARDWARE: Color = [84, 88, 96];
 

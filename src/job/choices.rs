@@ -39,6 +39,23 @@ choice! {
 }
 
 choice! {
+    /// The inside of the print.
+    Interior, "interior" {
+        /// Solid but for voids, which cuts open.
+        Hollow = "hollow",
+        /// One piece without cuts: solid but for regions of sparse infill.
+        Graded = "graded",
+    }
+}
+
+impl Interior {
+    /// Returns true if it is hollow.
+    pub fn is_hollow(&self) -> bool {
+        *self == Self::Hollow
+    }
+}
+
+choice! {
     /// The pins that align the parts.
     PinStyle, "style of pins" {
         /// Pins printed with the parts.

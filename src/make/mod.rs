@@ -2,6 +2,7 @@
 
 mod packages;
 mod parts;
+mod sparse;
 mod write;
 
 pub use packages::{Arrangement, File, Packages, packages, plates, print_settings, repack};

@@ -9,12 +9,12 @@ use crate::cut::PinSite;
 use crate::draw::{Color, part_color};
 use crate::error::Error;
 use crate::geom::{Aabb, Matrix, Point, Vector};
-use crate::io::threemf::{Build, Object, Package, PrintSettings, Transform};
+use crate::io::threemf::{Build, Object, Package, PrintSettings, SparseRegion, Transform};
 use crate::io::{decode_model, stl};
 use crate::job::PartFormat;
 use crate::mesh::TriMesh;
 use crate::printer::{LaidPlate, Printer, Quantity, Spot, Support};
-use crate::run::{Made, Placed, WrittenJig, WrittenPart};
+use crate::run::{Made, Placed, WrittenJig, WrittenPart, WrittenSparse};
 use crate::verify::{PlateSpot, PromisedPlate};
 
 /// The name of the assembly in a kit.
@@ -51,6 +51,10 @@ pub fn repack(placed: &Placed, mut made: Made, watch: &Watch) -> Result<Made, Er
             file,
             bytes,
             read_back: read_back.map_vertices(|p| p.coords.component_div(&scale).into()),
+            sparse: part.sparse.clone().map(|sparse| WrittenSparse {
+                file: None,
+                ..sparse
+            }),
             ..part
         })
     });
@@ -106,12 +110,11 @@ pub fn packages(placed: &Placed, made: &Made, watch: &Watch) -> Result<Packages,
     }
     let parts = &made.parts;
     let jigs = made.jigs.iter();
-    let files = parts.iter().map(|part| &part.bytes);
-    let files: Vec<&Vec<u8>> = files.chain(jigs.clone().map(|jig| &jig.bytes)).collect();
-    let printed: Vec<TriMesh> = files
-        .into_par_iter()
-        .map(|bytes| decode_model(bytes))
-        .collect::<Result<_, _>>()?;
+    let printed = parts.par_iter().map(|part| printed_surface(placed, part));
+    let mut printed: Vec<TriMesh> = printed.collect::<Result<_, _>>()?;
+    for jig in jigs.clone() {
+        printed.push(decode_model(&jig.bytes)?);
+    }
     let mut objects: Vec<Object> = (0..parts.len())
         .into_par_iter()
         .map(|i| object(placed, i, &parts[i], &printed[i]))
@@ -123,7 +126,10 @@ pub fn packages(placed: &Placed, made: &Made, watch: &Watch) -> Result<Packages,
     let ids: Vec<String> = ids.chain(jigs.map(WrittenJig::id)).collect();
     let laid = lay_out(&placed.shop.printer, &printed);
     let mut jobs = plates(&placed.shop.printer, &printed);
-    jobs.insert(0, (ASSEMBLY.to_owned(), together(placed, parts)));
+    // A slicer would take the settings of a region for those of the assembly.
+    if placed.sparse.is_none() {
+        jobs.insert(0, (ASSEMBLY.to_owned(), together(placed, parts)));
+    }
     let shared = jobs.into_par_iter().map(|(file, arrangement)| {
         watch.check()?;
         package(placed, &objects, file, arrangement)
@@ -147,6 +153,19 @@ pub fn packages(placed: &Placed, made: &Made, watch: &Watch) -> Result<Packages,
             .map(|plate| promise_plate(plate, &ids, &printed))
             .collect(),
     })
+}
+
+/// Returns the surface of a part as its file has it, without a region of sparse infill.
+fn printed_surface(placed: &Placed, part: &WrittenPart) -> Result<TriMesh, Error> {
+    let scale = Vector::from(placed.shop.printer.print_scale_ratio());
+    Ok(match &part.sparse {
+        Some(sparse) => enlarge(&sparse.outside, &scale),
+        None => decode_model(&part.bytes)?,
+    })
+}
+
+fn enlarge(mesh: &TriMesh, scale: &Vector) -> TriMesh {
+    mesh.map_vertices(|p| p.coords.component_mul(scale).into())
 }
 
 /// Returns what lies where on a plate, by the names of its things.
@@ -197,8 +216,18 @@ fn object(placed: &Placed, index: usize, part: &WrittenPart, printed: &TriMesh) 
             .iter()
             .any(|socket| is_in(socket, &middle))
     };
-    let name = part.part.id.to_string();
-    Object::with_blockers(&name, part_color(index), printed, in_socket)
+    let (name, color) = (part.part.id.to_string(), part_color(index));
+    match (&part.sparse, &placed.sparse) {
+        (Some(written), Some(sparse)) => {
+            let region = SparseRegion {
+                mesh: enlarge(&written.region, &scale),
+                pattern: sparse.pattern.clone(),
+                percent: sparse.nominal_percent(),
+            };
+            Object::with_region(&name, color, printed, &region)
+        }
+        _ => Object::with_blockers(&name, color, printed, in_socket),
+    }
 }
 
 /// Returns whether a point of the surface is on a wall of a socket. It is then behind the cut face,

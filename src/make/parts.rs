@@ -2,6 +2,7 @@
 
 use rayon::prelude::*;
 
+use super::sparse::with_sparse;
 use super::write::{write, write_jig};
 use crate::base::verdict::Verdict;
 use crate::base::watch::{Phase, Watch};
@@ -36,8 +37,9 @@ pub fn make(placed: &Placed, candidate: Candidate, watch: &Watch) -> Result<Made
         watch,
     };
     let best = corrector.best(opened.voids, opened.plan, more)?;
-    let plan = cut::measure_voids_again(&best.voids.hollowed, best.plan, &opened.request)?;
-    let jigs = jigs(&best.voids.hollowed, &plan, &opened.request)?;
+    let printed = placed.printed(&best.voids.hollowed);
+    let plan = cut::measure_voids_again(&printed, best.plan, &opened.request)?;
+    let jigs = jigs(&printed, &plan, &opened.request)?;
     let jigs = jigs.into_iter().map(|jig| write_jig(placed, jig, watch));
     let jigs = jigs.collect::<Result<_, Error>>()?;
     let Voids {
@@ -171,13 +173,14 @@ impl Corrector<'_, '_> {
         voids: &Voids,
         mut plan: CutPlan,
     ) -> Result<(Vec<WrittenPart>, CutPlan), Error> {
-        let (parts, plan) = match parts_and_faces(&voids.hollowed, &plan, self.request)? {
+        let body = self.placed.printed(&voids.hollowed);
+        let (parts, plan) = match parts_and_faces(&body, &plan, self.request)? {
             Verdict::No(Obstacle::ClosedCavity { .. }) => {
                 let solid = std::mem::take(&mut plan.solid);
                 let anew = Planner::of(self.placed).plan(voids, self.request)?;
                 let anew = anew.or_error::<CutError>()?;
                 let anew = CutPlan { solid, ..anew };
-                parts_and_faces(&voids.hollowed, &anew, self.request)?
+                parts_and_faces(&body, &anew, self.request)?
             }
             parts => parts,
         }
@@ -188,9 +191,10 @@ impl Corrector<'_, '_> {
         let count = parts.len();
         let parts = parts.into_par_iter().map(|part| {
             let name = format!("{job}_{}of{count:02}", part.id);
-            write(part, &name, scale_ratio, self.watch)
+            let part = write(part, &name, scale_ratio, self.watch)?;
+            with_sparse(self.placed, voids, part, self.watch)
         });
-        Ok((parts.collect::<Result<_, _>>()?, plan))
+        Ok((parts.collect::<Result<_, Error>>()?, plan))
     }
 }
 

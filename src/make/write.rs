@@ -113,6 +113,7 @@ impl Writer<'_> {
             part,
             file: format!("parts/{name}.stl"),
             bytes,
+            sparse: None,
             read_back: read_back.map_vertices(|p| p.coords.component_div(scale).into()),
         })
     }

@@ -15,6 +15,7 @@ mod drain;
 mod failed;
 mod ground;
 mod ladder;
+mod one_piece;
 mod plan;
 mod plans;
 mod proxy;
@@ -30,6 +31,7 @@ mod way;
 mod scenes;
 
 pub use defect::defect_ratio;
+pub use one_piece::one_piece;
 pub use plan::Planner;
 pub use plans::{Leaning, climb_by_tendency};
 pub use resolve::{Resolver, finish};

@@ -20,7 +20,7 @@ use crate::draw::{
     BALLAST, BODY, HARDWARE, Hatch, Item, Key, Label, PictureError, Scene, Shot, TEXT_PX, VOID,
     convex_section, part_color,
 };
-use crate::geom::{Parting, Point};
+use crate::geom::{Parting, Point, Vector};
 use crate::goal::GoalKind;
 use crate::mesh::TriMesh;
 use crate::sheet::Checklist;
@@ -28,6 +28,8 @@ use crate::sheet::Checklist;
 /// Height of the words on the cover, whose pictures are smaller, pixels: 10 points at 60 mm of
 /// height.
 const COVER_TEXT_PX: f64 = 33.0;
+/// Distance by which a region of infill is drawn inside of its cavity, mm: less than a pixel.
+const INSET_MM: f64 = 0.05;
 
 /// The meshes that are put into the parts, model frame.
 struct Inserts {
@@ -76,6 +78,12 @@ pub fn render_pictures(subject: &Subject, watch: &Watch) -> Result<Vec<Picture>,
     let mut whole = model(&outer, &view, upright_caption(subject.aim.kind));
     whole.shot.scene.items.extend(inserts.rods());
     let mut cut_away = cut_away([&outer, &voids], &view, subject);
+    let region = subject.infill.map(|_| inset(&voids.reversed()));
+    cut_away
+        .shot
+        .scene
+        .items
+        .extend(region.iter().map(infilled));
     cut_away.shot.scene.items.extend(inserts.rods());
     cut_away.shot.scene.items.extend(inserts.lumps());
     let apart = Apart::of(&in_place, &partings);
@@ -184,9 +192,16 @@ fn cut_away<'a>(
     view: &Viewpoint,
     subject: &Subject,
 ) -> Draft<'a> {
+    let is_infilled = subject.infill.is_some();
+    let inside = if is_infilled {
+        "Sparse infill is pale blue, with crossed stripes."
+    } else {
+        "The surfaces of the voids inside are blue."
+    };
     let keys = [
         (true, Key::Cut(Hatch::PRINTED), "material"),
-        (true, Key::Void, "void"),
+        (!is_infilled, Key::Void, "void"),
+        (is_infilled, Key::Cut(Hatch::SPARSE), "sparse infill"),
         (
             !subject.hardware.is_empty(),
             Key::Cut(Hatch::RODS),
@@ -202,9 +217,9 @@ fn cut_away<'a>(
         file: "pictures/cut-away.svg".to_owned(),
         role: Role::CutAway,
         caption: "Cut open from top to bottom.".to_owned(),
-        alt: "The object cut open, its front half taken away. Cut faces are striped: material orange, hardware and ballast grey. The \
-              surfaces of the voids inside are blue."
-            .to_owned(),
+        alt: format!(
+            "The object cut open, its front half taken away. Cut faces are striped: material orange, hardware and ballast grey. {inside}"
+        ),
         shot: Shot {
             scene: Scene {
                 items: vec![Item::new(outer, BODY), Item::new(voids, VOID)],
@@ -219,6 +234,32 @@ fn cut_away<'a>(
                 .map(|(_, key, words)| (key, words))
                 .collect(),
         },
+    }
+}
+
+/// Returns a region a little smaller than it is. Its walls would else lie in those of its cavity,
+/// and either would be drawn by chance.
+fn inset(region: &TriMesh) -> TriMesh {
+    let mut normals = vec![Vector::zeros(); region.vertices().len()];
+    for (triangle, [a, b, c]) in region.triangles().iter().zip(region.iter_corners()) {
+        let normal = (b - a).cross(&(c - a));
+        for corner in triangle {
+            normals[*corner as usize] += normal;
+        }
+    }
+    let moved = region.vertices().iter().zip(normals);
+    let moved = moved.map(|(p, normal)| match normal.try_normalize(0.0) {
+        Some(normal) => p - normal * INSET_MM,
+        None => *p,
+    });
+    TriMesh::new(moved.collect(), region.triangles().to_vec()).unwrap_or_default()
+}
+
+/// Returns a region of sparse infill as it is drawn.
+fn infilled(region: &TriMesh) -> Item<'_> {
+    Item {
+        hatch: Hatch::SPARSE,
+        ..Item::new(region, VOID)
     }
 }
 

@@ -68,6 +68,14 @@ fn shortfall(sheet: &Checklist) -> Markup {
     }
 }
 
+/// Words the infill.
+fn infill(sheet: &Checklist) -> &'static str {
+    match sheet.infill {
+        Some(_) => "solid, with a region of sparse infill",
+        None => "solid (100 % infill)",
+    }
+}
+
 fn facts(sheet: &Checklist) -> Markup {
     let size_mm = sheet.finished_size_mm.unwrap_or(sheet.model.size_mm);
     let rows: [(&str, Markup); 7] = [
@@ -75,7 +83,7 @@ fn facts(sheet: &Checklist) -> Markup {
         ("Printer", html! { (sheet.printer.name) }),
         (
             "Settings",
-            html! { "layers of " (layer(sheet)) ", solid (100 % infill), never scaled" },
+            html! { "layers of " (layer(sheet)) ", " (infill(sheet)) ", never scaled" },
         ),
         ("Material", html! { (sheet.material.name) }),
         ("Mass", mass(sheet)),

@@ -39,6 +39,14 @@ pub(super) fn sign_off(sheet: &Checklist) -> Markup {
     }
 }
 
+/// Words what is inside the object.
+fn inside(sheet: &Checklist) -> &'static str {
+    match sheet.infill {
+        Some(_) => "in one piece, denser in some places than in others",
+        None => "hollow and glued",
+    }
+}
+
 /// Returns the card that goes with the object.
 pub(super) fn card(sheet: &Checklist) -> Markup {
     html! {
@@ -48,7 +56,7 @@ pub(super) fn card(sheet: &Checklist) -> Markup {
             @for line in use_lines(sheet) { p { (line) } }
             p {
                 "Made of " (sheet.material.name) ", " (measured(sheet.assembly.mass_g, "g"))
-                ", hollow and glued. Keep it out of the sun and away from heat. Wipe it with a damp cloth. "
+                ", " (inside(sheet)) ". Keep it out of the sun and away from heat. Wipe it with a damp cloth. "
                 "Do not drop it. It is not a toy for children under three: small parts can come off."
             }
         }

@@ -21,6 +21,7 @@ mod grid;
 mod hand_over;
 mod hardware;
 mod inertia;
+mod infill;
 mod inputs;
 mod inserts;
 mod jig_drawing;

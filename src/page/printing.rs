@@ -6,6 +6,7 @@ use super::below;
 use super::fields::{THIN_LAYER_MM, UM_PER_MM, file_name, half_name};
 use super::figure::{Picture, Role, figures};
 use super::hardware::{bar, word};
+use super::infill;
 use super::support;
 use crate::base::numbers::{measured, measured_extent, quantity};
 use crate::base::units::MM3_PER_CM3;
@@ -29,7 +30,10 @@ pub(super) fn print_step(sheet: &Checklist, pictures: &[Picture]) -> Markup {
         div class="load" {
             ul class="plain" {
                 li { strong { "Load: " } (load(sheet)) }
-                li { strong { "Solid, 100 % infill: " } (solid(sheet)) }
+                @match &sheet.infill {
+                    Some(infill) => (infill::orders(sheet, infill)),
+                    None => li { strong { "Solid, 100 % infill: " } (solid(sheet)) }
+                }
                 li { strong { "Support: " } (support::of_all(sheet)) }
                 @if sheet.printer.process == Process::Fdm {
                     li {
@@ -45,6 +49,12 @@ pub(super) fn print_step(sheet: &Checklist, pictures: &[Picture]) -> Markup {
                 }
             }
             (figures(pictures, Role::Plate))
+        }
+        @if let Some(infill) = &sheet.infill {
+            div class="beside" {
+                (figures(pictures, Role::CutAway))
+                (infill::levels(sheet, infill))
+            }
         }
         div class="cards" { @for part in &sheet.parts { (card(sheet, part, pictures)) } }
         (jigs(sheet))
@@ -146,7 +156,8 @@ fn load(sheet: &Checklist) -> Markup {
         @if plates.is_empty() { "the part files below" }
         @else {
             @for (index, plate) in plates.iter().enumerate() { @if index > 0 { ", " } code { (plate) } }
-            (all_that_is_on(plates.len())) ", or the part files below one by one"
+            (all_that_is_on(plates.len()))
+            @if sheet.infill.is_none() { ", or the part files below one by one" }
         }
         ". Lengths are in mm; every part lies as in its picture. " (handling(&sheet.printer.process))
     }

@@ -3,7 +3,8 @@
 use crate::geom::{Parting, Plane};
 use crate::mesh::TriMesh;
 use crate::verify::{
-    Aim, BallastOrder, Hardware, HardwareKind, PartEvidence, Peg, PromisedJig, PromisedPart, Shells,
+    Aim, BallastOrder, Hardware, HardwareKind, InfillOrder, PartEvidence, Peg, PromisedJig,
+    PromisedPart, Shells,
 };
 
 /// The subject of the pictures.
@@ -27,6 +28,8 @@ pub struct Subject<'a> {
     pub hardware: &'a [Hardware],
     /// Stock parts in their pockets, model frame.
     pub ballast: &'a [BallastOrder],
+    /// Sparse infill in the cavities; `None` if they are voids.
+    pub infill: Option<&'a InfillOrder>,
 }
 
 impl Subject<'_> {

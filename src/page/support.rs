@@ -108,6 +108,7 @@ fn method_words(sheet: &Checklist) -> String {
                 of_holes(sheet)
             )
         }
+        Some(_) if sheet.infill.is_some() => "on, for the outside.".to_owned(),
         Some(_) => format!(
             "on for every part. {}Support inside a hollow is removed in the next step.",
             of_holes(sheet)

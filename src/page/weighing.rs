@@ -4,6 +4,7 @@ use maud::{Markup, html};
 
 use super::fields::{blank, mass_of_parts_g, residue, spread_ratio};
 use super::hardware::word;
+use super::infill::wrong_weight;
 use crate::base::numbers::measured;
 use crate::base::units::MM3_PER_CM3;
 use crate::sheet::Checklist;
@@ -39,7 +40,8 @@ pub(super) fn weigh_parts(sheet: &Checklist) -> Markup {
                 @if sheet.parts.len() > 1 { (weigh_line(sheet, "all parts", mass_of_parts_g(sheet))) }
             }
         }
-        p { "Too heavy: it still holds " (residue(&sheet.printer.process)) ", clean it again. Too light: it was not printed solid." }
+        @if sheet.infill.is_some() { p { (wrong_weight()) } }
+        @else { p { "Too heavy: it still holds " (residue(&sheet.printer.process)) ", clean it again. Too light: it was not printed solid." } }
     }
 }
 

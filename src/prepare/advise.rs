@@ -1,5 +1,6 @@
 //! Advice: remedies for an impossible goal, each carried out before it is reported.
 
+use super::graded::hollow_hint;
 use super::outcome::Impossible;
 use super::solve::workshop;
 use crate::advice::{self, Case, Kind, Remedy};
@@ -10,7 +11,7 @@ use crate::base::units::format_count;
 use crate::base::watch::{Phase, Watch};
 use crate::error::Error;
 use crate::goal::Request;
-use crate::hollow::{Certificate, Figure};
+use crate::hollow::{Certificate, Figure, Fill};
 use crate::run::{Model, Placed, Shop};
 
 /// Hint for models with hardware: remedies are searched for the bare model only.
@@ -38,9 +39,16 @@ pub fn remedies(
     impossible: Impossible,
     watch: &Watch,
 ) -> Result<Impossible, Error> {
-    if placed.job.fill.is_some() {
+    if placed.fill != Fill::AIR {
         // The searches know of air only.
-        return Ok(impossible);
+        let hints = impossible
+            .hints
+            .into_iter()
+            .chain(hollow_hint(placed, watch)?);
+        return Ok(Impossible {
+            hints: hints.collect(),
+            ..impossible
+        });
     }
     watch.enter(Phase::Advise);
     if placed.has_ordered_hardware() {

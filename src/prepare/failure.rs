@@ -38,11 +38,13 @@ pub fn on_failure(placed: &Placed, prepared: Prepared, watch: &Watch) -> Result<
     }
     hints.extend(longer_tip(placed, &broken));
     hints.extend(broken.iter().copied().find_map(smaller_promise));
+    let is_plain = placed.job.is_plain();
     let falls_over = broken.iter().any(|check| check.kind == CheckKind::Standing);
     let failure = Failure {
         reason: reason(&prepared, &broken),
         hints,
-        remedies: if falls_over && is_out_of_reach(&prepared, &broken) {
+        // The search knows of air only.
+        remedies: if falls_over && is_plain && is_out_of_reach(&prepared, &broken) {
             firmer(placed, watch)?
         } else {
             Vec::new()

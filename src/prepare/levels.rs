@@ -34,7 +34,8 @@ pub fn with_load(placed: &Placed, load: Load, watch: &Watch) -> Result<Answer, E
     let pitches = pitches(placed, &shell);
     // The first of several levels may lack what a finer one has; the last one has the last word.
     let first_to_refuse = pitches.len().min(2) - 1;
-    let fixed = goal.solid + load.excess().in_frame(&goal.frame);
+    let beside = load.excess() + placed.laid_beyond();
+    let fixed = goal.solid + beside.in_frame(&goal.frame);
     let mut coarser: Option<Solved> = None;
     for (level, pitch_mm) in pitches.into_iter().enumerate() {
         watch.enter(Phase::Columns);

@@ -1,5 +1,6 @@
 //! Load: the printer, the model as one solid body in mm, and the lengths that the printer makes.
 
+use super::graded::sparse_print;
 use crate::base::digest::sha256_hex;
 use crate::base::watch::{Phase, Watch};
 use crate::cut::rods;
@@ -13,11 +14,12 @@ use crate::repair::one_body_with;
 use crate::run::{Model, Shop};
 use crate::thin::thicken;
 
-/// Finds the job's printer.
+/// Finds the job's printer. Refuses what it does not print.
 pub fn printer(job: &Job, watch: &Watch) -> Result<Printer, Error> {
     watch.enter(Phase::Load);
     let printer = Printer::find(&job.printer.id)?;
     printer.material(job.printer.material.as_deref())?;
+    sparse_print(job, &printer)?;
     Ok(printer)
 }
 

@@ -2,6 +2,7 @@
 
 mod advise;
 mod failure;
+mod graded;
 mod hardware;
 mod hints;
 mod judge;
@@ -13,12 +14,14 @@ mod place;
 pub mod plans;
 mod reason;
 mod rotor;
+mod rounds;
 mod slice;
 mod solve;
 mod upright;
 mod waterline;
 
 pub use outcome::{Failure, Impossible, Outcome, Prepared};
+pub use rounds::{SlicedOutcome, prepare_sliced};
 pub use slice::time_kit;
 
 use crate::ballast::Order;
@@ -27,7 +30,7 @@ use crate::base::watch::Watch;
 use crate::error::Error;
 use crate::job::Job;
 use crate::make::make;
-use crate::open::{Candidate, climb};
+use crate::open::{Candidate, climb, one_piece};
 use crate::run::{Placed, Solved};
 use judge::Draft;
 
@@ -61,6 +64,10 @@ pub fn prepare(job: &Job, watch: &Watch) -> Result<Outcome, Error> {
 
 /// Drafts the kit of a solution.
 fn draft_of(placed: &Placed, solved: Solved, watch: &Watch) -> Result<Draft, Error> {
+    if placed.sparse.is_some() {
+        let candidate = one_piece(placed, solved, watch)?;
+        return judge::draft(placed, make(placed, candidate, watch)?, watch);
+    }
     let candidates = climb(placed, solved, watch)?;
     first_that_passes(candidates, |candidate| {
         let made = make(placed, candidate, watch)?;

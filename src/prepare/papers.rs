@@ -74,6 +74,10 @@ fn files(placed: &Placed, draft: &Draft, slicer: Option<&Slicer>) -> Result<Kit,
     kit.add(HOLLOWED_FILE, draft.hollowed.clone());
     for part in &draft.made.parts {
         kit.add(&part.file, part.bytes.clone());
+        let sparse = part.sparse.iter();
+        for (file, bytes) in sparse.filter_map(|sparse| sparse.file.as_ref()) {
+            kit.add(file, bytes.clone());
+        }
     }
     for jig in &draft.made.jigs {
         kit.add(&jig.file, jig.bytes.clone());

@@ -1,6 +1,6 @@
 //! Place: the goal in the model, with its axis, its waterline and its hardware.
 
-use super::{advise, hardware, rotor, upright, waterline};
+use super::{advise, graded, hardware, rotor, upright, waterline};
 use crate::advice::{Case, best_orientation, is_possible};
 use crate::base::watch::Watch;
 use crate::error::Error;
@@ -45,8 +45,16 @@ pub fn goal(job: &Job, model: Model, shop: Shop, watch: &Watch) -> Result<Placed
     refuse_air(&request, &placement)?;
     let mut bound = job.clone();
     bound.model.sha256 = Some(model.sha256.clone());
+    let sparse = graded::sparse_print(job, &shop.printer)?;
+    let laid = sparse
+        .as_ref()
+        .and_then(|sparse| Fill::new(sparse.laid_ratio));
     let placed = Placed {
-        fill: fill(job, stock.density_g_cm3)?,
+        fill: match laid {
+            Some(laid) => laid,
+            None => fill(job, stock.density_g_cm3)?,
+        },
+        sparse,
         policy: Policy::with_joint_price(bound.joint_price_ratio).with_effort(bound.effort),
         job: bound,
         model,
@@ -56,7 +64,9 @@ pub fn goal(job: &Job, model: Model, shop: Shop, watch: &Watch) -> Result<Placed
         placement,
         fitted: None,
     };
-    hardware::fit(waterline::choose(placed, watch)?, watch)
+    let placed = hardware::fit(waterline::choose(placed, watch)?, watch)?;
+    graded::refuse_pieces(&placed)?;
+    Ok(placed)
 }
 
 /// Chooses the axis of a request that leaves it open; `None` if the request names one.
@@ -112,8 +122,7 @@ fn choose_contact(job: &Job, case: &Case, watch: &Watch) -> Result<Option<Contac
         return Ok(request.contact);
     }
     let lowest = spins_on_lowest(&MeasuredSolid::new(case.solid), case.wall_mm, request)?;
-    let is_known =
-        request.ordered_tip() == TipChoice::None || job.fill.is_some() || !job.ballast.is_none();
+    let is_known = request.ordered_tip() == TipChoice::None || !job.is_plain();
     if !lowest || is_known {
         return Ok(Some(if lowest {
             Contact::Lowest

@@ -12,7 +12,7 @@ use crate::run::{AxisChoice, Model, NaturalUp, Shop};
 /// Chooses the axis of a job that asks for the natural up.
 ///
 /// Stand and float take it as it is. Tops and yo-yos take the axis nearest to it on which they are
-/// possible. With ballast or a filling they take it as it is: the search knows of neither.
+/// possible. With ballast, a filling or infill they take it as it is: the search knows of none.
 pub fn choose(
     job: &Job,
     model: &Model,
@@ -22,8 +22,7 @@ pub fn choose(
     let case = advise::case(model, shop, job.goal);
     let natural = natural_up(&case, watch)?;
     let spins = matches!(job.goal.kind, GoalKind::Top | GoalKind::Yoyo);
-    let is_plain = job.fill.is_none() && job.ballast.is_none();
-    let Some(up) = natural.up.direction().filter(|_| spins && is_plain) else {
+    let Some(up) = natural.up.direction().filter(|_| spins && job.is_plain()) else {
         return Ok(AxisChoice::Natural(natural));
     };
     // A tip that was ordered is held against the axis that would be taken without it. No other axis

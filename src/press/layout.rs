@@ -34,6 +34,7 @@ impl<'a> Layout<'a> {
             aim: promise.goal,
             hardware: &promise.hardware,
             ballast: &promise.ballast,
+            infill: promise.infill.as_ref(),
         }
     }
 }

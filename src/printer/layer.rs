@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use toml::Spanned;
 
 use super::{
-    ExcludedCorner, Grid, Material, PrintPose, Quantity, SizedWall, Sourced, Support,
-    profile::ProfileText, reader::Reader,
+    ExcludedCorner, Grid, InfillPattern, Material, PrintPose, Quantity, SizedWall, Sourced,
+    Support, profile::ProfileText, reader::Reader,
 };
 
 /// An id that a profile refers to.
@@ -35,6 +35,7 @@ pub(super) struct Layer {
     pub excluded_corners: Vec<ExcludedCorner>,
     pub walls_by_part_size: Vec<SizedWall>,
     pub compensates_shrinkage: Option<Sourced<bool>>,
+    pub infill: Option<InfillPattern>,
     pub numbers: BTreeMap<Quantity, Sourced<f64>>,
     pub materials: Option<Vec<Reference>>,
     pub default_material: Option<Reference>,
@@ -49,6 +50,7 @@ impl Layer {
             |key, text: &Option<Spanned<String>>| text.as_ref().map(|text| reader.words(key, text));
         let (cleaning, glue) = (words("cleaning", &text.cleaning), words("glue", &text.glue));
         let glue_safety = words("glue_safety", &text.glue_safety);
+        let infill = reader.infill(text);
         Self {
             id: reader.id(&text.id),
             name: reader.words("name", &text.name),
@@ -82,6 +84,7 @@ impl Layer {
                 .compensates_shrinkage
                 .as_ref()
                 .and_then(|flag| reader.flag("compensates_shrinkage", flag)),
+            infill,
             numbers: numbers
                 .filter_map(|(&key, number)| Some((key, reader.number(key, number)?)))
                 .collect(),
@@ -110,6 +113,9 @@ impl Layer {
         }
         if let Some(flag) = &mut self.compensates_shrinkage {
             flag.process_default_of = Some(id.clone());
+        }
+        if let Some(infill) = &mut self.infill {
+            infill.core_ratio.process_default_of = Some(id.clone());
         }
         self.process = Some(id);
         self
@@ -147,6 +153,7 @@ impl Layer {
                 parent.walls_by_part_size
             },
             compensates_shrinkage: self.compensates_shrinkage.or(parent.compensates_shrinkage),
+            infill: self.infill.or(parent.infill),
             default_material: self.default_material.or(self
                 .materials
                 .is_none()

@@ -4,7 +4,10 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use super::{ExcludedCorner, Material, MaterialError, Quantity, Sourced, error::suggest};
+use super::{
+    ExcludedCorner, InfillPattern, Material, MaterialError, Quantity, Sourced, SparsePrint,
+    error::suggest,
+};
 
 /// The steps of a printer's grid in x and y.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -149,6 +152,9 @@ pub struct Printer {
     /// True if the machine or its software compensates shrinkage; `None` if that is unknown, which
     /// counts as true.
     pub compensates_shrinkage: Option<Sourced<bool>>,
+    /// The pattern of sparse infill; `None` for a printer without infill.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub infill: Option<InfillPattern>,
     /// The thinnest wall that prints and survives cleaning.
     pub min_wall_mm: Sourced<f64>,
     /// The smallest detail that prints.
@@ -263,6 +269,17 @@ impl Printer {
     pub fn slide_clearance<'a>(&'a self, material: &'a Material) -> Option<&'a Sourced<f64>> {
         let own = material.clearance_slide_per_side_mm.as_ref();
         own.or_else(|| self.number(Quantity::ClearanceSlidePerSideMm))
+    }
+
+    /// Returns the sparsest print with infill; `None` for a printer without infill.
+    pub fn sparsest_print(&self) -> Option<SparsePrint> {
+        let infill = self.infill.as_ref()?;
+        let nominal_ratio = self.number(Quantity::LeastInfillRatio)?.value;
+        Some(SparsePrint {
+            pattern: infill.pattern.clone(),
+            nominal_ratio,
+            laid_ratio: infill.laid_ratio(nominal_ratio),
+        })
     }
 }
 

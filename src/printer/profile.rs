@@ -25,6 +25,8 @@ pub(super) struct ProfileText {
     pub build_volume_mm: Option<Spanned<ValueText<[f64; 3]>>>,
     pub largest_part_mm: Option<Spanned<ValueText<[f64; 3]>>>,
     pub compensates_shrinkage: Option<Spanned<ValueText<bool>>>,
+    pub infill_pattern: Option<Spanned<String>>,
+    pub infill_core_ratio: Option<Spanned<ValueText<Vec<[f64; 2]>>>>,
     #[serde(default)]
     pub excluded_corners: Vec<Spanned<CornerText>>,
     #[serde(default)]

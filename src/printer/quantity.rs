@@ -28,6 +28,8 @@ const GLUES_G_CM3: RangeInclusive<f64> = 0.5..=3.0;
 const HOLD_S: RangeInclusive<f64> = 1.0..=3600.0;
 /// Times after which glue has its whole strength, hours: up to two weeks.
 const CURE_H: RangeInclusive<f64> = 0.01..=336.0;
+/// Densities of infill over that of solid print. Larger values must be in per cent.
+pub(super) const INFILL_RATIOS: RangeInclusive<f64> = 0.01..=1.0;
 /// Tolerances and shrinkages over a length. Larger values must be in per cent.
 const LENGTH_RATIOS: RangeInclusive<f64> = 1e-6..=0.1;
 
@@ -56,6 +58,8 @@ pub enum Quantity {
     MinFeatureMm,
     /// The narrowest hole that stays open.
     MinHoleMm,
+    /// The least density of infill that carries what is printed over it, over that of solid print.
+    LeastInfillRatio,
     /// The narrowest opening through which a void can be cleaned.
     MinOpeningMm,
     /// The narrowest of two or more openings through which powder escapes.
@@ -111,7 +115,7 @@ pub enum Quantity {
 
 impl Quantity {
     /// Every quantity, in order.
-    pub const ALL: [Self; 35] = [
+    pub const ALL: [Self; 36] = [
         Self::PixelXMm,
         Self::PixelYMm,
         Self::LayerMm,
@@ -122,6 +126,7 @@ impl Quantity {
         Self::HorizontalWallMm,
         Self::MinFeatureMm,
         Self::MinHoleMm,
+        Self::LeastInfillRatio,
         Self::MinOpeningMm,
         Self::PairOpeningMm,
         Self::CleaningReachMm,
@@ -162,6 +167,7 @@ impl Quantity {
             Self::HorizontalWallMm => "horizontal_wall_mm",
             Self::MinFeatureMm => "min_feature_mm",
             Self::MinHoleMm => "min_hole_mm",
+            Self::LeastInfillRatio => "least_infill_ratio",
             Self::MinOpeningMm => "min_opening_mm",
             Self::PairOpeningMm => "pair_opening_mm",
             Self::CleaningReachMm => "cleaning_reach_mm",
@@ -200,6 +206,7 @@ impl Quantity {
                 | Self::SupportedWallMm
                 | Self::HorizontalWallMm
                 | Self::MinHoleMm
+                | Self::LeastInfillRatio
                 | Self::PairOpeningMm
                 | Self::CleaningReachMm
                 | Self::OverhangDeg
@@ -235,6 +242,7 @@ impl Quantity {
             | Self::HorizontalWallMm
             | Self::MinFeatureMm
             | Self::MinHoleMm => FINEST_MM..=LARGEST_DETAIL_MM,
+            Self::LeastInfillRatio => INFILL_RATIOS,
             Self::MinOpeningMm | Self::PairOpeningMm => FINEST_MM..=100.0,
             Self::CleaningReachMm => REACH_MM,
             Self::OverhangDeg => OVERHANG_DEG,
@@ -275,6 +283,7 @@ impl Quantity {
         matches!(
             self,
             Self::PinLengthRatio
+                | Self::LeastInfillRatio
                 | Self::ToleranceRatio
                 | Self::ShrinkageXyRatio
                 | Self::ShrinkageZRatio

@@ -5,8 +5,9 @@ use std::ops::RangeInclusive;
 use toml::{Spanned, value::Datetime};
 
 use super::{
-    ExcludedCorner, Fault, Material, Problem, Quantity, SizedWall, Sourced, Sure,
-    profile::{CornerText, MaterialText, ValueText, WallText},
+    ExcludedCorner, Fault, InfillPattern, Material, Problem, Quantity, SizedWall, Sourced, Sure,
+    profile::{CornerText, MaterialText, ProfileText, ValueText, WallText},
+    quantity::INFILL_RATIOS,
 };
 use crate::base::toml_text::{self, Place, TextFault};
 use crate::base::units::MM_PER_INCH;
@@ -126,6 +127,45 @@ impl<'a> Reader<'a> {
             range: BUILD_VOLUME_MM,
         };
         self.check(entry, text.get_ref().clone())
+    }
+
+    /// Returns the pattern of infill with its table; `None` if either is missing, which is noted if
+    /// the other is there.
+    pub fn infill(&mut self, text: &ProfileText) -> Option<InfillPattern> {
+        let (pattern, table) = match (&text.infill_pattern, &text.infill_core_ratio) {
+            (Some(pattern), Some(table)) => (pattern, table),
+            (Some(pattern), None) => {
+                let key = "infill_core_ratio".to_owned();
+                self.note(pattern.span().start, Problem::Missing { key });
+                return None;
+            }
+            (None, Some(table)) => {
+                let key = "infill_pattern".to_owned();
+                self.note(table.span().start, Problem::Missing { key });
+                return None;
+            }
+            (None, None) => return None,
+        };
+        let (key, at) = ("infill_core_ratio", table.span().start);
+        let range = INFILL_RATIOS;
+        let core_ratio = self.check(Entry { key, at, range }, table.get_ref().clone());
+        let rows = table
+            .get_ref()
+            .value
+            .iter()
+            .flat_map(|rows| rows.windows(2));
+        for rows in rows.filter(|rows| rows[0][0] >= rows[1][0]) {
+            let problem = Problem::Contradiction {
+                key: key.to_owned(),
+                value: rows[1][0],
+                against: format!("the row before it is for {}", rows[0][0]),
+            };
+            self.note(at, problem);
+        }
+        Some(InfillPattern {
+            pattern: self.words("infill_pattern", pattern),
+            core_ratio: core_ratio?,
+        })
     }
 
     /// Returns a corner that must stay free.
@@ -308,6 +348,12 @@ impl Numbers for f64 {
 impl<const N: usize> Numbers for [f64; N] {
     fn numbers(&self) -> &[f64] {
         self
+    }
+}
+
+impl Numbers for Vec<[f64; 2]> {
+    fn numbers(&self) -> &[f64] {
+        self.as_flattened()
     }
 }
 

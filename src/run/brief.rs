@@ -9,7 +9,7 @@ use crate::hollow::Fill;
 use crate::job::Job;
 use crate::mass::{Moments, moments_of_mesh};
 use crate::mesh::Solid;
-use crate::printer::{Material, Printer, Quantity, WallChoice};
+use crate::printer::{Material, Printer, Quantity, SparsePrint, WallChoice};
 use crate::repair::Repairs;
 use crate::thin::Thickened;
 
@@ -62,6 +62,8 @@ pub struct Placed {
     pub fitted: Option<Fitted>,
     /// The filling of the voids.
     pub fill: Fill,
+    /// The print with infill that takes the place of voids; `None` for a hollow print.
+    pub sparse: Option<SparsePrint>,
     /// The limits of the search for cuts and pins.
     pub policy: Policy,
 }
@@ -118,12 +120,28 @@ impl Placed {
     }
 
     /// Returns the moments of what is put into the print, model frame: ballast, hardware and the
-    /// filling of the voids.
+    /// filling of the voids. With them goes what a slicer lays beyond the written parts.
     pub fn moments_inside(&self, load: &Load, hollowed: &Hollowed) -> Moments {
         let voids = hollowed.voids.iter();
         let voids = voids.map(|void| moments_of_mesh(void.mesh()));
         let volume = voids.fold(Moments::default(), |sum, void| sum + void);
-        load.moments() + self.hardware_moments() + volume * self.fill.density_ratio()
+        let filled = volume * self.fill.density_ratio();
+        load.moments() + self.hardware_moments() + filled + self.laid_beyond()
+    }
+
+    /// Returns the moments of what a slicer lays beyond the written parts, model frame; zero if it
+    /// was not asked.
+    pub fn laid_beyond(&self) -> Moments {
+        let last = self.job.sliced.last().filter(|_| self.sparse.is_some());
+        last.map_or(Moments::default(), |round| Moments(round.beyond))
+    }
+
+    /// Returns the body as its surface is printed. Regions of sparse infill are no voids of it.
+    pub fn printed(&self, hollowed: &Hollowed) -> Hollowed {
+        match self.sparse {
+            Some(_) => hollowed.without_empty_voids(),
+            None => hollowed.clone(),
+        }
     }
 
     /// Returns the gap between the halves of a yo-yo, mm, `None` for one body.

@@ -102,11 +102,31 @@ pub struct WrittenPart {
     pub file: String,
     /// The bytes of its file.
     pub bytes: Vec<u8>,
-    /// The triangles read back from those bytes, print pose, in the part's own size.
+    /// The triangles read back from its files, print pose, in the part's own size. A region of
+    /// sparse infill is a cavity of them.
     pub read_back: TriMesh,
+    /// The region of sparse infill in it; `None` if it has none.
+    pub sparse: Option<WrittenSparse>,
+}
+
+/// A region of sparse infill as it is written.
+#[derive(Debug, Clone)]
+pub struct WrittenSparse {
+    /// Its own file, relative to the kit, and the bytes of it; `None` if it is in the part's file.
+    pub file: Option<(String, Vec<u8>)>,
+    /// The outside of the part, print pose, in the part's own size.
+    pub outside: TriMesh,
+    /// The region, print pose, in the part's own size.
+    pub region: TriMesh,
 }
 
 impl WrittenPart {
+    /// Returns the surface that is printed, print pose, in the part's own size.
+    pub fn surface(&self) -> &TriMesh {
+        let sparse = self.sparse.as_ref();
+        sparse.map_or(&self.read_back, |sparse| &sparse.outside)
+    }
+
     /// Returns the part as the judge reads it.
     pub fn evidence(&self) -> PartEvidence {
         let pose = Pose {

@@ -21,7 +21,7 @@ mod solved;
 mod tendency;
 
 pub use brief::{Model, Placed, Shop};
-pub use made::{Made, WrittenJig, WrittenPart};
+pub use made::{Made, WrittenJig, WrittenPart, WrittenSparse};
 pub use natural::{NaturalUp, short_reason};
 pub use opened::{Achieved, BossRound, CleaningRound, KeptBoss, KeptSolid, Opened, Voids};
 pub use policy::{Policy, Rung};

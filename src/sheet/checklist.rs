@@ -14,7 +14,9 @@ use super::timing::Timing;
 use super::voids::{CutRow, VoidRow};
 use crate::printer::Plate;
 use crate::repair::RepairOrder;
-use crate::verify::{Check, Figures, FillOrder, Hardware, PromisedFigure, PromisedPlate, SCHEMA};
+use crate::verify::{
+    Check, Figures, FillOrder, Hardware, InfillOrder, PromisedFigure, PromisedPlate, SCHEMA,
+};
 
 /// The job sheet of a kit, for machines; the room `page` renders the same for people.
 ///
@@ -101,6 +103,9 @@ pub struct Checklist {
     /// Filling of the voids; `None` for air.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fill: Option<FillOrder>,
+    /// Regions of sparse infill in one piece; `None` for a print that is solid but for its voids.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub infill: Option<InfillOrder>,
     /// Rounds in which material was kept solid around pins.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub rounds: Vec<RoundRow>,

@@ -14,5 +14,5 @@ mod settings;
 pub use error::SlicerError;
 pub use estimate::{Estimate, SlicedPlate};
 pub use program::Slicer;
-pub use run::PlateFile;
+pub use run::{PlateFile, Scratch};
 pub use settings::SliceSettings;

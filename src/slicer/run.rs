@@ -145,10 +145,15 @@ impl Drop for Running {
 }
 
 /// A folder for one run, removed at its end.
-struct Scratch(PathBuf);
+#[derive(Debug)]
+pub struct Scratch(PathBuf);
 
 impl Scratch {
-    fn new() -> io::Result<Self> {
+    /// Makes the folder.
+    ///
+    /// # Errors
+    /// The system's folder for such files cannot be written.
+    pub fn new() -> io::Result<Self> {
         static COUNT: AtomicU64 = AtomicU64::new(0);
         let count = COUNT.fetch_add(1, Ordering::Relaxed);
         let name = format!("equipoise-slice-{}-{count}", std::process::id());
@@ -157,6 +162,11 @@ impl Scratch {
         let _ = fs::remove_dir_all(&folder);
         fs::create_dir(&folder)?;
         Ok(Self(folder))
+    }
+
+    /// Returns its path.
+    pub fn path(&self) -> &Path {
+        &self.0
     }
 }
 

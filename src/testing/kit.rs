@@ -81,6 +81,7 @@ pub fn sample_pictures(sheet: &Checklist, evidence: &Evidence) -> (Vec<Picture>,
         ..
     } = &evidence.promise;
     let subject = Subject {
+        infill: None,
         jigs: &evidence.jigs,
         promised_jigs: &evidence.promise.jigs,
         shells: &shells,
@@ -169,6 +170,7 @@ fn checklist(evidence: &Evidence, found: &Judgement) -> Checklist {
         foot: None,
         ballast: Vec::new(),
         fill: None,
+        infill: None,
         rounds: Vec::new(),
         checks: found.checks.clone(),
         verdict: Verdict::of(&found.checks),

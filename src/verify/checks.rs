@@ -34,7 +34,7 @@ pub fn checks(promise: &Promise, found: &Judgement) -> Vec<Check> {
     checks.extend(thin_checks(&found.thin));
     checks.extend(fit_checks(promise, found));
     checks.extend(found.ballast_room_mm.map(ballast_check));
-    checks.extend(surface_checks(found));
+    checks.extend(surface_checks(promise, found));
     let printed = printed(found);
     checks.extend(shape_checks(&found.shape, &printed));
     checks.extend(plate_checks(&printed));
@@ -120,7 +120,7 @@ fn printed(found: &Judgement) -> Vec<PartFacts> {
 }
 
 /// Checks that the surfaces of all files can be printed.
-fn surface_checks(found: &Judgement) -> Vec<Check> {
+fn surface_checks(promise: &Promise, found: &Judgement) -> Vec<Check> {
     let printed = printed(found);
     let uncut = std::iter::once(("hollowed.stl", &found.surface));
     let surfaces: Vec<_> = uncut
@@ -131,8 +131,10 @@ fn surface_checks(found: &Judgement) -> Vec<Check> {
         .filter_map(|(id, s)| s.defect.as_ref().map(|why| format!("{id}: {why}")));
     let crossed = surfaces.iter().filter(|(_, s)| s.crossings > 0);
     let crossings = surfaces.iter().map(|(_, s)| s.crossings).sum();
-    let sealed = found.parts.iter().filter(|p| p.cavities > 0);
-    let cavities = found.parts.iter().map(|p| p.cavities).sum();
+    let cavities = match &promise.infill {
+        Some(infill) => regions_check(&found.parts, infill.regions),
+        None => cavities_check(&found.parts),
+    };
     vec![
         no_faults(
             CheckKind::BrokenSurfaces,
@@ -148,15 +150,24 @@ fn surface_checks(found: &Judgement) -> Vec<Check> {
         .at(join_words(
             crossed.map(|(id, s)| format!("{id}: {}", s.crossings)),
         )),
-        no_faults(
-            CheckKind::ClosedCavities,
-            "every void is opened by a cut",
-            cavities,
-        )
-        .at(join_words(
-            sealed.map(|p| format!("{}: {}", p.id, p.cavities)),
-        )),
+        cavities,
     ]
+}
+
+/// Checks that no part has a closed cavity.
+fn cavities_check(parts: &[PartFacts]) -> Check {
+    let sealed = parts.iter().filter(|part| part.cavities > 0);
+    let count = parts.iter().map(|part| part.cavities).sum();
+    let words = sealed.map(|part| format!("{}: {}", part.id, part.cavities));
+    let promise = "every void is opened by a cut";
+    no_faults(CheckKind::ClosedCavities, promise, count).at(join_words(words))
+}
+
+/// Checks that a print of one piece has its regions of sparse infill, and no other cavity.
+fn regions_check(parts: &[PartFacts], regions: usize) -> Check {
+    let found: usize = parts.iter().map(|part| part.cavities).sum();
+    let promise = "every region of sparse infill is there, and there is no void besides";
+    no_faults(CheckKind::ClosedCavities, promise, found.abs_diff(regions))
 }
 
 /// Checks that every part lies on the plate as its pose says.

@@ -19,6 +19,8 @@ pub const JOB_FILE: &str = "job.toml";
 pub const CUTS_FILE: &str = "cuts.toml";
 /// The folder of the copy of the model in a kit.
 pub const MODEL_FOLDER: &str = "model/";
+/// The folder of the regions of sparse infill in a kit.
+pub const SPARSE_FOLDER: &str = "modifiers/";
 /// The uncut result of a kit.
 pub const HOLLOWED_FILE: &str = "hollowed.stl";
 

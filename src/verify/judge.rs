@@ -148,8 +148,12 @@ impl AllFigures {
         let promise = &evidence.promise;
         let outer = &body.outer;
         let setting = Setting::new(promise, outer);
-        let Loads { inside, joined } = Loads::of(promise, body, &setting);
-        let assembled = assembly_moments(&evidence.parts);
+        let Loads {
+            inside,
+            joined,
+            sparse,
+        } = Loads::of(promise, body, &setting);
+        let assembled = assembly_moments(&evidence.parts) + sparse;
         let hardware = setting.hardware * setting.density_g_mm3().recip();
         let figures = |printed: &Moments, load: &Moments| {
             watch.check()?;
@@ -157,7 +161,7 @@ impl AllFigures {
         };
         Ok(Self {
             solid: Figures::new(&moments_of_mesh(outer), &setting),
-            hollowed: figures(&moments_of_mesh(&body.welded), &inside)?,
+            hollowed: figures(&(moments_of_mesh(&body.welded) + sparse), &inside)?,
             assembly: figures(&assembled, &(inside + joined))?,
             fit: measure_fit(
                 &promise.hardware,

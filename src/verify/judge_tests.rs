@@ -9,6 +9,7 @@ use crate::mesh::TriMesh;
 use test_meshes::{block, tray};
 
 mod goals;
+mod infill;
 
 const SIZE: [f64; 3] = [60.0, 40.0, 12.0];
 const WALL: f64 = 3.0;
@@ -83,6 +84,7 @@ fn promise(poses: &[Pose]) -> Promise {
         string_gap_mm: None,
         ballast: Vec::new(),
         fill: None,
+        infill: None,
         joints: vec![],
         jigs: Vec::new(),
         plates: Vec::new(),

@@ -3,7 +3,8 @@
 use super::ballast::{ballast_moments, fill_moments};
 use super::hardware::mass_moments;
 use super::joints::film_moments;
-use super::{Body, Promise, Setting};
+use super::sparse::sparse_moments;
+use super::{Body, InfillOrder, Promise, Setting};
 use crate::mass::Moments;
 
 /// Moments of what a kit promises besides its printed parts, as moments of the print's density in
@@ -13,6 +14,9 @@ pub(super) struct Loads {
     pub(super) inside: Moments,
     /// Glue and dowels in the joints.
     pub(super) joined: Moments,
+    /// Sparse infill, and what a slicer lays beyond it. It is printed, though its regions are
+    /// cavities of the written surfaces.
+    pub(super) sparse: Moments,
 }
 
 impl Loads {
@@ -20,10 +24,13 @@ impl Loads {
     pub(super) fn of(promise: &Promise, body: &Body, setting: &Setting) -> Self {
         let density_g_mm3 = setting.density_g_mm3();
         let voids = body.shells.inner_mesh();
+        let infill = promise.infill.as_ref();
         let joined_g = film_moments(promise) + mass_moments(&promise.dowels);
         Self {
             inside: ballast_moments(&promise.ballast, density_g_mm3)
                 + fill_moments(promise.fill, &voids, setting.density_g_cm3),
+            sparse: sparse_moments(infill, &voids)
+                + infill.map_or(Moments::default(), InfillOrder::beyond),
             joined: joined_g * density_g_mm3.recip(),
         }
     }

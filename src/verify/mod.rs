@@ -24,6 +24,7 @@ mod figures;
 mod hardware;
 mod loads;
 mod rotor;
+mod sparse;
 mod spin;
 mod support;
 mod water;
@@ -112,6 +113,7 @@ pub use promise::{
     PromisedFigure, PromisedJig, PromisedJoint, PromisedPart, PromisedVoid, SCHEMA, WallOrder,
 };
 pub use rotor::RotorOrder;
+pub use sparse::InfillOrder;
 pub use water::WaterOrder;
 
 // The facts.
@@ -149,7 +151,7 @@ pub use change::{Change, FileChange};
 pub use changes::files_check;
 pub use files::{
     CERTIFICATE_FILE, CHECKLIST_FILE, CUTS_FILE, HOLLOWED_FILE, JOB_FILE, MODEL_FOLDER, SHEET_FILE,
-    SUMS_FILE,
+    SPARSE_FOLDER, SUMS_FILE,
 };
 pub use seal::sums;
 pub use sheet::find_misstatements;

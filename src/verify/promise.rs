@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use super::{
-    BallastOrder, BoundProof, Density, FillOrder, Fingerprint, Hardware, Pose, PrinterLimits,
-    PromisedPlate, RotorOrder, WaterOrder,
+    BallastOrder, BoundProof, Density, FillOrder, Fingerprint, Hardware, InfillOrder, Pose,
+    PrinterLimits, PromisedPlate, RotorOrder, WaterOrder,
 };
 use crate::geom::{Frame, Point, Vector};
 use crate::goal::GoalKind;
@@ -59,6 +59,9 @@ pub struct Promise {
     /// The filling of the voids; `None` for air.
     #[serde(default)]
     pub fill: Option<FillOrder>,
+    /// The regions of sparse infill; `None` for a print that is solid but for its voids.
+    #[serde(default)]
+    pub infill: Option<InfillOrder>,
     /// The joints between them.
     #[serde(default)]
     pub joints: Vec<PromisedJoint>,

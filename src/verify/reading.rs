@@ -41,8 +41,21 @@ pub(super) fn read_evidence(folder: &Path, promise: Promise) -> Result<Evidence,
             pose,
         })
     };
+    let region = promise
+        .infill
+        .as_ref()
+        .and_then(|infill| infill.file.as_ref());
     let parts = promise.parts.par_iter();
-    let parts = parts.map(|part| read(&part.id, &part.file, part.print_from_model));
+    let parts = parts.map(|part| {
+        let whole = read(&part.id, &part.file, part.print_from_model)?;
+        // The one part that is printed with sparse infill has its regions as cavities.
+        let Some(file) = region else { return Ok(whole) };
+        let region = read(&part.id, file, part.print_from_model)?.mesh.reversed();
+        Ok(PartEvidence {
+            mesh: whole.mesh.joined(&region),
+            ..whole
+        })
+    });
     let jigs = promise.jigs.par_iter();
     let jigs = jigs.map(|jig| read(&jig.id, &jig.file, jig.print_from_model));
     // Every file is read before the first error is taken: which one it is depends on no thread.
@@ -86,7 +99,10 @@ pub(super) fn read_checklist(folder: &Path) -> Result<(Promise, Value), VerifyEr
 fn check_files(folder: &Path, promise: &Promise) -> Result<(), VerifyError> {
     let parts = || {
         let jigs = promise.jigs.iter().map(|jig| &jig.file);
-        promise.parts.iter().map(|part| &part.file).chain(jigs)
+        let infill = promise.infill.iter();
+        let regions = infill.filter_map(|infill| infill.file.as_ref());
+        let parts = promise.parts.iter().map(|part| &part.file);
+        parts.chain(jigs).chain(regions)
     };
     if let Some(file) = parts()
         .chain(promise.files.keys())

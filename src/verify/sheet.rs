@@ -232,6 +232,14 @@ pub(super) fn restate_before_rounding(findings: &Findings) -> Value {
         row
     };
     let mut rows = json!({ "voids": voids.map(void_row).collect::<Vec<_>>() });
+    if let Some(infill) = &evidence.promise.infill {
+        let volume_mm3 = moments_of_mesh(&shells.inner_mesh()).volume().abs();
+        let density = evidence.promise.material.density_g_cm3;
+        rows["infill"] = json!({
+            "volume_mm3": volume_mm3,
+            "mass_g": infill.laid_ratio * volume_mm3 * density / MM3_PER_CM3,
+        });
+    }
     // The file has sockets and tips of the hardware, which the model of the job has not.
     if evidence.promise.hardware.is_empty() {
         let outer = shells.outer_mesh();
@@ -244,11 +252,15 @@ pub(super) fn restate_before_rounding(findings: &Findings) -> Value {
 fn part_row(findings: &Findings, part: usize, facts: &PartFacts) -> Value {
     let promise = &findings.evidence.promise;
     let density = promise.material.density_g_cm3;
+    let infill_g = promise
+        .infill
+        .as_ref()
+        .map_or(0.0, |infill| infill.extra_g(density));
     let mut row = json!({
         "id": facts.id,
         "triangles": facts.surface.triangles,
         "volume_mm3": facts.surface.volume_mm3,
-        "mass_g": facts.surface.volume_mm3 * density / MM3_PER_CM3,
+        "mass_g": facts.surface.volume_mm3 * density / MM3_PER_CM3 + infill_g,
         "size_mm": facts.size_mm,
     });
     if promise.parts[part].fingerprint.is_some() {

@@ -9,6 +9,10 @@ pub(super) fn void_checks(promise: &Promise, found: &[VoidFacts]) -> Vec<Check> 
     let Some(cleaning) = promise.printer.cleaning else {
         return Vec::new();
     };
+    // Infill is no void, and stays inside.
+    if promise.infill.is_some() {
+        return Vec::new();
+    }
     let mut checks = Vec::new();
     for (index, void) in found.iter().enumerate() {
         let ordered = promise.voids.get(index);

@@ -194,8 +194,8 @@ const ARROWS: &[(&str, &[&str])] = &[
         "error",
         &[
             "base", "repair", "ballast", "cut", "draw", "goal", "hardware", "hollow", "interior",
-            "io", "job", "kit", "mend", "mesh", "printer", "sheet", "shell", "slicer", "thin",
-            "verify", "voids",
+            "io", "job", "kit", "mend", "mesh", "printer", "sheet", "shell", "slice", "slicer",
+            "thin", "verify", "voids",
         ],
     ),
     (
@@ -219,12 +219,14 @@ const ARROWS: &[(&str, &[&str])] = &[
             "repair", "run", "verify",
         ],
     ),
+    // A graded kit is sliced, and solved for again with what its toolpaths lay.
     (
         "prepare",
         &[
             "advice", "ballast", "base", "cut", "error", "geom", "goal", "hardware", "hollow",
             "interior", "io", "job", "kit", "make", "mass", "mend", "mesh", "open", "page",
-            "press", "printer", "repair", "run", "sheet", "shell", "slicer", "thin", "verify",
+            "press", "printer", "repair", "run", "sheet", "shell", "slice", "slicer", "thin",
+            "verify",
         ],
     ),
     (

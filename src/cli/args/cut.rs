@@ -8,7 +8,7 @@ use clap::Args;
 
 use super::values::{share, words};
 use crate::cut::{CutOrder, KeepClear, LeastPart, SeamStyle};
-use crate::job::{CutMode, Effort, IdStyle, PinStyle, PlanError};
+use crate::job::{CutMode, Effort, IdStyle, Interior, PinStyle, PlanError};
 
 /// The arguments for cutting the object and joining its parts.
 #[derive(Debug, Clone, Args)]
@@ -18,6 +18,10 @@ pub struct CutArgs {
     /// Such a plan is a kit's cuts.toml, edited [default: auto]
     #[arg(long, value_name = "auto|never|FILE")]
     pub cut: Option<CutArg>,
+    /// Hollow the inside (hollow), or print one uncut piece whose inside is sparse infill where
+    /// that helps (graded). Graded is for filament printers [default: hollow]
+    #[arg(long, value_parser = words::<Interior>(Interior::WORDS))]
+    pub interior: Option<Interior>,
     /// Put seams where they are seen least (hidden), make them short (short), or only level ones
     /// (level) [default: hidden]
     #[arg(long, value_parser = words::<SeamStyle>(SeamStyle::WORDS))]

@@ -174,6 +174,9 @@ pub struct PrepareArgs {
     /// its time and filament on the sheet
     #[arg(long, value_name = "CMD", help_heading = "Kit")]
     pub slicer: Option<String>,
+    /// Slice a graded kit, and solve again with what its toolpaths lay until they keep the promise
+    #[arg(long, help_heading = "Kit")]
+    pub slice: bool,
     /// Leave the copy of the model out of the kit; `verify` then needs --model to compare with it
     #[arg(long, help_heading = "Kit")]
     pub no_model: bool,
@@ -186,7 +189,7 @@ pub struct PrepareArgs {
 pub const DEFAULT_PLANS: u8 = 3;
 
 /// The arguments that a replayed job decides.
-const DECIDED_BY_JOB: [&str; 39] = [
+const DECIDED_BY_JOB: [&str; 40] = [
     "slicer",
     "printer",
     "material",
@@ -225,6 +228,7 @@ const DECIDED_BY_JOB: [&str; 39] = [
     "format",
     "ballast",
     "fill",
+    "interior",
     "repair",
 ];
 
@@ -237,6 +241,8 @@ pub struct Request {
     pub out: PathBuf,
     /// True if an existing folder is replaced.
     pub force: bool,
+    /// True if the kit is sliced, and solved for again with its toolpaths.
+    pub slice: bool,
     /// The command line that was typed, with the answers to questions.
     pub typed: Vec<String>,
 }
@@ -270,6 +276,7 @@ impl PrepareArgs {
             return Err(ArgsError::Missing(missing));
         }
         let (out, force, plans) = (self.out.clone(), self.force, self.plans);
+        let slice = self.slice;
         let typed = std::env::args_os().map(|word| word.to_string_lossy().into_owned());
         let typed = typed.chain(self.answered.iter().cloned()).collect();
         let job = match &self.job {
@@ -281,6 +288,7 @@ impl PrepareArgs {
             job,
             out,
             force,
+            slice,
             typed,
         })
     }
@@ -313,6 +321,7 @@ impl PrepareArgs {
             pitch: self.pitch,
             cut,
             plan,
+            interior: self.cutting.interior.unwrap_or(default.interior),
             seam: self.cutting.seam.unwrap_or(default.seam),
             keep_clear,
             least_part: self.cutting.least_part.unwrap_or(default.least_part),

@@ -2,7 +2,8 @@
 //!
 //! * Reading: `archive` unpacks the parts, `xml` scans their tags, `read` builds one model, and
 //!   `place` puts its objects where the build says.
-//! * Writing: [`Package`] in `write`, with [`PrintSettings`] for slicers in `settings`.
+//! * Writing: [`Package`] in `write`, with [`PrintSettings`] for slicers in `settings`,
+//!   and regions of other infill in `sparse`.
 //! * Both: [`Transform`], the `names` of the standard, and the faults in `error`.
 
 mod archive;
@@ -11,6 +12,7 @@ mod names;
 mod place;
 mod read;
 mod settings;
+mod sparse;
 #[cfg(test)]
 mod tests;
 mod transform;
@@ -20,6 +22,7 @@ mod xml;
 pub use error::{Limit, ThreeMfError};
 pub use place::PlacedObject;
 pub use settings::PrintSettings;
+pub use sparse::SparseRegion;
 pub use transform::Transform;
 pub use write::{Build, Object, Package, PackageError};
 

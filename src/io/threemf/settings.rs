@@ -2,9 +2,11 @@
 //! them. Other programs pass over these parts of the package.
 
 use std::fmt::Write as _;
+use std::ops::Range;
 
 use quick_xml::escape::escape;
 
+use super::sparse::{Infill, Pair};
 use crate::mesh::{BRIM_MM, GOOD_FOOT_MM2};
 
 /// Path of PrusaSlicer's settings; SuperSlicer reads them too.
@@ -32,6 +34,8 @@ pub struct Subject<'a> {
     pub name: &'a str,
     /// Number of its triangles.
     pub triangles: usize,
+    /// The infill of its last triangles, which bound a region; `None` without a region.
+    pub infill: Option<&'a Infill>,
     /// Area of its section just above the plate, mm².
     pub foot_mm2: f64,
 }
@@ -48,9 +52,6 @@ impl Subject<'_> {
         brim.into_iter().filter(|_| is_needed).collect()
     }
 }
-
-/// A setting: its name and its value.
-type Pair = (&'static str, String);
 
 /// Support that takes little material, in PrusaSlicer's words: it follows the overhang, has no
 /// sheath, and ends in two dense layers.
@@ -109,13 +110,8 @@ fn on_or_off(is_on: bool) -> String {
 pub fn prusa_xml(objects: &[Subject], settings: &PrintSettings) -> String {
     let mut xml = String::from("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<config>\n");
     for subject in objects {
-        let Subject {
-            id,
-            name,
-            triangles,
-            ..
-        } = subject;
-        let (name, last) = (escape(*name), triangles.saturating_sub(1));
+        let Subject { id, name, .. } = subject;
+        let name = escape(*name);
         // Writing into a string cannot fail.
         let _ = write!(
             xml,
@@ -128,15 +124,29 @@ pub fn prusa_xml(objects: &[Subject], settings: &PrintSettings) -> String {
                 "<metadata type=\"object\" key=\"{key}\" value=\"{value}\"/>"
             );
         }
-        let _ = write!(
-            xml,
-            "<volume firstid=\"0\" lastid=\"{last}\">\n\
-             <metadata type=\"volume\" key=\"name\" value=\"{name}\"/>\n\
-             <metadata type=\"volume\" key=\"volume_type\" value=\"ModelPart\"/>\n\
-             </volume>\n</object>\n"
-        );
+        let whole = subject.triangles;
+        let first = subject.infill.map_or(whole, |infill| infill.first);
+        let usual = [
+            ("name", name.into_owned()),
+            ("volume_type", "ModelPart".to_owned()),
+        ];
+        xml += &volume_xml(0..first, &usual);
+        if let Some(infill) = subject.infill {
+            xml += &volume_xml(first..whole, &infill.for_prusa());
+        }
+        xml += "</object>\n";
     }
     xml + "</config>\n"
+}
+
+/// Returns a volume of an object: some of its triangles, with their settings.
+fn volume_xml(triangles: Range<usize>, pairs: &[Pair]) -> String {
+    let (first, last) = (triangles.start, triangles.end.saturating_sub(1));
+    let pairs = pairs.iter().map(|(key, value)| {
+        format!("<metadata type=\"volume\" key=\"{key}\" value=\"{value}\"/>\n")
+    });
+    let pairs: String = pairs.collect();
+    format!("<volume firstid=\"{first}\" lastid=\"{last}\">\n{pairs}</volume>\n")
 }
 
 /// Returns the objects' settings for Bambu Studio and OrcaSlicer.
@@ -171,6 +181,7 @@ mod tests {
             id,
             name,
             triangles: 12,
+            infill: None,
             foot_mm2,
         };
         [subject(2, "box <&>", 400.0), subject(3, "lid", 0.7)]

@@ -8,6 +8,7 @@ use zip::{CompressionMethod, System, ZipWriter, write::SimpleFileOptions};
 
 use super::names::{CONTENT_TYPES, CORE_NAMESPACE, MODEL_PART, MODEL_TYPE, RELATIONSHIPS};
 use super::settings::{BAMBU_PART, PRUSA_PART, PrintSettings, Subject, bambu_xml, prusa_xml};
+use super::sparse::{Infill, SparseRegion};
 use super::transform::Transform;
 use crate::base::setting::{Key, Setting};
 use crate::geom::Point;
@@ -55,6 +56,8 @@ pub struct Object {
     color: [u8; 3],
     mesh_xml: String,
     triangles: usize,
+    /// The infill of its last triangles, which bound a region inside; `None` without a region.
+    infill: Option<Infill>,
     /// Area of its section just above its lowest point, mm².
     foot_mm2: f64,
 }
@@ -81,6 +84,9 @@ const PRUSA_NAMESPACE: &str = "http://schemas.slic3r.org/3mf/2017/06";
 /// The attribute of a triangle that PrusaSlicer keeps free of support: a whole triangle (no low
 /// bits) in the second state of its painting tool.
 const BLOCKER: &str = " slic3rpe:custom_supports=\"8\"";
+/// PrusaSlicer's metadata for the version of a file. Without it, it moves the first volume of an
+/// object to its place and leaves the others behind.
+const PRUSA_VERSION: [&str; 2] = ["slic3rpe:Version3mf", "1"];
 /// The namespace of this program's own metadata.
 const OUR_NAMESPACE: &str = "urn:equipoise:kit";
 /// Permissions of an extracted file, on systems that keep them.
@@ -105,22 +111,42 @@ impl Object {
         is_blocked: impl Fn(&[Point; 3]) -> bool,
     ) -> Self {
         let mesh = weld(&mesh.map_vertices(round_to_single));
-        let triangles = mesh.triangles().iter().filter(|t| is_whole(t));
-        let corners = |t: &[u32; 3]| t.map(|corner| mesh.vertices()[corner as usize]);
-        let whole: Vec<Facet> = triangles
-            .map(|t| Facet {
-                corners: *t,
-                is_blocked: is_blocked(&corners(t)),
-            })
-            .collect();
+        let whole = whole_facets(&mesh, is_blocked);
         Self {
             name: name.to_owned(),
             color,
             mesh_xml: mesh_xml(&mesh, &whole),
             triangles: whole.len(),
+            infill: None,
             foot_mm2: foot_area_mm2(&mesh),
         }
     }
+
+    /// Makes an object as [`new`](Self::new), with a region inside that PrusaSlicer fills sparsely.
+    ///
+    /// The region is turned inward: a program that knows of no regions finds a cavity in its place.
+    pub fn with_region(name: &str, color: [u8; 3], mesh: &TriMesh, region: &SparseRegion) -> Self {
+        let outside = weld(&mesh.map_vertices(round_to_single));
+        let of_outside = whole_facets(&outside, |_| false).len();
+        let joined = mesh.clone().joined(&region.mesh.reversed());
+        let object = Self::new(name, color, &joined);
+        Self {
+            infill: Some(Infill::of(region, of_outside)),
+            foot_mm2: foot_area_mm2(&outside),
+            ..object
+        }
+    }
+}
+
+/// Returns the triangles of a mesh that have three corners.
+fn whole_facets(mesh: &TriMesh, is_blocked: impl Fn(&[Point; 3]) -> bool) -> Vec<Facet> {
+    let triangles = mesh.triangles().iter().filter(|t| is_whole(t));
+    let corners = |t: &[u32; 3]| t.map(|corner| mesh.vertices()[corner as usize]);
+    let facet = |t: &[u32; 3]| Facet {
+        corners: *t,
+        is_blocked: is_blocked(&corners(t)),
+    };
+    triangles.map(facet).collect()
 }
 
 /// A triangle to be written.
@@ -136,6 +162,7 @@ impl Object {
             id,
             name: &self.name,
             triangles: self.triangles,
+            infill: self.infill.as_ref(),
             foot_mm2: self.foot_mm2,
         }
     }
@@ -156,7 +183,10 @@ impl Package<'_> {
             let objects = self.placed_objects().into_iter();
             let objects: Vec<Subject> = objects.map(|(id, object)| object.subject(id)).collect();
             parts.push((PRUSA_PART, prusa_xml(&objects, settings)));
-            parts.push((BAMBU_PART, bambu_xml(&objects, settings)));
+            // The other dialect has no such regions: its readers would print a cavity.
+            if !self.has_regions() {
+                parts.push((BAMBU_PART, bambu_xml(&objects, settings)));
+            }
         }
         archive(&parts).map_err(|source| PackageError {
             title: self.title.clone(),
@@ -194,14 +224,23 @@ impl Package<'_> {
         )
     }
 
-    fn metadata(&self) -> [(&'static str, String); 4] {
+    /// Returns whether an object has a region of another infill.
+    fn has_regions(&self) -> bool {
+        let mut objects = self.placed_objects().into_iter();
+        objects.any(|(_, object)| object.infill.is_some())
+    }
+
+    fn metadata(&self) -> Vec<(&'static str, String)> {
+        let [name, number] = PRUSA_VERSION;
+        let version = self.has_regions().then(|| (name, number.to_owned()));
         let application = format!("{} {}", env!("CARGO_PKG_NAME"), env!("CARGO_PKG_VERSION"));
-        [
+        let usual = [
             ("Title", self.title.clone()),
             ("Description", self.description.clone()),
             ("Application", application),
             ("equipoise:Job", self.job.clone()),
-        ]
+        ];
+        version.into_iter().chain(usual).collect()
     }
 
     /// Returns the object that holds the others (empty if there is none), and the items of the

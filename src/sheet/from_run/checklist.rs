@@ -11,7 +11,7 @@ use super::hardware::{dowels, hardware};
 use super::joints::{cut_list, jig_rows, joint_rows, round_rows};
 use super::parts::part_rows;
 use super::printer::{material_row, printer_row};
-use super::promise::{aim, ballast_orders, fill_order};
+use super::promise::{aim, ballast_orders, fill_order, infill_order};
 use super::remarks::{notes, offers, warnings};
 use super::voids::{cut_rows, void_rows};
 use crate::ballast::PlacedPart;
@@ -70,6 +70,7 @@ pub fn checklist(facts: &Facts) -> Checklist {
         size_tolerance_mm: Some(tolerance.at_mm(finished_mm.into_iter().fold(0.0, f64::max))),
         ballast: ballast_rows(facts),
         fill: fill_order(placed),
+        infill: infill_order(placed, facts.made),
         rounds: round_rows(facts),
         checks: judgement.checks.clone(),
         verdict: Verdict::of(&judgement.checks),

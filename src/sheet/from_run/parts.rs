@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use super::facts::Facts;
 use super::finished::cup_mm3;
 use super::hardware::{half_of, halves};
-use super::promise::{mark, pin, socket};
+use super::promise::{infill_order, mark, pin, socket};
 use super::support::{Surfaces, support_row};
 use crate::base::digest::sha256_hex;
 use crate::geom::Vector;
@@ -25,6 +25,7 @@ pub fn part_rows(facts: &Facts) -> Vec<PartRow> {
     let surfaces = Surfaces::of(facts.made);
     let is_vat = is_printed_in_vat(facts.placed);
     let wall_mm = facts.placed.minimum_wall_mm();
+    let infill = infill_order(facts.placed, facts.made);
     let parts = facts.made.parts.par_iter().zip(&facts.judgement.parts);
     let row = |(written, measured): (&WrittenPart, &PartFacts)| {
         let (part, plan) = (&written.part, &facts.made.plan);
@@ -32,6 +33,9 @@ pub fn part_rows(facts: &Facts) -> Vec<PartRow> {
         let sockets = part.sockets.iter().map(|site| socket(site, plan));
         let sockets: Vec<Peg> = sockets.collect();
         let volume_mm3 = measured.surface.volume_mm3;
+        let infill = infill.as_ref().filter(|_| written.sparse.is_some());
+        let density_g_cm3 = facts.placed.density_g_cm3();
+        let infill_g = infill.map_or(0.0, |infill| infill.extra_g(density_g_cm3));
         PartRow {
             id: part.id.to_string(),
             file: written.file.clone(),
@@ -39,7 +43,7 @@ pub fn part_rows(facts: &Facts) -> Vec<PartRow> {
             fingerprint: Some(Fingerprint::of(&written.read_back)),
             triangles: measured.surface.triangles,
             volume_mm3,
-            mass_g: volume_mm3 * facts.placed.shop.material.density_g_mm3(),
+            mass_g: volume_mm3 * facts.placed.shop.material.density_g_mm3() + infill_g,
             size_mm: measured.size_mm,
             lies: pose_words(written, facts),
             print_from_model: written.evidence().pose,

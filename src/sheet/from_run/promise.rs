@@ -10,8 +10,8 @@ use crate::cut::{CutPlan, Label, PinSite};
 use crate::goal::Rotor;
 use crate::run::{Made, Placed, WrittenPart};
 use crate::verify::{
-    Aim, BallastOrder, Density, FillOrder, Mark, Peg, PrinterLimits, Promise, PromisedPart,
-    RotorOrder, SCHEMA, WallOrder, WaterOrder,
+    Aim, BallastOrder, Density, FillOrder, InfillOrder, Mark, Peg, PrinterLimits, Promise,
+    PromisedPart, RotorOrder, SCHEMA, WallOrder, WaterOrder,
 };
 
 /// Returns the promise of the parts, without the figure that they reach.
@@ -52,6 +52,7 @@ pub fn promise(placed: &Placed, made: &Made) -> Promise {
         plates: Vec::new(),
         ballast: ballast_orders(&made.load),
         fill: fill_order(placed),
+        infill: infill_order(placed, made),
         files: Default::default(),
     }
 }
@@ -153,6 +154,30 @@ pub fn ballast_orders(load: &Load) -> Vec<BallastOrder> {
 pub fn fill_order(placed: &Placed) -> Option<FillOrder> {
     placed.job.fill.map(|filling| FillOrder {
         density_g_cm3: filling.density_g_cm3(),
+    })
+}
+
+/// Returns the regions of sparse infill as the judge reads them; `None` for other prints.
+pub fn infill_order(placed: &Placed, made: &Made) -> Option<InfillOrder> {
+    let sparse = placed.sparse.as_ref()?;
+    let written = made.parts.iter().find_map(|part| part.sparse.as_ref())?;
+    let volume_mm3 = written.region.signed_volume_mm3();
+    let density_g_mm3 = placed.shop.material.density_g_mm3();
+    Some(InfillOrder {
+        pattern: sparse.pattern.clone(),
+        nominal_ratio: sparse.nominal_ratio,
+        laid_ratio: sparse.laid_ratio,
+        regions: made.hollowed.voids.len(),
+        volume_mm3,
+        mass_g: sparse.laid_ratio * volume_mm3 * density_g_mm3,
+        beyond: placed.job.sliced.last().map(|round| round.beyond),
+        misses_mm: placed
+            .job
+            .sliced
+            .iter()
+            .map(|round| round.miss_mm)
+            .collect(),
+        file: written.file.as_ref().map(|(file, _)| file.clone()),
     })
 }
 

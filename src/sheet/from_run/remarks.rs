@@ -117,6 +117,7 @@ fn left_solid(facts: &Facts) -> Option<String> {
     let refused = facts.made.refused_mm3;
     let by_plan = facts.made.cleaning.iter().any(|round| round.by_plan);
     let why = match (is_printed_in_vat(facts.placed), by_plan) {
+        _ if facts.placed.sparse.is_some() => "because it is too narrow for infill",
         (false, false) => "because it could not be cleaned",
         (true, false) => "because it could not be drained or cleaned",
         (false, true) => "because it could not be cleaned or because the plan keeps it solid",

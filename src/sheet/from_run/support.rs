@@ -111,7 +111,7 @@ pub fn support_row(
         least_mm2: (LEAST_LINES * placed.shop.printer.pixel_x_mm.value).powi(2),
     };
     let side = |at: &Point| surfaces.side(&pose.to_model(at), pegs);
-    let mesh = weld(&written.read_back);
+    let mesh = weld(written.surface());
     let found = find_overhangs(&mesh, &rule, side);
     let material_mm3 = if found.places > 0 {
         let rule = SupportRule {

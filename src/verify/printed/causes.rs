@@ -119,6 +119,30 @@ impl Printed<'_> {
     }
 
     fn infill(&self) -> Option<Cause> {
+        self.lost_region().or_else(|| self.sparse())
+    }
+
+    /// Returns the cause that a region of sparse infill is printed solid.
+    fn lost_region(&self) -> Option<Cause> {
+        let infill = self.promise.infill.as_ref()?;
+        let is_solid = |part: &PrintedPart| part.sparse_ratio < SPARSE_RATIO;
+        let parts = self.those(|part| wrong_ratio(part, self.promise) > 0.0 && is_solid(part));
+        let finding = format!(
+            "{} solid: the region of sparse infill is lost",
+            are(&ids(&parts))
+        );
+        let percent = 100.0 * infill.nominal_ratio;
+        let remedy = format!(
+            "slice the kit's plate with PrusaSlicer, or add {} to the part as a modifier with \
+             {percent:.1} % {} infill",
+            infill.file.as_deref().unwrap_or("the region"),
+            infill.pattern
+        );
+        self.cause(CauseKind::Infill, &parts, finding, remedy)
+    }
+
+    /// Returns the cause that what is meant to be solid is printed with sparse infill.
+    fn sparse(&self) -> Option<Cause> {
         let stated = self.source.toolpath.facts.infill_ratio;
         let says_sparse = stated.is_some_and(|ratio| ratio < 1.0);
         let is_as_stated = |part: &PrintedPart| {
@@ -141,7 +165,11 @@ impl Printed<'_> {
             are(&ids(&parts))
         );
         let setting = CauseKind::Infill.setting(self.source.slicer());
-        let remedy = format!("set {setting} to 100 %: the kit has its own voids");
+        let why = match self.promise.infill {
+            Some(_) => "only the kit's own region is sparse",
+            None => "the kit has its own voids",
+        };
+        let remedy = format!("set {setting} to 100 %: {why}");
         self.cause(CauseKind::Infill, &parts, finding, remedy)
     }
 

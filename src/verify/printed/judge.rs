@@ -21,8 +21,8 @@ use crate::mass::{Moments, moments_of_mesh};
 use crate::verify::changes::find_changes;
 use crate::verify::loads::Loads;
 use crate::verify::{
-    Body, Evidence, Figures, HOLLOWED_FILE, PlateSpot, Promise, Setting, assembly_moments,
-    files_check, read_kit,
+    Body, Evidence, Figures, HOLLOWED_FILE, InfillOrder, PlateSpot, Promise, Setting,
+    assembly_moments, files_check, read_kit,
 };
 
 /// Judges the toolpaths of the kit in `folder`: all plates together, in any order.
@@ -76,17 +76,20 @@ pub(super) fn judge_toolpaths(
     let ids = evidence.parts.iter().map(|part| &part.id);
     let missing: Vec<String> = ids.filter(is_missing).cloned().collect();
     let weighing = Weighing::new(evidence, body);
-    let toolpaths = missing.is_empty().then(|| {
+    let laid = missing.is_empty().then(|| {
         let sum = |sum: Moments, part: &PrintedPart| sum + part.moments_g;
         let mass_g = parts.iter().fold(Moments::default(), sum);
-        weighing.weigh(&(mass_g * weighing.setting.density_g_mm3().recip()))
+        mass_g * weighing.setting.density_g_mm3().recip()
     });
+    let stated = promise.infill.as_ref();
+    let stated = stated.map_or(Moments::default(), InfillOrder::beyond);
     let mut judgement = PrintedJudgement {
         files: describe_files(&catalogue, &matches, sources),
         promise: promise.promise,
         model: weighing.model(body),
         written: weighing.weigh(&weighing.written),
-        toolpaths,
+        toolpaths: laid.map(|laid| weighing.weigh(&laid)),
+        beyond: laid.map(|laid| laid - (weighing.written - stated)),
         causes: find_causes(promise, &parts, &missing, sources),
         notes: write_notes(promise, &matches, &parts, sources),
         checks: Vec::new(),
@@ -113,9 +116,10 @@ struct Weighing {
 impl Weighing {
     fn new(evidence: &Evidence, body: &Body) -> Self {
         let setting = Setting::new(&evidence.promise, &body.outer);
+        let loads = Loads::of(&evidence.promise, body, &setting);
         Self {
-            loads: Loads::of(&evidence.promise, body, &setting),
-            written: assembly_moments(&evidence.parts),
+            written: assembly_moments(&evidence.parts) + loads.sparse,
+            loads,
             setting,
         }
     }
@@ -128,7 +132,7 @@ impl Weighing {
 
     /// Returns the figures of the uncut result with its ballast.
     fn model(&self, body: &Body) -> Figures {
-        let solid = moments_of_mesh(&body.welded);
+        let solid = moments_of_mesh(&body.welded) + self.loads.sparse;
         Figures::with_load(&solid, &self.loads.inside, &self.setting)
     }
 }
@@ -147,9 +151,13 @@ fn catalogue(evidence: &Evidence) -> Catalogue<'_> {
     let scale_ratio = promise.printer.print_scale_ratio;
     let parts = evidence.parts.iter().map(|part| (part, false));
     let jigs = evidence.jigs.iter().map(|jig| (jig, true));
-    let things = parts
-        .chain(jigs)
-        .map(|(read, is_jig)| Thing::new(read, is_jig, scale_ratio, spot(&read.id)));
+    let things = parts.chain(jigs).map(|(read, is_jig)| {
+        let thing = Thing::new(read, is_jig, scale_ratio, spot(&read.id));
+        match promise.infill.as_ref().filter(|_| !is_jig) {
+            Some(infill) => thing.with_infill(read, infill),
+            None => thing,
+        }
+    });
     Catalogue {
         promise,
         things: things.collect(),

@@ -4,6 +4,7 @@ use serde::Serialize;
 
 use super::cause::Cause;
 use super::part::PrintedPart;
+use crate::mass::Moments;
 use crate::verify::{Check, Figures, PromisedFigure};
 
 /// The judgement of a kit's toolpaths: how they will balance, beside the promise.
@@ -24,6 +25,10 @@ pub struct PrintedJudgement {
     /// The figures of the toolpaths put together, with all that the kit adds to the parts; `None`
     /// if parts are missing.
     pub toolpaths: Option<Figures>,
+    /// The moments of what the toolpaths lay beyond the written parts, in volumes of the kit's
+    /// material and the model frame; `None` if parts are missing.
+    #[serde(skip)]
+    pub beyond: Option<Moments>,
     /// The causes of a wrong print.
     pub causes: Vec<Cause>,
     /// Assumptions, and what was left out.

@@ -6,7 +6,9 @@ use crate::geom::hull::convex_hull;
 use crate::geom::{Aabb, Matrix, Point, Vector};
 use crate::mass::{Moments, moments_of_mesh};
 use crate::mesh::TriMesh;
-use crate::verify::{PartEvidence, PlateSpot, Pose};
+use crate::repair::weld;
+use crate::verify::sparse::sparse_moments;
+use crate::verify::{InfillOrder, PartEvidence, PlateSpot, Pose, Shells};
 
 /// A part or jig of the kit, in the coordinates of its file.
 #[derive(Debug, Clone)]
@@ -27,6 +29,8 @@ pub(super) struct Thing<'a> {
     pub(super) area_mm2: f64,
     /// Its moments.
     pub(super) moments: Moments,
+    /// The moments of what its slicer was found to lay beyond them, model frame and nominal size.
+    beyond: Moments,
     /// Its place on a plate; `None` in kits without plates.
     pub(super) spot: Option<&'a PlateSpot>,
 }
@@ -93,7 +97,22 @@ impl<'a> Thing<'a> {
             outline: convex_hull(file.vertices().iter().map(|p| [p.x, p.y]).collect()),
             area_mm2: area_mm2(&file),
             moments: moments_of_mesh(&file),
+            beyond: Moments::default(),
             spot,
+        }
+    }
+
+    /// Returns the thing with sparse infill laid in its cavities. Lines end at their walls as at
+    /// the outside, so that both count as its surface.
+    pub(super) fn with_infill(self, read: &PartEvidence, infill: &InfillOrder) -> Self {
+        let file = read
+            .mesh
+            .map_vertices(|p| p.coords.component_mul(&self.scale_ratio).into());
+        let shells = Shells::of_mesh(&weld(&file));
+        Self {
+            moments: self.moments + sparse_moments(Some(infill), &shells.inner_mesh()),
+            beyond: infill.beyond(),
+            ..self
         }
     }
 
@@ -258,7 +277,7 @@ impl<'a> Thing<'a> {
 
     /// Returns its own moments in the model frame and in nominal size.
     pub(super) fn model_moments(&self) -> Moments {
-        self.pose.moments_to_model(&self.unscaled(&self.moments))
+        self.pose.moments_to_model(&self.unscaled(&self.moments)) + self.beyond
     }
 
     /// Takes the scale against shrinkage off moments of the file.

@@ -1,6 +1,7 @@
 //! Packages written and read again, and packages of other programs.
 
 mod hostile;
+mod regions;
 
 use std::io::{Cursor, Write};
 

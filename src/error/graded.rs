@@ -1,0 +1,124 @@
+//! The reasons why a job with sparse infill in one piece is refused.
+
+use crate::ballast::Order;
+use crate::base::setting::{Key, Setting};
+use crate::job::{Filling, Interior};
+
+/// A reason why a print cannot be graded.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum GradedError {
+    /// The printer has no infill.
+    #[error(
+        "{printer} prints without infill, so that `{}` is not possible; remedy: take a filament \
+         printer, or {}",
+        graded(),
+        hollow()
+    )]
+    NoInfill {
+        /// The printer's name.
+        printer: String,
+    },
+    /// Cuts were ordered for what stays in one piece.
+    #[error(
+        "`{}` makes one piece, and cuts are ordered (`{}`); remedy: leave the cuts out, or {}",
+        graded(),
+        Setting::open(Key::Plan),
+        hollow()
+    )]
+    Cuts,
+    /// A filling was ordered for voids that are print.
+    #[error(
+        "`{}` leaves no void for `{}`; remedy: leave the filling out, or {}",
+        graded(),
+        Setting::new(Key::Fill, fill),
+        hollow()
+    )]
+    Filling {
+        /// The filling.
+        fill: Filling,
+    },
+    /// Ballast was ordered for what is closed.
+    #[error(
+        "`{}` leaves no void for `{}`; remedy: leave the ballast out, or {}",
+        graded(),
+        Setting::new(Key::Ballast, order),
+        hollow()
+    )]
+    Ballast {
+        /// The ballast.
+        order: Order,
+    },
+    /// The object is no single body.
+    #[error(
+        "a yo-yo on an axle is two halves, and `{}` makes one piece; remedy: leave the axle out \
+         (`{}`), or {}",
+        graded(),
+        Setting::new(Key::Axle, "none"),
+        hollow()
+    )]
+    Halves,
+    /// Only graded prints are solved again with their toolpaths.
+    #[error(
+        "the toolpaths of a hollow kit are not solved for; remedy: order one piece (`{}`), or \
+         slice the kit by itself",
+        graded()
+    )]
+    Hollow,
+    /// The toolpaths of a kit lack its part.
+    #[error(
+        "the toolpaths of `{}` lack its part; remedy: slice the kit by itself to see why",
+        graded()
+    )]
+    NotAllLaid,
+    /// The model has cavities of its own.
+    #[error(
+        "the model has cavities, and `{}` prints no void; remedy: fill them (`{}`), or {}",
+        graded(),
+        Setting::new(Key::Repair, "fill"),
+        hollow()
+    )]
+    Cavities,
+}
+
+fn graded() -> Setting {
+    Setting::new(Key::Interior, Interior::Graded)
+}
+
+/// Words the remedy that always works.
+fn hollow() -> String {
+    format!(
+        "hollow the print (`{}`)",
+        Setting::new(Key::Interior, Interior::Hollow)
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_refusal_names_what_was_ordered_and_a_remedy() {
+        let refusals = [
+            GradedError::NoInfill {
+                printer: "Form 4".to_owned(),
+            },
+            GradedError::Cuts,
+            GradedError::Filling {
+                fill: "2.3".parse().unwrap(),
+            },
+            GradedError::Ballast { order: Order::Auto },
+            GradedError::Halves,
+            GradedError::Cavities,
+        ];
+        for refusal in refusals {
+            let words = refusal.to_string();
+            assert!(words.contains("`interior = \"graded\"`"), "{words}");
+            assert!(words.contains("remedy: "), "{words}");
+            assert!(
+                words.ends_with("hollow the print (`interior = \"hollow\"`)"),
+                "{words}"
+            );
+        }
+    }
+}

@@ -1,0 +1,72 @@
+//! Graded: one piece whose voids are printed with sparse infill.
+
+use crate::ballast::Load;
+use crate::base::setting::{Key, Setting};
+use crate::base::verdict::Verdict;
+use crate::base::watch::Watch;
+use crate::error::{Error, GradedError};
+use crate::hollow::Fill;
+use crate::job::{Interior, Job};
+use crate::mesh::{TriMesh, shells};
+use crate::printer::{Printer, SparsePrint};
+use crate::run::Placed;
+
+use super::levels::with_load;
+
+/// Returns the sparse print that a job orders; `None` for a hollow one.
+///
+/// # Errors
+/// The printer has no infill, or the job orders what one closed piece cannot have.
+pub fn sparse_print(job: &Job, printer: &Printer) -> Result<Option<SparsePrint>, GradedError> {
+    if job.interior.is_hollow() {
+        return Ok(None);
+    }
+    if job.plan.is_some() {
+        return Err(GradedError::Cuts);
+    }
+    if let Some(fill) = job.fill {
+        return Err(GradedError::Filling { fill });
+    }
+    if !job.ballast.is_none() {
+        let order = job.ballast.clone();
+        return Err(GradedError::Ballast { order });
+    }
+    let no_infill = || GradedError::NoInfill {
+        printer: printer.name.clone(),
+    };
+    printer.sparsest_print().map(Some).ok_or_else(no_infill)
+}
+
+/// Refuses a placed goal that one closed piece cannot meet.
+///
+/// # Errors
+/// The object is no single body, or it has cavities of its own.
+pub fn refuse_pieces(placed: &Placed) -> Result<(), Error> {
+    if placed.sparse.is_none() {
+        return Ok(());
+    }
+    if placed.string_gap_mm().is_some() {
+        return Err(GradedError::Halves.into());
+    }
+    let faces_inward = |shell: &TriMesh| shell.signed_volume_mm3() < 0.0;
+    if shells(placed.solid().mesh()).iter().any(faces_inward) {
+        return Err(GradedError::Cavities.into());
+    }
+    Ok(())
+}
+
+/// Returns the hint that voids do what sparse infill does not, if a solve confirms it.
+pub fn hollow_hint(placed: &Placed, watch: &Watch) -> Result<Option<String>, Error> {
+    if placed.sparse.is_none() {
+        return Ok(None);
+    }
+    let hollow = Placed {
+        fill: Fill::AIR,
+        sparse: None,
+        ..placed.clone()
+    };
+    let found = with_load(&hollow, Load::default(), watch)?;
+    let setting = Setting::new(Key::Interior, Interior::Hollow);
+    let hint = format!("make voids in place of sparse infill, and cut them open (`{setting}`)");
+    Ok(matches!(found, Verdict::Found(_)).then_some(hint))
+}

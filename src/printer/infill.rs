@@ -1,0 +1,111 @@
+//! Sparse infill: the least that prints, and how much of it a slicer really lays.
+
+use serde::Serialize;
+
+use super::Sourced;
+
+/// A pattern of sparse infill, with what slicers lay of it.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct InfillPattern {
+    /// Its name, in the words of slicers.
+    pub pattern: String,
+    /// Pairs of a nominal density and the density laid in the core, both over that of solid print;
+    /// ascending.
+    pub core_ratio: Sourced<Vec<[f64; 2]>>,
+}
+
+impl InfillPattern {
+    /// Returns the density that is laid for a nominal one, both over that of solid print.
+    ///
+    /// Between two rows it lies on the line between them. Outside of the table, the share laid is
+    /// that of the nearest row.
+    pub fn laid_ratio(&self, nominal_ratio: f64) -> f64 {
+        let rows = &self.core_ratio.value;
+        let above = rows.partition_point(|[nominal, _]| *nominal < nominal_ratio);
+        match (
+            above.checked_sub(1).map(|below| rows[below]),
+            rows.get(above),
+        ) {
+            (Some([from, laid]), Some([to, more])) => {
+                laid + (more - laid) * (nominal_ratio - from) / (to - from)
+            }
+            (Some([nominal, laid]), None) | (None, Some(&[nominal, laid])) => {
+                nominal_ratio * laid / nominal
+            }
+            (None, None) => nominal_ratio,
+        }
+    }
+}
+
+/// The sparsest print of a printer.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SparsePrint {
+    /// The pattern of its infill, in the words of slicers.
+    pub pattern: String,
+    /// The density to set in the slicer, over that of solid print.
+    pub nominal_ratio: f64,
+    /// The density that is laid, over that of solid print.
+    pub laid_ratio: f64,
+}
+
+impl SparsePrint {
+    /// Returns the density to set in the slicer, per cent of that of solid print.
+    pub fn nominal_percent(&self) -> f64 {
+        (self.nominal_ratio * 1e8).round() / 1e6
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::printer::{Printer, Sure};
+
+    fn table(rows: &[[f64; 2]]) -> InfillPattern {
+        InfillPattern {
+            pattern: "gyroid".to_owned(),
+            core_ratio: Sourced {
+                value: rows.to_vec(),
+                source: "a test".to_owned(),
+                sure: Sure::Measured,
+                process_default_of: None,
+            },
+        }
+    }
+
+    #[test]
+    fn a_density_between_two_rows_lies_on_the_line_between_them() {
+        let infill = table(&[[0.1, 0.09], [0.2, 0.19], [0.5, 0.46]]);
+        for (nominal, laid) in [
+            (0.1, 0.09),
+            (0.15, 0.14),
+            (0.2, 0.19),
+            (0.35, 0.325),
+            (0.5, 0.46),
+        ] {
+            assert!(
+                (infill.laid_ratio(nominal) - laid).abs() < 1e-12,
+                "{nominal}"
+            );
+        }
+    }
+
+    #[test]
+    fn outside_of_the_table_the_share_of_the_nearest_row_is_laid() {
+        let infill = table(&[[0.1, 0.09], [0.5, 0.45]]);
+        assert!((infill.laid_ratio(0.05) - 0.045).abs() < 1e-12);
+        assert!((infill.laid_ratio(0.8) - 0.72).abs() < 1e-12);
+        assert_eq!(table(&[]).laid_ratio(0.3), 0.3);
+    }
+
+    #[test]
+    fn filament_printers_have_infill_and_the_others_have_none() {
+        for printer in Printer::all().unwrap() {
+            let is_filament = printer.process.as_deref() == Some("fdm");
+            let sparse = printer.sparsest_print();
+            assert_eq!(sparse.is_some(), is_filament, "{}", printer.id);
+            if let Some(sparse) = sparse {
+                assert_eq!((sparse.nominal_ratio, sparse.laid_ratio), (0.15, 0.142));
+            }
+        }
+    }
+}
