@@ -35,6 +35,8 @@ pub enum Form<'a> {
     },
     /// The sum of other densities.
     Sum(&'a [Box<dyn Density>]),
+    /// A function of the depth below a surface.
+    Depth(&'a dyn OfDepth),
     /// Anything else, with the planes at which it has kinks.
     Any {
         /// The planes.
@@ -46,6 +48,18 @@ pub enum Form<'a> {
 pub trait AlongRays: Debug + Send + Sync {
     /// Returns ∫₀¹ t²⁺ʲ d(apex + t ray) dt for j = 0, 1, 2.
     fn integrals(&self, apex: &Point, ray: &Vector) -> [f64; 3];
+}
+
+/// A density that is a function of the depth below the surface of its solid.
+pub trait OfDepth: Debug + Send + Sync {
+    /// Returns the depth, mm; negative outside. Its slope is at most 1.
+    fn depth_mm(&self, point: &Point) -> f64;
+
+    /// Returns the density at a depth, mm, of at least zero.
+    fn of_depth(&self, depth_mm: f64) -> f64;
+
+    /// Returns the depth from which the density is constant, mm; may be infinite.
+    fn constant_from_mm(&self) -> f64;
 }
 
 /// Returns ∫ t²⁺ʲ dt for j = 0, 1, 2 over a stretch of a ray.

@@ -1,14 +1,17 @@
 //! Integrates a density over a solid, and says the error.
 
-use super::density::{Density, Form};
+use super::cells::{Fading, Limits, over_cells};
+use super::density::{Density, Form, OfDepth};
 use crate::geom::{Point, Vector};
-use crate::mass::{Accuracy, Cones, Estimate, Moments};
+use crate::mass::{Accuracy, Cones, Estimate, Moments, moments_of_mesh};
 use crate::mesh::TriMesh;
 
 /// Accuracy of densities whose integrals along rays are known.
 const ALONG_RAYS: Accuracy = Accuracy { ratio: 1e-9, most_pieces: 1_000_000 };
 /// Accuracy of other densities. Each evaluation may ask for a distance, so pieces are few.
-const BY_PIECES: Accuracy = Accuracy { ratio: 1e-6, most_pieces: 120_000 };
+const BY_PIECES: Accuracy = Accuracy { ratio: 1e-6, most_pieces: 40_000 };
+/// Accuracy of functions of the depth, whose points each ask for a distance.
+const BY_CELLS: Limits = Limits { ratio: 1e-5, most_points: 600_000 };
 
 /// The moments of a solid with a density, and their error.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -46,8 +49,22 @@ fn estimate(mesh: &TriMesh, density: &dyn Density) -> Estimate {
             let parts = parts.iter().map(|part| estimate(mesh, part.as_ref()));
             parts.fold(Estimate::default(), |sum, part| sum.plus(&part))
         }
+        Form::Depth(skin) => of_depth(mesh, skin),
         Form::Any { kinks } => cones.estimate(&kinks, BY_PIECES, |at| density.at(at)),
     }
+}
+
+/// Integrates a function of the depth: the whole at its value on the surface, less what fades in
+/// below.
+fn of_depth(mesh: &TriMesh, skin: &dyn OfDepth) -> Estimate {
+    let on_surface = skin.of_depth(0.0);
+    let fading = Fading {
+        depth_mm: &|at| skin.depth_mm(at),
+        value: &|depth_mm| on_surface - skin.of_depth(depth_mm.max(0.0)),
+        constant_from_mm: skin.constant_from_mm(),
+    };
+    let whole = Estimate::exact(moments_of_mesh(mesh) * on_surface);
+    whole.plus(&over_cells(&mesh.aabb(), &fading, &BY_CELLS).times(-1.0))
 }
 
 impl Measured {

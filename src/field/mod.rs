@@ -11,7 +11,7 @@
 //! | `sine` | a wave of the distance to a point | the point | closed form along rays, 1e-9 |
 //! | `levels` | constant between nested quadrics | the quadrics | closed form along rays |
 //! | `clamped` | a quadratic, clamped | two quadrics | closed form along rays |
-//! | `skin` | a function of the depth below the surface | the medial axis | pieces, halved |
+//! | `skin` | a function of the depth below the surface | the medial axis | cells, halved |
 //! | `sum`, `product` | of others | those of the parts | by parts, exact where it can be |
 //!
 //! [`measure()`] integrates and says the error it reached. [`check`] finds a place where a density
@@ -23,6 +23,7 @@
 mod density;
 mod range;
 
+mod cells;
 mod clamped;
 mod levels;
 mod linear;
@@ -42,7 +43,7 @@ mod words;
 
 pub use check::{NotADensity, check};
 pub use clamped::Clamped;
-pub use density::{AlongRays, Density, Form};
+pub use density::{AlongRays, Density, Form, OfDepth};
 pub use file::{FileError, read_file, read_text};
 pub use levels::{Levels, LevelsError};
 pub use linear::Linear;

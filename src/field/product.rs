@@ -48,7 +48,7 @@ fn planes_and_degree(density: &dyn Density) -> (Vec<Plane>, Option<usize>) {
     match density.form() {
         Form::Piecewise { kinks, degree } => (kinks, Some(degree)),
         Form::Any { kinks } => (kinks, None),
-        Form::Rays { .. } => (Vec::new(), None),
+        Form::Rays { .. } | Form::Depth(_) => (Vec::new(), None),
         Form::Sum(parts) => {
             let (mut kinks, mut degree) = (Vec::new(), Some(0));
             for part in parts {

@@ -1,8 +1,10 @@
 //! A density that depends on the depth below the surface, from skin to core.
 
-use super::density::{Density, Form};
+use std::sync::Arc;
+
+use super::density::{Density, Form, OfDepth};
 use crate::geom::{Aabb, Point};
-use crate::mesh::Solid;
+use crate::mesh::{MeshDistance, Solid};
 
 /// The fall of the density with the depth.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -13,13 +15,17 @@ pub enum Profile {
     Gauss,
 }
 
+/// Depth in σ from which a Gaussian counts as zero: there it is below 1e-14.
+const GAUSS_ENDS: f64 = 8.0;
+
 /// A density that falls from the surface inward.
 ///
 /// Its kinks are the medial axis and, for a line, the depth at which it ends. They are not planes,
-/// so the integral is by pieces, and its error is told.
+/// so the integral is over the cells of an octree, and its error is told. It is over the skin's own
+/// solid, whatever mesh is measured.
 #[derive(Debug, Clone)]
 pub struct Skin {
-    solid: Solid,
+    surface: Arc<MeshDistance>,
     depth_mm: f64,
     profile: Profile,
     densities: [f64; 2],
@@ -36,23 +42,21 @@ impl Skin {
     ) -> Option<Self> {
         let is_finite = densities.iter().all(|density| density.is_finite());
         (is_finite && depth_mm.is_finite() && depth_mm > 0.0).then(|| Self {
-            solid: solid.clone(),
+            surface: Arc::new(MeshDistance::new(solid.mesh())),
             depth_mm,
             profile,
             densities,
         })
     }
-
-    /// Returns the distance to the surface, mm.
-    fn depth_mm(&self, point: &Point) -> f64 {
-        let nearest = self.solid.bvh().closest(point, f64::INFINITY, &[]);
-        nearest.map_or(0.0, |nearest| nearest.distance_squared.sqrt())
-    }
 }
 
-impl Density for Skin {
-    fn at(&self, point: &Point) -> f64 {
-        let depth = self.depth_mm(point) / self.depth_mm;
+impl OfDepth for Skin {
+    fn depth_mm(&self, point: &Point) -> f64 {
+        self.surface.signed(point)
+    }
+
+    fn of_depth(&self, depth_mm: f64) -> f64 {
+        let depth = depth_mm / self.depth_mm;
         let share = match self.profile {
             Profile::Linear => 1.0 - depth.min(1.0),
             Profile::Gauss => (-0.5 * depth * depth).exp(),
@@ -61,12 +65,25 @@ impl Density for Skin {
         core + (surface - core) * share
     }
 
+    fn constant_from_mm(&self) -> f64 {
+        match self.profile {
+            Profile::Linear => self.depth_mm,
+            Profile::Gauss => GAUSS_ENDS * self.depth_mm,
+        }
+    }
+}
+
+impl Density for Skin {
+    fn at(&self, point: &Point) -> f64 {
+        self.of_depth(self.depth_mm(point).abs())
+    }
+
     fn bounds(&self, _: &Aabb) -> [f64; 2] {
         let [one, other] = self.densities;
         [f64::min(one, other), f64::max(one, other)]
     }
 
     fn form(&self) -> Form<'_> {
-        Form::Any { kinks: Vec::new() }
+        Form::Depth(self)
     }
 }

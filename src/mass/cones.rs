@@ -75,7 +75,8 @@ impl Estimate {
     }
 
     /// Returns the estimate of the region moved by `shift`; errors can only grow.
-    pub(super) fn translated(&self, shift: &Vector) -> Self {
+    #[must_use]
+    pub fn translated(&self, shift: &Vector) -> Self {
         let error = absolute(&self.error).translated(&shift.abs());
         Self { moments: self.moments.translated(shift), error }
     }
