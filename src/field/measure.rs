@@ -92,6 +92,17 @@ impl Measured {
         let error: Vector = about / volume;
         Some(error.max())
     }
+
+    /// Returns the largest error of a principal moment about the centre of mass, as a share of the
+    /// largest moment; `None` for a body without mass.
+    pub fn inertia_error_ratio(&self) -> Option<f64> {
+        let center = self.center()?.coords;
+        let error = self.error.translated(&center.abs()).second().trace();
+        let central = self.moments.translated(&-center).second();
+        // I = tr(S)·1 − S, whose largest eigenvalue is at least two thirds of tr(S).
+        let largest = central.trace() - central.symmetric_eigenvalues().min();
+        (largest > 0.0).then(|| 2.0 * error / largest)
+    }
 }
 
 #[cfg(test)]

@@ -112,13 +112,16 @@ fn sum_block<const DERIVATIVE: bool>(
     sums
 }
 
+/// Sums of xⁱ yʲ zᵏ, at `[i][j][k]` for i + j + k ≤ 4.
+pub(super) type RootSums = [[[f64; 5]; 5]; 5];
+
 /// Sums over columns, per unit of cell area.
-struct Sums {
+pub(super) struct Sums {
     /// xⁱ yʲ ∫zᵏ over the void, at `[i][j][k]` for i + j + k ≤ 2.
     emptied: [[[f64; 3]; 3]; 3],
     /// xⁱ yʲ Σ zᵏ/|∂q/∂z| over the roots, at `[i][j][k]` for i + j + k ≤ 4. Every entry of m mᵀ is
     /// one of these 35.
-    roots: [[[f64; 5]; 5]; 5],
+    roots: RootSums,
 }
 
 impl Default for Sums {
@@ -131,6 +134,19 @@ impl Default for Sums {
 }
 
 impl Sums {
+    /// Returns sums of xⁱ yʲ ∫zᵏ as moments, and as the integrals of m mᵀ in place of the
+    /// derivative.
+    pub(super) fn of_powers(powers: RootSums) -> Self {
+        let mut sums = Self {
+            roots: powers,
+            ..Self::default()
+        };
+        for [i, j, k] in EXPONENTS {
+            sums.emptied[i][j][k] = powers[i][j][k];
+        }
+        sums
+    }
+
     fn add(&mut self, other: &Self) {
         let own = self.emptied.as_flattened_mut().as_flattened_mut();
         own.iter_mut()
@@ -168,7 +184,7 @@ impl Sums {
         }
     }
 
-    fn moments(&self, pitch_mm: [f64; 2]) -> Moments {
+    pub(super) fn moments(&self, pitch_mm: [f64; 2]) -> Moments {
         let area = pitch_mm[0] * pitch_mm[1];
         let mut moments = EXPONENTS.map(|[i, j, k]| self.emptied[i][j][k] * area);
         moments[7] += moments[0] * cell_variance(pitch_mm[0]);
@@ -176,7 +192,7 @@ impl Sums {
         Moments(moments)
     }
 
-    fn derivative(&self, pitch_mm: [f64; 2]) -> Matrix10 {
+    pub(super) fn derivative(&self, pitch_mm: [f64; 2]) -> Matrix10 {
         let at_centers = Matrix10::from_fn(|row, column| {
             let [i, j, k]: [usize; 3] =
                 std::array::from_fn(|axis| EXPONENTS[row][axis] + EXPONENTS[column][axis]);

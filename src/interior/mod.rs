@@ -13,6 +13,7 @@ mod row;
 mod without;
 
 // Integrals over the columns.
+mod between;
 mod integrate;
 mod moments;
 mod pack;
@@ -39,6 +40,7 @@ mod rays;
 #[cfg(any(test, feature = "papers"))]
 mod voxels;
 
+pub use between::{Between, integrals_between};
 pub use build::BuildError;
 #[cfg(any(test, feature = "papers"))]
 pub use choice::Choice;

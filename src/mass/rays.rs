@@ -7,7 +7,6 @@ use super::moments::Moments;
 use super::rule::{FlatNode, triangle_rule};
 use super::tetrahedron::Tetrahedron;
 use crate::geom::{Matrix, Vector};
-use crate::mesh::TriMesh;
 
 /// Points a side of the coarse and the fine rule over a triangle.
 const COARSE_AND_FINE: [usize; 2] = [4, 7];

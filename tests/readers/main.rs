@@ -20,11 +20,14 @@ use std::time::{Duration, Instant};
 use damage::damaged;
 use equipoise::base::watch::Watch;
 use equipoise::cutter::AnyProfile;
+use equipoise::field::read_text;
 use equipoise::io::gcode::{Options, read_plates};
 use equipoise::io::layers::read_layers;
 use equipoise::io::{decode_curve, decode_model, decode_points};
 use equipoise::job::telescope::TelescopeJob;
 use equipoise::job::{Job, read_plan};
+use equipoise::geom::Point;
+use equipoise::mesh::{Solid, primitives::cuboid};
 use equipoise::printer::Printer;
 use equipoise::skeleton::Skeleton;
 
@@ -199,4 +202,19 @@ fn orders_of_cuts_jobs_and_skeletons() {
         std::str::from_utf8(bytes).is_ok_and(|text| Skeleton::from_toml("s.toml", text).is_ok())
     };
     fuzz("skeleton", &[seeds::skeleton()], reads);
+}
+
+#[test]
+fn fields_of_densities() {
+    let solid = Solid::new(cuboid(&Point::origin(), &Point::new(3.0, 2.0, 1.0))).unwrap();
+    let reads = |bytes: &[u8]| {
+        let text = std::str::from_utf8(bytes);
+        let order = text.is_ok_and(|text| read_text("field.toml", text).is_ok());
+        if order {
+            let order = read_text("field.toml", text.unwrap()).unwrap();
+            assert!(!order.on(&solid).at(&Point::new(1.0, 1.0, 0.5)).is_nan());
+        }
+        order
+    };
+    fuzz("field", &[seeds::field()], reads);
 }

@@ -6,6 +6,7 @@ mod core_kit;
 mod cut;
 mod cutters;
 mod error;
+mod field;
 mod goal;
 mod missing;
 mod prepare;
@@ -30,6 +31,7 @@ pub use again::again;
 pub use core_kit::{CoreArgs, CoreRequest};
 pub use cutters::{CalibrateCutterArgs, CuttersAction, CuttersArgs, NewCutterArgs};
 pub use error::ArgsError;
+pub use field::FieldChoice;
 pub use missing::Missing;
 pub use prepare::{DEFAULT_PLANS, PrepareArgs, Request};
 pub use printers::{CalibrateArgs, CouponArgs, ImportArgs, NewArgs, PrintersAction, PrintersArgs};
@@ -157,6 +159,10 @@ pub struct InspectArgs {
         help_heading = "Printer"
     )]
     pub wall: Option<Length>,
+    /// Show the mass properties with this density: uniform:40%, ramp:0,0,1@20mm..60mm:0.2..1,
+    /// sine:X,Y,Z@40mm:0.1..1, skin:4mm:gauss:0.2..1 (or linear), or a field.toml
+    #[arg(long, value_name = "FIELD", allow_hyphen_values = true)]
+    pub field: Option<FieldChoice>,
     /// Repair the model as `prepare --repair` does: cavities, fill, remesh or remesh:TOLERANCE
     /// [default: auto]
     #[arg(long, value_name = "HOW")]
