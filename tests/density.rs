@@ -65,20 +65,42 @@ fn a_bunny_has_the_mass_and_the_centre_of_the_reference_for_every_field() {
     let Some(mesh) = bunny() else { return };
     let solid = moments_of_mesh(&mesh);
     let uniform = measure(&mesh, &Uniform(1.0)).moments;
-    assert!((uniform.volume() - 199_373.712_4).abs() < 1e-4, "{}", uniform.volume());
+    assert!(
+        (uniform.volume() - 199_373.712_4).abs() < 1e-4,
+        "{}",
+        uniform.volume()
+    );
     assert!((uniform.volume() / solid.volume() - 1.0).abs() < 1e-13);
 
-    let line = Linear { at_origin: 1.0, gradient: Vector::new(1.0, 2.0, 3.0) / 374.0 };
-    assert_body(&mesh, &line, 336_358.963_4, [47.622_239_9, 35.545_077_2, 47.501_488_8]);
+    let line = Linear {
+        at_origin: 1.0,
+        gradient: Vector::new(1.0, 2.0, 3.0) / 374.0,
+    };
+    assert_body(
+        &mesh,
+        &line,
+        336_358.963_4,
+        [47.622_239_9, 35.545_077_2, 47.501_488_8],
+    );
 
     let direction = Vector::new(1.0, 2.0, 2.0) / 3.0;
     let middle = direction.dot(&solid.centroid().coords);
     let ramp = Ramp::new(&direction, [middle - 10.0, middle + 10.0], [1.0, 5.0]).unwrap();
-    assert_body(&mesh, &ramp, 607_063.312_8, [49.068_557_2, 41.353_536_8, 50.327_479_9]);
+    assert_body(
+        &mesh,
+        &ramp,
+        607_063.312_8,
+        [49.068_557_2, 41.353_536_8, 50.327_479_9],
+    );
 
     let center = solid.centroid() + Vector::new(10.0, -14.0, 26.0);
     let sine = Sine::new(center, std::f64::consts::TAU / 0.157, [0.0, 2.0]).unwrap();
-    assert_body(&mesh, &sine, 211_757.322_1, [47.587_704_1, 34.389_280_5, 43.745_623_5]);
+    assert_body(
+        &mesh,
+        &sine,
+        211_757.322_1,
+        [47.587_704_1, 34.389_280_5, 43.745_623_5],
+    );
 }
 
 #[test]
@@ -87,19 +109,29 @@ fn any_apex_gives_the_same_ten_moments_of_the_bunny() {
     let density = |p: &Point| 1.0 + (p.x + 2.0 * p.y + 3.0 * p.z) / 374.0;
     let near = Cones::from_middle(&mesh).linear(density);
     let length = 50.0_f64;
-    for apex in [[0.0; 3], [50.0, 40.0, 30.0], [300.0, 0.0, 0.0], [-100.0, 200.0, 200.0]] {
+    for apex in [
+        [0.0; 3],
+        [50.0, 40.0, 30.0],
+        [300.0, 0.0, 0.0],
+        [-100.0, 200.0, 200.0],
+    ] {
         let moments = Cones::new(&mesh, Point::from(apex)).linear(density);
         for (index, (got, want)) in moments.0.iter().zip(near.0).enumerate() {
             let degree = [0, 1, 1, 1, 2, 2, 2, 2, 2, 2][index];
             let scale = near.volume() * length.powi(degree);
-            assert!((got - want).abs() < 1e-11 * scale, "{apex:?} {index}: {got} {want}");
+            assert!(
+                (got - want).abs() < 1e-11 * scale,
+                "{apex:?} {index}: {got} {want}"
+            );
         }
     }
 }
 
 #[test]
 fn a_skin_without_depth_is_the_core_and_a_deep_one_the_surface() {
-    let Some(mesh) = shared("heart.obj", 60.0) else { return };
+    let Some(mesh) = shared("heart.obj", 60.0) else {
+        return;
+    };
     let solid = Solid::new(mesh).unwrap();
     let volume = moments_of_mesh(solid.mesh()).volume();
     let mean = |depth_mm| {
@@ -125,10 +157,15 @@ fn seconds(mut run: impl FnMut() -> Moments) -> f64 {
 fn linear_fields_take_20_ms_and_waves_300_ms() {
     println!("model, faces, linear s, ramp s, wave s, error of the wave, skin s, its error");
     for name in MODELS {
-        let Some(mesh) = shared(name, 100.0) else { continue };
+        let Some(mesh) = shared(name, 100.0) else {
+            continue;
+        };
         let solid = Solid::new(mesh.clone()).unwrap();
         let middle = mesh.aabb().center();
-        let line = Linear { at_origin: 0.5, gradient: Vector::new(1e-3, 2e-3, 0.0) };
+        let line = Linear {
+            at_origin: 0.5,
+            gradient: Vector::new(1e-3, 2e-3, 0.0),
+        };
         let ramp = Ramp::new(&Vector::y(), [middle.y - 10.0, middle.y + 10.0], [0.2, 1.0]);
         let ramp = ramp.unwrap();
         let center = middle + Vector::new(10.0, -14.0, 26.0);

@@ -229,8 +229,16 @@ fn with_field(
     solid: &Solid,
 ) -> Result<FieldFacts, InspectError> {
     let printer = args.printer.as_deref().map(Printer::find).transpose()?;
-    let name = args.field.as_ref().map_or(String::new(), ToString::to_string);
-    Ok(field_facts(name, order, solid, density_g_cm3(printer.as_ref())?)?)
+    let name = args
+        .field
+        .as_ref()
+        .map_or(String::new(), ToString::to_string);
+    Ok(field_facts(
+        name,
+        order,
+        solid,
+        density_g_cm3(printer.as_ref())?,
+    )?)
 }
 
 /// Returns the density of the printer's material, g/cm³; a plain one without a printer.

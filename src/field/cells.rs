@@ -43,13 +43,18 @@ impl Cell {
         let side = 2.0 * self.half_mm;
         let at = self.center - about;
         let mut moments = Moments(Moments::monomials(at.x, at.y, at.z));
-        moments.0[7..].iter_mut().for_each(|square| *square += side * side / 12.0);
+        moments.0[7..]
+            .iter_mut()
+            .for_each(|square| *square += side * side / 12.0);
         moments * (density * side.powi(3))
     }
 
     fn eighths(&self) -> impl Iterator<Item = Self> {
         let (center, half_mm) = (self.center, 0.5 * self.half_mm);
-        (0..8).map(move |corner| Self { center: center + corner_of(corner) * half_mm, half_mm })
+        (0..8).map(move |corner| Self {
+            center: center + corner_of(corner) * half_mm,
+            half_mm,
+        })
     }
 }
 
@@ -69,8 +74,10 @@ pub(super) fn over_cells(region: &Aabb, fading: &Fading, limits: &Limits) -> Est
     let mut left = limits.most_points;
     let mut total = Estimate::default();
     for halving in 0..=MOST_HALVINGS {
-        let measured: Vec<(Estimate, bool)> =
-            cells.par_iter().map(|cell| measure(cell, fading, &about)).collect();
+        let measured: Vec<(Estimate, bool)> = cells
+            .par_iter()
+            .map(|cell| measure(cell, fading, &about))
+            .collect();
         left = left.saturating_sub(9 * cells.len());
         let mut open = Vec::new();
         for (cell, (estimate, is_done)) in cells.iter().zip(&measured) {
@@ -89,7 +96,9 @@ pub(super) fn over_cells(region: &Aabb, fading: &Fading, limits: &Limits) -> Est
 }
 
 fn first_cells(region: &Aabb, half_mm: f64) -> Vec<Cell> {
-    let counts = region.size().map(|side| (side / (2.0 * half_mm) - 1e-9).ceil().max(1.0) as u32);
+    let counts = region
+        .size()
+        .map(|side| (side / (2.0 * half_mm) - 1e-9).ceil().max(1.0) as u32);
     let start = region.center() - counts.map(|count| f64::from(count) * half_mm);
     let mut cells = Vec::new();
     for k in 0..counts.z {
@@ -125,5 +134,11 @@ fn measure(cell: &Cell, fading: &Fading, about: &Point) -> (Estimate, bool) {
         fine += Moments(Moments::monomials(from.x, from.y, from.z)) * (value * weight);
     }
     let error = Moments((fine - coarse).0.map(f64::abs));
-    (Estimate { moments: fine, error }, false)
+    (
+        Estimate {
+            moments: fine,
+            error,
+        },
+        false,
+    )
 }

@@ -38,7 +38,13 @@ pub fn check(solid: &Solid, field: &dyn Density) -> Result<(), NotADensity> {
     if are_densities(field.bounds(&region)) {
         return Ok(());
     }
-    let wrong = |at: &Point| Some(NotADensity { at: *at, value: field.at(at) }).filter(is_wrong);
+    let wrong = |at: &Point| {
+        Some(NotADensity {
+            at: *at,
+            value: field.at(at),
+        })
+        .filter(is_wrong)
+    };
     if let Some(fault) = solid.mesh().vertices().iter().find_map(wrong) {
         return Err(fault);
     }
@@ -73,7 +79,15 @@ fn search(
     (0..8).find_map(|eighth: usize| {
         let shift = Vector::from_fn(|axis, _| (eighth >> axis & 1) as f64 * half[axis]);
         let min = region.min + shift;
-        search(field, &Aabb { min, max: min + half }, halvings - 1, is_fault)
+        search(
+            field,
+            &Aabb {
+                min,
+                max: min + half,
+            },
+            halvings - 1,
+            is_fault,
+        )
     })
 }
 
@@ -84,12 +98,19 @@ mod tests {
     use crate::mesh::primitives::cuboid;
 
     fn cube() -> Solid {
-        Solid::new(cuboid(&Point::new(-1.0, -1.0, -1.0), &Point::new(1.0, 1.0, 1.0))).unwrap()
+        Solid::new(cuboid(
+            &Point::new(-1.0, -1.0, -1.0),
+            &Point::new(1.0, 1.0, 1.0),
+        ))
+        .unwrap()
     }
 
     #[test]
     fn a_field_outside_its_range_is_told_with_the_place() {
-        let tilted = |at_origin, slope| Linear { at_origin, gradient: Vector::x() * slope };
+        let tilted = |at_origin, slope| Linear {
+            at_origin,
+            gradient: Vector::x() * slope,
+        };
         assert_eq!(check(&cube(), &tilted(0.5, 0.5)), Ok(()));
         let fault = check(&cube(), &tilted(0.5, 0.6)).unwrap_err();
         assert!((fault.at.x.abs(), fault.value) == (1.0, 1.1) || fault.value < -0.09);
@@ -99,7 +120,12 @@ mod tests {
 
     #[test]
     fn a_fault_inside_is_found_where_all_vertices_are_sound() {
-        let term = |coefficient, [x, y, z]: [u8; 3]| Term { coefficient, x, y, z };
+        let term = |coefficient, [x, y, z]: [u8; 3]| Term {
+            coefficient,
+            x,
+            y,
+            z,
+        };
         // 1.2 − x² − y² − z² over 3.2: above 1 only where … nowhere; times 1.2: in the middle.
         let bump = |top: f64| {
             let fall = -top / 3.0;

@@ -21,7 +21,12 @@ pub struct Clamped {
 impl Clamped {
     /// Returns the density.
     pub fn new(quadric: Quadric, wished: f64, range: DensityRange) -> Self {
-        Self { quadric, wished, range, rule: gauss_jacobi(POINTS, 0) }
+        Self {
+            quadric,
+            wished,
+            range,
+            rule: gauss_jacobi(POINTS, 0),
+        }
     }
 
     fn of_value(&self, value: f64) -> f64 {
@@ -39,7 +44,10 @@ impl Density for Clamped {
     }
 
     fn form(&self) -> Form<'_> {
-        Form::Rays { apex: None, rays: self }
+        Form::Rays {
+            apex: None,
+            rays: self,
+        }
     }
 }
 

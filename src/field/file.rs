@@ -96,7 +96,10 @@ struct LevelsTable {
 /// # Errors
 /// It cannot be opened, or is no field; the message names line and column.
 pub fn read_file(path: &Path) -> Result<Order, FileError> {
-    let read = |source| FileError::Read { path: path.to_owned(), source };
+    let read = |source| FileError::Read {
+        path: path.to_owned(),
+        source,
+    };
     if fs::metadata(path).map_err(read)?.len() > MAX_BYTES {
         return Err(FileError::Size(path.to_owned()));
     }
@@ -112,7 +115,10 @@ pub fn read_text(file: &str, text: &str) -> Result<Order, FileError> {
     let FieldFile { field } = toml_text::read(file, text)?;
     let parts = field.count();
     if parts > MAX_PARTS {
-        return Err(FileError::Parts { file: file.to_owned(), parts });
+        return Err(FileError::Parts {
+            file: file.to_owned(),
+            parts,
+        });
     }
     Ok(field)
 }
@@ -143,15 +149,25 @@ impl<'de> Visitor<'de> for OrderVisitor {
             Table::Polynomial(terms) => {
                 Order::Polynomial(Polynomial::new(terms).map_err(Error::custom)?)
             }
-            Table::Linear(LinearTable { at_origin, gradient }) => {
+            Table::Linear(LinearTable {
+                at_origin,
+                gradient,
+            }) => {
                 let numbers = gradient.iter().chain([&at_origin]);
                 if numbers.into_iter().any(|number| !number.is_finite()) {
                     let fault = "a number is not finite; remedy: give plain numbers";
                     return Err(Error::custom(fault));
                 }
-                Order::Linear(Linear { at_origin, gradient: Vector::from(gradient) })
+                Order::Linear(Linear {
+                    at_origin,
+                    gradient: Vector::from(gradient),
+                })
             }
-            Table::Levels(LevelsTable { quadric, cuts, densities }) => {
+            Table::Levels(LevelsTable {
+                quadric,
+                cuts,
+                densities,
+            }) => {
                 let levels = Levels::new(Quadric(quadric), cuts, densities);
                 Order::Levels(levels.map_err(Error::custom)?)
             }
@@ -163,7 +179,9 @@ impl<'de> Visitor<'de> for OrderVisitor {
 /// Returns the parts if there are any.
 fn some<E: Error>(parts: Vec<Order>) -> Result<Vec<Order>, E> {
     if parts.is_empty() {
-        return Err(E::custom("a sum or product of nothing; remedy: give it parts"));
+        return Err(E::custom(
+            "a sum or product of nothing; remedy: give it parts",
+        ));
     }
     Ok(parts)
 }
@@ -202,13 +220,25 @@ sum = [
             ("[field]\nsum = []", "give it parts"),
             ("field = \"ramp:0,0,1\"", "write it like ramp:"),
             ("field = 7", "expected a field"),
-            ("[field]\npolynomial = [{ coefficient = nan, x = 1 }]", "finite"),
-            ("[field]\npolynomial = [{ coefficient = 1.0, x = 200 }]", "degree 200"),
-            ("[field]\nlinear = { at_origin = inf, gradient = [0.0, 0.0, 0.0] }", "finite"),
+            (
+                "[field]\npolynomial = [{ coefficient = nan, x = 1 }]",
+                "finite",
+            ),
+            (
+                "[field]\npolynomial = [{ coefficient = 1.0, x = 200 }]",
+                "degree 200",
+            ),
+            (
+                "[field]\nlinear = { at_origin = inf, gradient = [0.0, 0.0, 0.0] }",
+                "finite",
+            ),
             ("[fields]\nx = 1", "did you mean `field`?"),
         ] {
             let error = read_text("field.toml", text).unwrap_err().to_string();
-            assert!(error.starts_with("field.toml:") && error.contains(part), "{text}: {error}");
+            assert!(
+                error.starts_with("field.toml:") && error.contains(part),
+                "{text}: {error}"
+            );
         }
         let many = format!("[field]\nsum = [{}]", "\"uniform:0.001\",".repeat(80));
         let error = read_text("field.toml", &many).unwrap_err().to_string();

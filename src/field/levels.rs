@@ -42,13 +42,12 @@ impl Levels {
     ///
     /// # Errors
     /// The counts do not fit, the cuts do not ascend or a number is not finite.
-    pub fn new(
-        quadric: Quadric,
-        cuts: Vec<f64>,
-        densities: Vec<f64>,
-    ) -> Result<Self, LevelsError> {
+    pub fn new(quadric: Quadric, cuts: Vec<f64>, densities: Vec<f64>) -> Result<Self, LevelsError> {
         if densities.len() != cuts.len() + 1 || densities.len() > MAX_LEVELS {
-            return Err(LevelsError::Count { cuts: cuts.len(), densities: densities.len() });
+            return Err(LevelsError::Count {
+                cuts: cuts.len(),
+                densities: densities.len(),
+            });
         }
         let numbers = quadric.0.iter().chain(&cuts).chain(&densities);
         if numbers.into_iter().any(|number| !number.is_finite()) {
@@ -57,7 +56,11 @@ impl Levels {
         if cuts.windows(2).any(|pair| pair[0] >= pair[1]) {
             return Err(LevelsError::Order);
         }
-        Ok(Self { quadric, cuts, densities })
+        Ok(Self {
+            quadric,
+            cuts,
+            densities,
+        })
     }
 
     fn of_value(&self, value: f64) -> f64 {
@@ -73,11 +76,17 @@ impl Density for Levels {
 
     fn bounds(&self, _: &Aabb) -> [f64; 2] {
         let all = self.densities.iter().copied();
-        [all.clone().fold(f64::INFINITY, f64::min), all.fold(f64::NEG_INFINITY, f64::max)]
+        [
+            all.clone().fold(f64::INFINITY, f64::min),
+            all.fold(f64::NEG_INFINITY, f64::max),
+        ]
     }
 
     fn form(&self) -> Form<'_> {
-        Form::Rays { apex: None, rays: self }
+        Form::Rays {
+            apex: None,
+            rays: self,
+        }
     }
 }
 
@@ -106,5 +115,9 @@ pub(super) fn on_ray(quadric: &Quadric, apex: &Point, ray: &Vector) -> [f64; 3] 
         + xy * ray.x * ray.y
         + yz * ray.y * ray.z
         + xz * ray.x * ray.z;
-    [quadric.value(apex), quadric.gradient(apex).dot(ray), curvature]
+    [
+        quadric.value(apex),
+        quadric.gradient(apex).dot(ray),
+        curvature,
+    ]
 }

@@ -24,6 +24,9 @@ impl Density for Linear {
     }
 
     fn form(&self) -> Form<'_> {
-        Form::Piecewise { kinks: Vec::new(), degree: 1 }
+        Form::Piecewise {
+            kinks: Vec::new(),
+            degree: 1,
+        }
     }
 }

@@ -17,8 +17,9 @@
 //! [`measure()`] integrates and says the error it reached. [`check`] finds a place where a density
 //! is none. [`Order`] reads a density from a few words or from a file.
 //!
-//! The densities are those of Bukenberger and Lensch, "Tetrahedra of Varying Density and Their
-//! Applications", The Visual Computer 37, 2021, §4, and those of the solver in [`crate::hollow`].
+//! Ramp and sine are those of Bukenberger and Lensch, "Tetrahedra of Varying Density and Their
+//! Applications", The Visual Computer 37, 2021, §4. Levels and clamped quadrics are what the solver
+//! in [`crate::hollow`] finds.
 
 mod density;
 mod range;

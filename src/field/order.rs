@@ -57,7 +57,11 @@ impl Order {
             Self::Ramp(ramp) => Box::new(*ramp),
             Self::Sine(sine) => Box::new(*sine),
             Self::Levels(levels) => Box::new(levels.clone()),
-            Self::Skin(SkinOrder { depth_mm, profile, densities }) => {
+            Self::Skin(SkinOrder {
+                depth_mm,
+                profile,
+                densities,
+            }) => {
                 match Skin::new(solid, *depth_mm, *profile, *densities) {
                     Some(skin) => Box::new(skin),
                     // A depth of nothing leaves the core.

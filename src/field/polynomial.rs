@@ -95,7 +95,10 @@ impl Density for Polynomial {
 
     fn form(&self) -> Form<'_> {
         let degree = self.0.iter().map(Term::degree).max().unwrap_or(0);
-        Form::Piecewise { kinks: Vec::new(), degree }
+        Form::Piecewise {
+            kinks: Vec::new(),
+            degree,
+        }
     }
 }
 
@@ -126,10 +129,22 @@ mod tests {
 
     #[test]
     fn bounds_hold_over_a_box() {
-        let term = |coefficient, [x, y, z]: [u8; 3]| Term { coefficient, x, y, z };
-        let terms = vec![term(2.0, [2, 0, 1]), term(-1.0, [0, 3, 0]), term(0.5, [1, 1, 1])];
+        let term = |coefficient, [x, y, z]: [u8; 3]| Term {
+            coefficient,
+            x,
+            y,
+            z,
+        };
+        let terms = vec![
+            term(2.0, [2, 0, 1]),
+            term(-1.0, [0, 3, 0]),
+            term(0.5, [1, 1, 1]),
+        ];
         let field = Polynomial::new(terms).unwrap();
-        let region = Aabb { min: Point::new(-1.0, -2.0, 0.5), max: Point::new(2.0, 1.0, 3.0) };
+        let region = Aabb {
+            min: Point::new(-1.0, -2.0, 0.5),
+            max: Point::new(2.0, 1.0, 3.0),
+        };
         let [low, high] = field.bounds(&region);
         let mut random = Random::new(3);
         for _ in 0..1000 {
@@ -141,7 +156,12 @@ mod tests {
 
     #[test]
     fn terms_that_are_too_many_too_high_or_no_numbers_are_refused() {
-        let term = |coefficient, x| Term { coefficient, x, y: 0, z: 0 };
+        let term = |coefficient, x| Term {
+            coefficient,
+            x,
+            y: 0,
+            z: 0,
+        };
         let error = |terms| Polynomial::new(terms).unwrap_err();
         assert_eq!(error(Vec::new()), PolynomialError::Terms(0));
         assert_eq!(error(vec![term(1.0, 9)]), PolynomialError::Degree(9));

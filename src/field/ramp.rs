@@ -12,9 +12,10 @@ pub struct Ramp {
 }
 
 impl Ramp {
-    /// Returns the ramp along `direction` (any length but zero) with the two densities below the
-    /// first and above the second of the places n·x = `ends_mm`. `None` unless the first is below
-    /// the second and all numbers are finite.
+    /// Returns the ramp along `direction`, of any length but zero. It has the first density where
+    /// n·x is below the first of `ends_mm`, and the second above the second.
+    ///
+    /// `None` unless the first end is below the second and all numbers are finite.
     pub fn new(direction: &Vector, ends_mm: [f64; 2], densities: [f64; 2]) -> Option<Self> {
         let direction = direction.try_normalize(f64::MIN_POSITIVE)?;
         let numbers = ends_mm.iter().chain(&densities).chain(direction.iter());
@@ -47,7 +48,13 @@ impl Density for Ramp {
     }
 
     fn form(&self) -> Form<'_> {
-        let plane = |offset_mm| Plane { normal: self.direction, offset_mm };
-        Form::Piecewise { kinks: self.ends_mm.map(plane).to_vec(), degree: 1 }
+        let plane = |offset_mm| Plane {
+            normal: self.direction,
+            offset_mm,
+        };
+        Form::Piecewise {
+            kinks: self.ends_mm.map(plane).to_vec(),
+            degree: 1,
+        }
     }
 }

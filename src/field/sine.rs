@@ -52,7 +52,10 @@ impl Density for Sine {
     }
 
     fn form(&self) -> Form<'_> {
-        Form::Rays { apex: Some(self.center), rays: self }
+        Form::Rays {
+            apex: Some(self.center),
+            rays: self,
+        }
     }
 }
 
@@ -102,7 +105,10 @@ mod tests {
         let rule = gauss_jacobi(24, 0);
         for z in [0.0, 1e-9, 0.3, 1.9, 1.999_999, 2.0, 2.1, 7.0, 20.0] {
             for (got, power) in powers_times_sine(z).into_iter().zip([2, 3, 4]) {
-                let want: f64 = rule.iter().map(|[t, w]| w * t.powi(power) * (z * t).sin()).sum();
+                let want: f64 = rule
+                    .iter()
+                    .map(|[t, w]| w * t.powi(power) * (z * t).sin())
+                    .sum();
                 assert!((got - want).abs() < 2e-14, "{z} {power}: {got} {want}");
             }
         }

@@ -17,6 +17,9 @@ impl Density for Uniform {
     }
 
     fn form(&self) -> Form<'_> {
-        Form::Piecewise { kinks: Vec::new(), degree: 0 }
+        Form::Piecewise {
+            kinks: Vec::new(),
+            degree: 0,
+        }
     }
 }

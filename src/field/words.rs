@@ -97,7 +97,9 @@ fn ramp(text: &str, rest: &str) -> Result<Order, WordsError> {
     let ends_mm = [place(from)?, place(to)?];
     let range = range(densities)?;
     let ramp = Ramp::new(&vector, ends_mm, [range.low(), range.high()]);
-    Ok(Order::Ramp(ramp.ok_or_else(|| WordsError::Places(places.to_owned()))?))
+    Ok(Order::Ramp(
+        ramp.ok_or_else(|| WordsError::Places(places.to_owned()))?,
+    ))
 }
 
 /// Reads `X,Y,Z@WAVE:LOW..HIGH`.
@@ -132,7 +134,11 @@ fn skin(text: &str, rest: &str) -> Result<Order, WordsError> {
 }
 
 fn shape(name: &'static str, text: &str, example: &'static str) -> WordsError {
-    WordsError::Shape { name, text: text.to_owned(), example }
+    WordsError::Shape {
+        name,
+        text: text.to_owned(),
+        example,
+    }
 }
 
 /// Reads a density: `0.4` or `40%`.
@@ -167,9 +173,16 @@ fn range(text: &str) -> Result<DensityRange, WordsError> {
 /// Reads three numbers.
 fn triple(text: &str) -> Result<[f64; 3], WordsError> {
     let refuse = || WordsError::Triple(text.to_owned());
-    let number = |part: &str| part.trim().parse().ok().filter(|value: &f64| value.is_finite());
+    let number = |part: &str| {
+        part.trim()
+            .parse()
+            .ok()
+            .filter(|value: &f64| value.is_finite())
+    };
     let numbers: Option<Vec<f64>> = text.split(',').map(number).collect();
-    numbers.and_then(|numbers| numbers.try_into().ok()).ok_or_else(refuse)
+    numbers
+        .and_then(|numbers| numbers.try_into().ok())
+        .ok_or_else(refuse)
 }
 
 /// Reads a place along a direction, mm: a length, its negative, or zero.
@@ -201,7 +214,11 @@ mod tests {
             "skin:4mm:gauss:0.2..1",
             "skin:4mm:linear:0.2..1",
         ] {
-            assert!(text.parse::<Order>().is_ok(), "{text}: {:?}", text.parse::<Order>());
+            assert!(
+                text.parse::<Order>().is_ok(),
+                "{text}: {:?}",
+                text.parse::<Order>()
+            );
         }
         assert_eq!("uniform:40%".parse(), Ok(Order::Uniform(Uniform(0.4))));
     }
@@ -223,7 +240,10 @@ mod tests {
             ("ramp:0,0,1@60mm..20mm:0.2..1", "rising order"),
             ("ramp:0,0,0@20mm..60mm:0.2..1", "no direction"),
             ("ramp:0,0@20mm..60mm:0.2..1", "three numbers"),
-            ("ramp:0,0,1@20mm:0.2..1", "write it like ramp:0,0,1@20mm..60mm:0.2..1"),
+            (
+                "ramp:0,0,1@20mm:0.2..1",
+                "write it like ramp:0,0,1@20mm..60mm:0.2..1",
+            ),
             ("sine:nan,0,0@40mm:0.1..1", "three numbers"),
             ("sine:0,0,0@0mm:0.1..1", "above zero"),
             ("sine:0,0,0@40mm:0.1", "such as 0.2..1"),
@@ -231,7 +251,10 @@ mod tests {
             ("skin:4parsec:gauss:0.2..1", "unit of length"),
         ] {
             let error = text.parse::<Order>().unwrap_err().to_string();
-            assert!(error.contains(part) && error.contains("remedy: "), "{text}: {error}");
+            assert!(
+                error.contains(part) && error.contains("remedy: "),
+                "{text}: {error}"
+            );
         }
     }
 }

@@ -5,9 +5,10 @@
 //! ```
 //!
 //! The best is d = clamp(d₀ − q, low, high) with q = (Aᵀλ)·m: at most ten unknowns, whatever the
-//! resolution. The dual ∫ ½(d − d₀)² + λ·(A s − b) is concave, with gradient A s − b and Hessian
-//! −A ∫ m mᵀ Aᵀ over { low < d < high }. Newton climbs it in about ten steps. Any λ gives a bound.
-//! A dual above the greatest change that the bounds allow proves that no density meets the rows.
+//! resolution. The dual ∫ ½(d − d₀)² + λ·(A s − b) is concave, and its gradient is A s − b. Its
+//! Hessian is −A ∫ m mᵀ Aᵀ over { low < d < high }. Newton climbs it in about ten steps.
+//! Any λ gives a bound. A dual above the greatest change that the bounds allow proves that no
+//! density meets the rows.
 
 use nalgebra::DVector;
 
@@ -21,7 +22,10 @@ use crate::interior::{Between, integrals_between};
 use crate::mass::Moments;
 
 /// Residual of the rows, in units of the body, at which the ascent ends.
-const ACCURACY: Limits = Limits { residual: 1e-13, steps: 100 };
+const ACCURACY: Limits = Limits {
+    residual: 1e-13,
+    steps: 100,
+};
 /// Excess of the dual over the greatest change that is more than rounding.
 const PROOF_RATIO: f64 = 1e-6;
 
@@ -65,7 +69,12 @@ pub fn least_change(
     range: DensityRange,
     wished: f64,
 ) -> Verdict<Change, Separation> {
-    let problem = ChangeProblem { units: InUnits::new(graded), graded, range, wished };
+    let problem = ChangeProblem {
+        units: InUnits::new(graded),
+        graded,
+        range,
+        wished,
+    };
     let greatest = problem.greatest_cost();
     let mut proof = None;
     let visit = |weights: &DVector<f64>| {
@@ -130,7 +139,14 @@ impl ChangeProblem<'_> {
             + clamped(&between.below, self.range.high());
         let excess = self.units.excess(&moments);
         let dual = cost + weights.dot(&excess);
-        State { quadric, between, moments, cost, dual, excess }
+        State {
+            quadric,
+            between,
+            moments,
+            cost,
+            dual,
+            excess,
+        }
     }
 
     fn local(&self, state: &State) -> Local {
@@ -170,13 +186,19 @@ mod tests {
 
     /// Returns a leaning block of columns, without mirror symmetry.
     pub(crate) fn block() -> Columns {
-        let mut columns = Columns { pitch_mm: [0.5; 2], starts: vec![0], ..Columns::default() };
+        let mut columns = Columns {
+            pitch_mm: [0.5; 2],
+            starts: vec![0],
+            ..Columns::default()
+        };
         for j in 0..16 {
             for i in 0..20 {
                 let place = |at: i32| (f64::from(at) + 0.5) * 0.5;
                 let [x, y] = [place(i) - 4.0, place(j) - 3.0];
                 columns.centers.push([x, y]);
-                columns.intervals.push([0.1 * x - 2.0, 3.0 + 0.2 * y + 0.05 * x * x]);
+                columns
+                    .intervals
+                    .push([0.1 * x - 2.0, 3.0 + 0.2 * y + 0.05 * x * x]);
                 columns.starts.push(columns.intervals.len() as u32);
             }
         }
@@ -222,11 +244,22 @@ mod tests {
     fn the_least_change_meets_its_rows_and_its_bound() {
         let columns = block();
         let rows = [1, 2, 6, 5].map(|index| Row::zero(moment(index)));
-        let graded = Graded { shell: Moments::default(), columns: &columns, rows: &rows };
-        let change = least_change(&graded, range(0.15, 1.0), 0.575).found().unwrap();
+        let graded = Graded {
+            shell: Moments::default(),
+            columns: &columns,
+            rows: &rows,
+        };
+        let change = least_change(&graded, range(0.15, 1.0), 0.575)
+            .found()
+            .unwrap();
         assert!(change.residual <= 1e-10, "{}", change.residual);
         assert!((change.cost - change.bound).abs() <= 1e-9 * change.cost.max(1.0));
-        assert!(change.cost > 1e-3 && change.steps <= 15, "{} {}", change.cost, change.steps);
+        assert!(
+            change.cost > 1e-3 && change.steps <= 15,
+            "{} {}",
+            change.cost,
+            change.steps
+        );
         // The conditions of Karush, Kuhn and Tucker: the density is the clamped quadric itself.
         // Slices of 0.013 mm integrate it to 1e-5.
         let [xx, yy] = [change.quadric.0[7], change.quadric.0[8]];
@@ -259,7 +292,11 @@ mod tests {
                 wanted: sums[index],
                 sense: Sense::Equal,
             });
-            let graded = Graded { shell: Moments::default(), columns: &columns, rows: &rows };
+            let graded = Graded {
+                shell: Moments::default(),
+                columns: &columns,
+                rows: &rows,
+            };
             let change = least_change(&graded, range(0.2, 0.9), 0.6).found().unwrap();
             assert!(change.residual <= 1e-10, "{}", change.residual);
             assert!(change.bound <= sums[10] / sums[11] + 1e-6);
@@ -270,13 +307,24 @@ mod tests {
     fn rows_that_are_met_change_nothing_and_inequalities_hold_with_their_signs() {
         let columns = block();
         let whole = columns.moments();
-        let at_most = |wanted| Row { quadric: moment(0), wanted, sense: Sense::AtMost };
+        let at_most = |wanted| Row {
+            quadric: moment(0),
+            wanted,
+            sense: Sense::AtMost,
+        };
         let rows = [at_most(0.7 * whole.volume())];
-        let graded = Graded { shell: Moments::default(), columns: &columns, rows: &rows };
+        let graded = Graded {
+            shell: Moments::default(),
+            columns: &columns,
+            rows: &rows,
+        };
         let slack = least_change(&graded, range(0.1, 1.0), 0.6).found().unwrap();
         assert!(slack.cost < 1e-20 && slack.multipliers == [0.0]);
         let rows = [at_most(0.5 * whole.volume()), Row::zero(moment(1))];
-        let graded = Graded { rows: &rows, ..graded };
+        let graded = Graded {
+            rows: &rows,
+            ..graded
+        };
         let tight = least_change(&graded, range(0.1, 1.0), 0.6).found().unwrap();
         assert!((tight.moments.volume() / whole.volume() - 0.5).abs() < 1e-10);
         assert!(tight.multipliers[0] > 0.0 && tight.residual < 1e-10);
@@ -291,12 +339,19 @@ mod tests {
         let mut row = moment(1);
         row.0[0] = -9.0;
         let rows = [Row::zero(row)];
-        let graded = Graded { shell: Moments::default(), columns: &columns, rows: &rows };
+        let graded = Graded {
+            shell: Moments::default(),
+            columns: &columns,
+            rows: &rows,
+        };
         let Verdict::No(proof) = least_change(&graded, range(0.1, 1.0), 0.5) else {
             unreachable!("no density has its centre outside")
         };
         // The quadric has one sign all over the block, so no positive density integrates to zero.
-        let signs = columns.centers.iter().map(|&[x, y]| proof.quadric.value(&Point::new(x, y, 0.)));
+        let signs = columns
+            .centers
+            .iter()
+            .map(|&[x, y]| proof.quadric.value(&Point::new(x, y, 0.)));
         assert!(signs.clone().all(|value| value > 0.0) && whole.volume() > 0.0);
     }
 
@@ -304,9 +359,15 @@ mod tests {
     fn a_wished_density_at_a_bound_is_no_hindrance() {
         let columns = block();
         let rows = [1, 2].map(|index| Row::zero(moment(index)));
-        let graded = Graded { shell: Moments::default(), columns: &columns, rows: &rows };
+        let graded = Graded {
+            shell: Moments::default(),
+            columns: &columns,
+            rows: &rows,
+        };
         for wished in [1.0, 0.1, 1.2] {
-            let change = least_change(&graded, range(0.1, 1.0), wished).found().unwrap();
+            let change = least_change(&graded, range(0.1, 1.0), wished)
+                .found()
+                .unwrap();
             assert!(change.residual <= 1e-10, "{wished}: {}", change.residual);
             assert!((change.cost - change.bound).abs() <= 1e-9, "{wished}");
         }

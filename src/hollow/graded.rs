@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, DVector};
 use super::dual::units::{Scale, Vector10};
 use super::newton::Local;
 use crate::geom::Quadric;
-use crate::interior::{Columns, Matrix10, moments_and_derivative};
+use crate::interior::{Columns, Matrix10, moments_and_own_derivative};
 use crate::mass::Moments;
 
 /// A linear row over the ten moments of a body.
@@ -53,7 +53,11 @@ pub struct Separation {
 impl Row {
     /// Returns the row that a linear function of the moments be zero.
     pub fn zero(quadric: Quadric) -> Self {
-        Self { quadric, wanted: 0.0, sense: Sense::Equal }
+        Self {
+            quadric,
+            wanted: 0.0,
+            sense: Sense::Equal,
+        }
     }
 }
 
@@ -82,9 +86,15 @@ impl<'a> InUnits<'a> {
         let interior = graded.columns.moments();
         let scale = Scale::of(&(graded.shell + interior));
         let units = scale.units();
-        let scaled: Vec<Vector10> =
-            graded.rows.iter().map(|row| Vector10::from(row.quadric.0).component_mul(&units)).collect();
-        let lengths: Vec<f64> = scaled.iter().map(|row| row.norm().max(f64::MIN_POSITIVE)).collect();
+        let scaled: Vec<Vector10> = graded
+            .rows
+            .iter()
+            .map(|row| Vector10::from(row.quadric.0).component_mul(&units))
+            .collect();
+        let lengths: Vec<f64> = scaled
+            .iter()
+            .map(|row| row.norm().max(f64::MIN_POSITIVE))
+            .collect();
         let count = graded.rows.len();
         Self {
             columns: graded.columns,
@@ -92,7 +102,11 @@ impl<'a> InUnits<'a> {
             interior: scale.moments_to_units(&interior),
             rows: DMatrix::from_fn(count, 10, |i, j| scaled[i][j] / lengths[i]),
             wanted: DVector::from_fn(count, |i, _| graded.rows[i].wanted / lengths[i]),
-            is_bounded: graded.rows.iter().map(|row| row.sense == Sense::AtMost).collect(),
+            is_bounded: graded
+                .rows
+                .iter()
+                .map(|row| row.sense == Sense::AtMost)
+                .collect(),
             lengths,
             scale,
         }
@@ -115,7 +129,9 @@ impl<'a> InUnits<'a> {
         let own = weights.iter().zip(&self.lengths);
         let factor = weights.norm().max(f64::MIN_POSITIVE).recip();
         Separation {
-            weights: own.map(|(weight, length)| factor * weight / length).collect(),
+            weights: own
+                .map(|(weight, length)| factor * weight / length)
+                .collect(),
             quadric: Quadric(self.quadric(weights).0.map(|c| c * factor)),
         }
     }
@@ -140,7 +156,7 @@ impl<'a> InUnits<'a> {
     /// Returns the moments where a quadric over mm is positive, and their derivative by the
     /// coefficients in units.
     pub fn positive(&self, quadric: &Quadric) -> Positive {
-        let (moments, derivative) = moments_and_derivative(self.columns, quadric);
+        let (moments, derivative) = moments_and_own_derivative(self.columns, quadric);
         Positive {
             moments: self.to_units(&moments),
             derivative: self.pairs_to_units(&derivative),

@@ -1,8 +1,8 @@
 //! The least change with a few printable densities: nested level sets of one quadric.
 //!
 //! Between the levels l₁ < … < l_N the cost ½(d − d₀)² is replaced by its chords. Then the best is
-//! d = lᵢ where cᵢ₋₁ < −q < cᵢ with cᵢ = (lᵢ + lᵢ₊₁)/2 − d₀: no rounding, and the rows are met
-//! exactly. It costs at most (lᵢ₊₁ − lᵢ)²/8 a unit of volume more than the smooth best.
+//! d = lᵢ where cᵢ₋₁ < −q < cᵢ, with cᵢ = (lᵢ + lᵢ₊₁)/2 − d₀. Nothing is rounded, and the rows are
+//! met exactly. It costs at most (lᵢ₊₁ − lᵢ)²/8 a unit of volume more than the smooth best.
 
 use nalgebra::DVector;
 
@@ -17,7 +17,10 @@ use crate::interior::Matrix10;
 use crate::mass::Moments;
 
 /// Residual of the rows, in units of the body, at which the ascent ends.
-const ACCURACY: Limits = Limits { residual: 1e-11, steps: 100 };
+const ACCURACY: Limits = Limits {
+    residual: 1e-11,
+    steps: 100,
+};
 /// Excess of the dual over the greatest change that is more than rounding.
 const PROOF_RATIO: f64 = 1e-6;
 /// Fewest levels: two have no scale, and their best is that of the two densities.
@@ -92,7 +95,17 @@ impl PrintLevels {
     pub fn even(range: DensityRange, count: usize) -> Result<Self, LevelCountError> {
         let steps = count.saturating_sub(1).max(1) as f64;
         let level = |i: usize| range.low() + range.span() * i as f64 / steps;
-        Self::new((0..count).map(|i| if i + 1 == count { range.high() } else { level(i) }).collect())
+        Self::new(
+            (0..count)
+                .map(|i| {
+                    if i + 1 == count {
+                        range.high()
+                    } else {
+                        level(i)
+                    }
+                })
+                .collect(),
+        )
     }
 
     /// Returns the densities, ascending.
@@ -119,8 +132,8 @@ impl LevelChange {
 
 /// Finds the least change of the density `wished` with these levels, or the proof that none does.
 ///
-/// Starts from the smooth change. The rows are met to about 1e-9 unless whole columns change at
-/// once, because a level set is upright in the columns' frame: the residual says so.
+/// Starts from the smooth change. The rows are met to about 1e-11, unless whole columns change at
+/// once. That happens if a level set is upright in the columns' frame, and the residual says so.
 pub fn least_level_change(
     graded: &Graded,
     levels: &PrintLevels,
@@ -175,7 +188,12 @@ impl<'a> LevelProblem<'a> {
         let densities = levels.densities();
         let cut = |pair: &[f64]| 0.5 * (pair[0] + pair[1]) - wished;
         let cuts = densities.windows(2).map(cut).collect();
-        Self { units: InUnits::new(graded), densities, cuts, wished }
+        Self {
+            units: InUnits::new(graded),
+            densities,
+            cuts,
+            wished,
+        }
     }
 
     fn change_of(&self, density: f64) -> f64 {
@@ -184,7 +202,10 @@ impl<'a> LevelProblem<'a> {
 
     /// Returns the greatest change that the levels allow.
     fn greatest_cost(&self) -> f64 {
-        let costs = self.densities.iter().map(|density| self.change_of(*density));
+        let costs = self
+            .densities
+            .iter()
+            .map(|density| self.change_of(*density));
         costs.fold(0.0, f64::max) * self.units.interior[0]
     }
 
@@ -205,11 +226,19 @@ impl<'a> LevelProblem<'a> {
         }
         let excess = self.units.excess(&moments);
         let dual = cost + weights.dot(&excess);
-        State { quadric, moments, curvature, cost, dual, excess }
+        State {
+            quadric,
+            moments,
+            curvature,
+            cost,
+            dual,
+            excess,
+        }
     }
 
     fn local(&self, state: &State) -> Local {
-        self.units.negated(state.dual, &state.excess, &state.curvature)
+        self.units
+            .negated(state.dual, &state.excess, &state.curvature)
     }
 
     fn change(&self, weights: &DVector<f64>, steps: usize) -> LevelChange {
@@ -241,13 +270,19 @@ mod tests {
 
     /// Returns a leaning block of fine columns, without mirror symmetry.
     fn block() -> Columns {
-        let mut columns = Columns { pitch_mm: [0.25; 2], starts: vec![0], ..Columns::default() };
+        let mut columns = Columns {
+            pitch_mm: [0.25; 2],
+            starts: vec![0],
+            ..Columns::default()
+        };
         for j in 0..32 {
             for i in 0..40 {
                 let place = |at: i32| (f64::from(at) + 0.5) * 0.25;
                 let [x, y] = [place(i) - 4.0, place(j) - 3.0];
                 columns.centers.push([x, y]);
-                columns.intervals.push([0.1 * x - 2.0, 3.0 + 0.2 * y + 0.05 * x * x]);
+                columns
+                    .intervals
+                    .push([0.1 * x - 2.0, 3.0 + 0.2 * y + 0.05 * x * x]);
                 columns.starts.push(columns.intervals.len() as u32);
             }
         }
@@ -264,7 +299,11 @@ mod tests {
     fn a_few_levels_meet_the_rows_and_cost_at_most_an_eighth_of_the_square_of_a_step() {
         let columns = block();
         let rows = rows();
-        let graded = Graded { shell: Moments::default(), columns: &columns, rows: &rows };
+        let graded = Graded {
+            shell: Moments::default(),
+            columns: &columns,
+            rows: &rows,
+        };
         let range = DensityRange::new(0.15, 1.0).unwrap();
         let smooth = least_change(&graded, range, 0.575).found().unwrap();
         for count in [3, 4, 6, 8, 12] {
@@ -273,7 +312,10 @@ mod tests {
             assert!(found.residual <= 1e-7, "{count}: {}", found.residual);
             let step = range.span() / (count - 1) as f64;
             assert!(found.cost >= smooth.bound - 1e-9, "{count}");
-            assert!(found.cost <= smooth.cost + step * step / 8.0 + 1e-9, "{count}");
+            assert!(
+                found.cost <= smooth.cost + step * step / 8.0 + 1e-9,
+                "{count}"
+            );
             assert!((found.cost - found.bound).abs() <= 1e-6, "{count}");
         }
     }
@@ -284,7 +326,10 @@ mod tests {
         assert_eq!(new(&[0.1, 1.0]), Err(LevelCountError::Count(2)));
         assert_eq!(new(&[0.1; 13]), Err(LevelCountError::Count(13)));
         assert_eq!(new(&[0.1, 0.5, 0.5]), Err(LevelCountError::Order));
-        assert!(matches!(new(&[0.1, 0.5, 1.5]), Err(LevelCountError::Range(_))));
+        assert!(matches!(
+            new(&[0.1, 0.5, 1.5]),
+            Err(LevelCountError::Range(_))
+        ));
         assert_eq!(new(&[0.1, f64::NAN, 1.0]), Err(LevelCountError::Order));
     }
 }

@@ -126,6 +126,7 @@
 //! | `graded` | rows over a body of any density, in units |
 //! | `newton` | Newton's method with bounds |
 //! | `range` | the least and greatest density that can do it |
+//! | `nearest` | the density whose moments are nearest to wanted ones |
 //! | `change`, `levels` | the least change of a wished density, smooth or in steps |
 //! | `top/`: `heights`, `valley`, `lever`, `search` | the search over heights |
 //! | `top/`: `posts`, `cover`, `frontier` | the proof over all heights |
@@ -176,6 +177,7 @@ mod golden;
 mod graded;
 mod levels;
 mod log;
+mod nearest;
 mod newton;
 #[cfg(any(test, feature = "papers"))]
 pub mod papers;
@@ -199,6 +201,7 @@ pub use golden::golden_section;
 pub use graded::{Graded, Row, Sense, Separation};
 pub use levels::{LevelChange, LevelCountError, PrintLevels, least_level_change};
 pub use log::{LogRow, Pass, Stage};
+pub use nearest::{Match, Nearest, match_moments};
 #[cfg(any(test, feature = "papers"))]
 pub use papers::{
     Accuracy, ByOctree, ByQuadric, ByRays, ByVoxels, Found, Method, MethodError, Outcome, Rounding,

@@ -8,7 +8,7 @@
 //! ```
 //!
 //! So the least span is the greatest u·F/∫(u·A m)₊. It is one concave programme in as many
-//! variables as there are rows: u·F − ½(∫(u·A m)₊)², whose maximum is half the square of the span.
+//! variables as there are rows. The maximum of u·F − ½(∫(u·A m)₊)² is half the square of the span.
 //! Any u proves that lesser spans do not do.
 
 use nalgebra::DVector;
@@ -17,7 +17,10 @@ use super::graded::{Graded, InUnits, Separation};
 use super::newton::{Limits, Local, minimise};
 
 /// Gradient, in units, at which the span is found: far below what it is rounded to.
-const ACCURACY: Limits = Limits { residual: 1e-10, steps: 100 };
+const ACCURACY: Limits = Limits {
+    residual: 1e-10,
+    steps: 100,
+};
 
 /// A bound of the density at which the rows can just be met.
 #[derive(Debug, Clone, PartialEq)]
@@ -35,13 +38,19 @@ pub struct Threshold {
 /// Negative if not even a hollow interior meets them.
 pub fn greatest_low(graded: &Graded, high: f64) -> Threshold {
     let span = least_span(graded, high, 1.0);
-    Threshold { density: high - span.density, ..span }
+    Threshold {
+        density: high - span.density,
+        ..span
+    }
 }
 
 /// Returns the least greatest density with which the rows can be met, if the least is `low`.
 pub fn least_high(graded: &Graded, low: f64) -> Threshold {
     let span = least_span(graded, low, -1.0);
-    Threshold { density: low + span.density, ..span }
+    Threshold {
+        density: low + span.density,
+        ..span
+    }
 }
 
 /// Returns the least span from a density to lesser (sign 1) or greater ones (sign −1).
@@ -51,12 +60,20 @@ fn least_span(graded: &Graded, from: f64, sign: f64) -> Threshold {
     let visit = |u: &DVector<f64>| Some(visit(&units, &excess, u * sign).turned(sign));
     let at_start = project(&excess, &units.is_bounded);
     let size = reach(&units, &(&at_start * sign));
-    let start = if size > 0.0 { &at_start * (at_start.norm_squared() / (size * size)) } else { at_start };
+    let start = if size > 0.0 {
+        &at_start * (at_start.norm_squared() / (size * size))
+    } else {
+        at_start
+    };
     let found = minimise(start, &units.is_bounded, ACCURACY, visit);
     let weights = found.map_or_else(|| DVector::zeros(excess.len()), |found| found.at);
     let size = reach(&units, &(&weights * sign));
     if size <= 0.0 {
-        return Threshold { density: 0.0, proof: None, gap: 0.0 };
+        return Threshold {
+            density: 0.0,
+            proof: None,
+            gap: 0.0,
+        };
     }
     let span = weights.dot(&excess) / size;
     Threshold {
@@ -67,7 +84,13 @@ fn least_span(graded: &Graded, from: f64, sign: f64) -> Threshold {
 }
 
 fn project(weights: &DVector<f64>, is_bounded: &[bool]) -> DVector<f64> {
-    let entry = |i: usize, _| if is_bounded[i] { weights[i].max(0.0) } else { weights[i] };
+    let entry = |i: usize, _| {
+        if is_bounded[i] {
+            weights[i].max(0.0)
+        } else {
+            weights[i]
+        }
+    };
     DVector::from_fn(weights.len(), entry)
 }
 
@@ -83,7 +106,14 @@ fn visit(units: &InUnits, excess: &DVector<f64>, v: DVector<f64>) -> Signed {
     let slope = &units.rows * positive.moments;
     let size = v.dot(&slope);
     let hessian = &slope * slope.transpose() + units.between_rows(&positive.derivative) * size;
-    Signed { size, slope, hessian, v, excess: excess.clone(), trace: units.full_trace() }
+    Signed {
+        size,
+        slope,
+        hessian,
+        v,
+        excess: excess.clone(),
+        trace: units.full_trace(),
+    }
 }
 
 /// The parts of the programme before the sign of u is put in.
@@ -139,9 +169,16 @@ mod tests {
         // Arms 1 and 3: low · 9/2 = high · 1/2 at the least.
         let columns = rod([-1.0, 3.0]);
         let rows = centered();
-        let graded = Graded { shell: Moments::default(), columns: &columns, rows: &rows };
+        let graded = Graded {
+            shell: Moments::default(),
+            columns: &columns,
+            rows: &rows,
+        };
         let low = greatest_low(&graded, 0.9);
-        assert!((low.density - 0.1).abs() < 1e-9 && low.gap < 1e-9, "{low:?}");
+        assert!(
+            (low.density - 0.1).abs() < 1e-9 && low.gap < 1e-9,
+            "{low:?}"
+        );
         let high = least_high(&graded, 0.05);
         assert!((high.density - 0.45).abs() < 1e-9, "{high:?}");
         let solves = |low, high| {
@@ -159,7 +196,11 @@ mod tests {
         let rows = centered();
         let mut shell = Moments::default();
         shell.0[..4].copy_from_slice(&[10.0, 5.0, 5.0, 10.0]);
-        let graded = Graded { shell, columns: &columns, rows: &rows };
+        let graded = Graded {
+            shell,
+            columns: &columns,
+            rows: &rows,
+        };
         let low = greatest_low(&graded, 1.0);
         assert!(low.density < 0.0, "{low:?}");
         // F = 10 + (9 − 1)/2 = 14 and ∫(u z)₊ = 9/2 a unit of u: the span is 28/9.
@@ -170,7 +211,11 @@ mod tests {
     fn a_body_that_is_balanced_needs_no_range() {
         let columns = rod([-2.0, 2.0]);
         let rows = centered();
-        let graded = Graded { shell: Moments::default(), columns: &columns, rows: &rows };
+        let graded = Graded {
+            shell: Moments::default(),
+            columns: &columns,
+            rows: &rows,
+        };
         assert_eq!(greatest_low(&graded, 0.8).density, 0.8);
     }
 }

@@ -47,7 +47,9 @@ pub use choice::Choice;
 pub use columns::Columns;
 pub use depths::Depths;
 pub use emptied::{Emptied, Piece};
-pub use integrate::{Matrix10, moments_and_derivative, moments_where_positive};
+pub use integrate::{
+    Matrix10, moments_and_derivative, moments_and_own_derivative, moments_where_positive,
+};
 #[cfg(any(test, feature = "papers"))]
 pub use octree::{Levels, Octree};
 #[cfg(any(test, feature = "papers"))]

@@ -1,8 +1,8 @@
 //! The moments of a solid whose density varies, from its surface alone.
 //!
-//! For any apex o the signed tetrahedra (o, a, b, c) over the triangles of a closed surface add up
-//! to the indicator of the solid: ∫ f m over the solid is the signed sum over these cones, for any
-//! density f defined in space. No tetrahedral mesh is needed.
+//! For any apex o, take the signed tetrahedra (o, a, b, c) over the triangles of a closed surface.
+//! They add up to the indicator of the solid. So ∫ f m over the solid is the signed sum over these
+//! cones, for any density f that is defined in space. No tetrahedral mesh is needed.
 
 use rayon::prelude::*;
 
@@ -23,8 +23,8 @@ const MOST_HALVINGS: usize = 40;
 
 /// The signed cones from an apex over the triangles of a closed, oriented mesh.
 ///
-/// With the apex near the centre, results agree with those of a tetrahedral mesh to some 1e-14 of
-/// each moment's scale; with one three lengths away to 1e-12.
+/// With the apex near the centre, moments are right to some 1e-14 of their scale. With one three
+/// lengths away it is 1e-12.
 #[derive(Debug, Clone, Copy)]
 pub struct Cones<'a> {
     mesh: &'a TriMesh,
@@ -53,7 +53,10 @@ pub struct Estimate {
 impl Estimate {
     /// Returns exact moments.
     pub fn exact(moments: Moments) -> Self {
-        Self { moments, error: Moments::default() }
+        Self {
+            moments,
+            error: Moments::default(),
+        }
     }
 
     /// Returns the sum of two estimates.
@@ -78,7 +81,10 @@ impl Estimate {
     #[must_use]
     pub fn translated(&self, shift: &Vector) -> Self {
         let error = absolute(&self.error).translated(&shift.abs());
-        Self { moments: self.moments.translated(shift), error }
+        Self {
+            moments: self.moments.translated(shift),
+            error,
+        }
     }
 }
 
@@ -156,7 +162,10 @@ impl<'a> Cones<'a> {
         let density = |at: &Vector| density(&(self.apex + at));
         let measure = |piece: &Tetrahedron| {
             let [coarse, fine] = [0, 1].map(|which| piece.by_rule(&rules[which], density));
-            Estimate { moments: fine, error: absolute(&(fine - coarse)) }
+            Estimate {
+                moments: fine,
+                error: absolute(&(fine - coarse)),
+            }
         };
         let mut total = EstimateSum::default();
         let mut left = accuracy.most_pieces.max(pieces.len());
@@ -222,7 +231,12 @@ impl<'a> Cones<'a> {
         let volume_mm3: f64 = cones.map(|cone| cone.volume_mm3().abs()).sum();
         let reach = self.cones(self.mesh.triangles()).flat_map(|cone| cone.0);
         let length_mm = reach.map(|corner| corner.norm()).fold(0.0, f64::max);
-        Limits { volume_mm3, length_mm, ratio, least_share: 1.0 / pieces.max(1) as f64 }
+        Limits {
+            volume_mm3,
+            length_mm,
+            ratio,
+            least_share: 1.0 / pieces.max(1) as f64,
+        }
     }
 }
 
@@ -290,7 +304,10 @@ mod tests {
         let size = want.second().trace() / want.volume();
         for ((got, want_each), degree) in got.0.iter().zip(want.0).zip(DEGREES) {
             let scale = want.volume() * size.sqrt().powi(degree);
-            assert!((got - want_each).abs() <= ratio * scale, "{got} {want_each}");
+            assert!(
+                (got - want_each).abs() <= ratio * scale,
+                "{got} {want_each}"
+            );
         }
     }
 
@@ -306,8 +323,17 @@ mod tests {
         let mesh = ball(&Point::new(3.0, -2.0, 7.0), 50.0, 3);
         let density = |at: &Point| 1.0 + 0.004 * at.x - 0.002 * at.y + 0.003 * at.z;
         let near = Cones::from_middle(&mesh).linear(density);
-        let kinks = [Plane::through(&Point::new(1.0, 2.0, 3.0), &Vector::new(1.0, 2.0, 2.0))];
-        let bent = |at: &Point| if kinks[0].distance(at) > 0.0 { 0.9 } else { density(at) };
+        let kinks = [Plane::through(
+            &Point::new(1.0, 2.0, 3.0),
+            &Vector::new(1.0, 2.0, 2.0),
+        )];
+        let bent = |at: &Point| {
+            if kinks[0].distance(at) > 0.0 {
+                0.9
+            } else {
+                density(at)
+            }
+        };
         let near_bent = Cones::from_middle(&mesh).piecewise(&kinks, 1, bent);
         for apex in [[0.0, 0.0, 0.0], [53.0, -2.0, 7.0], [300.0, -50.0, 20.0]] {
             let cones = Cones::new(&mesh, Point::from(apex));
@@ -318,15 +344,17 @@ mod tests {
 
     #[test]
     fn a_density_that_jumps_at_a_plane_is_two_boxes() {
-        let box_between = |low: f64, high: f64| {
-            cuboid(&Point::new(0.0, 0.0, low), &Point::new(4.0, 3.0, high))
+        let box_between =
+            |low: f64, high: f64| cuboid(&Point::new(0.0, 0.0, low), &Point::new(4.0, 3.0, high));
+        let kink = Plane {
+            normal: Vector::z(),
+            offset_mm: 2.5,
         };
-        let kink = Plane { normal: Vector::z(), offset_mm: 2.5 };
         let step = |at: &Point| if at.z < 2.5 { 0.25 } else { 1.0 };
         let mesh = box_between(0.0, 6.0);
         let got = Cones::from_middle(&mesh).piecewise(&[kink], 0, step);
-        let want =
-            moments_of_mesh(&box_between(0.0, 2.5)) * 0.25 + moments_of_mesh(&box_between(2.5, 6.0));
+        let want = moments_of_mesh(&box_between(0.0, 2.5)) * 0.25
+            + moments_of_mesh(&box_between(2.5, 6.0));
         assert_same(&got, &want, 1e-14);
     }
 
@@ -336,13 +364,19 @@ mod tests {
         let density = |at: &Point| (0.1 * at.x + 0.05 * at.y).exp();
         let cones = Cones::from_middle(&mesh);
         let fine = cones.piecewise(&[], 16, density);
-        let accuracy = Accuracy { ratio: 1e-9, most_pieces: 1_000_000 };
+        let accuracy = Accuracy {
+            ratio: 1e-9,
+            most_pieces: 1_000_000,
+        };
         let got = cones.estimate(&[], accuracy, density);
         assert_same(&got.moments, &fine, 1e-9);
         assert!(got.error.volume() < 1e-7 * fine.volume());
         // A jump that is not named as a kink: too few pieces, so the error is large, and admitted.
         let jump = |at: &Point| if at.x + 0.3 * at.y > 1.9 { 1.0 } else { 0.0 };
-        let few = Accuracy { ratio: 1e-9, most_pieces: 3000 };
+        let few = Accuracy {
+            ratio: 1e-9,
+            most_pieces: 3000,
+        };
         let got = cones.estimate(&[], few, jump);
         let kink = Plane::through(&Point::new(1.9, 0.0, 0.0), &Vector::new(1.0, 0.3, 0.0));
         let exact = cones.piecewise(&[kink], 0, jump);
@@ -354,7 +388,10 @@ mod tests {
     fn one_thread_and_three_give_the_same_bits() {
         let mesh = ball(&Point::new(1.0, 2.0, 3.0), 10.0, 4);
         let with = |threads| {
-            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            let pool = rayon::ThreadPoolBuilder::new()
+                .num_threads(threads)
+                .build()
+                .unwrap();
             pool.install(|| Cones::from_middle(&mesh).linear(|at| 1.0 + 0.01 * at.x))
         };
         assert_eq!(with(1), with(3));
@@ -363,6 +400,9 @@ mod tests {
     #[test]
     fn no_triangles_have_no_moments() {
         let empty = TriMesh::default();
-        assert_eq!(Cones::from_middle(&empty).linear(|_| 1.0), Moments::default());
+        assert_eq!(
+            Cones::from_middle(&empty).linear(|_| 1.0),
+            Moments::default()
+        );
     }
 }

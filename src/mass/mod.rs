@@ -24,7 +24,7 @@ mod tests;
 
 pub use bar::RoundBar;
 pub use bead::{Bead, BeadMoments, Turn};
-pub use body::{Body, Principal};
+pub use body::{Body, ImpossibleBody, Principal};
 pub use cones::{Accuracy, Cones, Estimate};
 pub use film::FlatFace;
 pub(crate) use lump::rims;

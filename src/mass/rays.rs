@@ -18,7 +18,7 @@ const BLOCK: usize = 256;
 impl Cones<'_> {
     /// Returns the moments for a density whose integrals along rays from the apex are known.
     ///
-    /// `integrals` gets the ray from the apex to a point of the surface, mm, and returns
+    /// `integrals` gets the ray from the apex to a point of the surface, mm. It returns
     /// ∫₀¹ t²⁺ʲ f(apex + t ray) dt for j = 0, 1, 2. Only the directions are left to quadrature:
     /// spectral where the integrals are smooth over a triangle. Triangles are quartered until two
     /// rules agree. A triangle in one plane with the apex adds nothing.
@@ -45,7 +45,10 @@ impl Cones<'_> {
                         left -= 4;
                         open.extend(quarters(piece));
                     } else {
-                        sum.add(&Estimate { moments: fine, error });
+                        sum.add(&Estimate {
+                            moments: fine,
+                            error,
+                        });
                     }
                 }
                 pieces = open;
@@ -53,7 +56,8 @@ impl Cones<'_> {
         };
         let block = |triangles| {
             let mut sum = EstimateSum::default();
-            self.cones(triangles).for_each(|cone| refine(cone, &mut sum));
+            self.cones(triangles)
+                .for_each(|cone| refine(cone, &mut sum));
             sum.total()
         };
         let blocks: Vec<Estimate> = triangles.par_chunks(BLOCK).map(block).collect();
@@ -71,7 +75,11 @@ fn measure(
 ) -> Moments {
     let [_, a, b, c] = cone.0;
     let (mut zeroth, mut first, mut second) = (0.0, Vector::zeros(), Matrix::zeros());
-    for FlatNode { shares: [l, m], weight } in rule {
+    for FlatNode {
+        shares: [l, m],
+        weight,
+    } in rule
+    {
         let ray = a * (1.0 - l - m) + b * *l + c * *m;
         let along = integrals(&ray);
         zeroth += weight * along[0];
@@ -105,11 +113,17 @@ mod tests {
             let square = ray.norm_squared();
             [3.0, 4.0, 5.0].map(|power: f64| 1.0 / power + square / (power + 2.0))
         };
-        let accuracy = Accuracy { ratio: 1e-13, most_pieces: 100_000 };
+        let accuracy = Accuracy {
+            ratio: 1e-13,
+            most_pieces: 100_000,
+        };
         let got = cones.along_rays(accuracy, along);
         let want = cones.piecewise(&[], 2, |at| 1.0 + (at - apex).norm_squared());
         for (got, want) in got.moments.0.iter().zip(want.0) {
-            assert!((got - want).abs() < 1e-12 * want.abs().max(1e3), "{got} {want}");
+            assert!(
+                (got - want).abs() < 1e-12 * want.abs().max(1e3),
+                "{got} {want}"
+            );
         }
     }
 }

@@ -134,8 +134,8 @@ mod tests {
                         node.weight * l.powi(a as i32) * m.powi(b as i32) * n.powi(c as i32)
                     };
                     let sum: f64 = rule.nodes().iter().map(term).sum();
-                    let exact = 6.0 * factorial(a) * factorial(b) * factorial(c)
-                        / factorial(3 + degree);
+                    let exact =
+                        6.0 * factorial(a) * factorial(b) * factorial(c) / factorial(3 + degree);
                     assert!((sum - exact).abs() < 1e-14, "{a} {b} {c}");
                 }
             }

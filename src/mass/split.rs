@@ -44,7 +44,10 @@ impl Split {
             1 => {
                 let order = LONE.into_iter().find(|order| is_above[order[0]]);
                 let [tip, wedge] = split_lone(&Ordered::new(tetrahedron, heights, order));
-                Self { below: wedge, above: tip }
+                Self {
+                    below: wedge,
+                    above: tip,
+                }
             }
             2 => {
                 let is_pair = |order: &[usize; 4]| !is_above[order[0]] && !is_above[order[1]];
@@ -54,10 +57,19 @@ impl Split {
             3 => {
                 let order = LONE.into_iter().find(|order| !is_above[order[0]]);
                 let [tip, wedge] = split_lone(&Ordered::new(tetrahedron, heights, order));
-                Self { below: tip, above: wedge }
+                Self {
+                    below: tip,
+                    above: wedge,
+                }
             }
-            0 => Self { below: whole, above: none },
-            _ => Self { below: none, above: whole },
+            0 => Self {
+                below: whole,
+                above: none,
+            },
+            _ => Self {
+                below: none,
+                above: whole,
+            },
         }
     }
 
@@ -81,7 +93,10 @@ impl Side {
     fn of(found: &[Tetrahedron]) -> Self {
         let nothing = Tetrahedron([Vector::zeros(); 4]);
         let piece = |i: usize| found.get(i).copied().unwrap_or(nothing);
-        Self { pieces: [0, 1, 2].map(piece), count: found.len() }
+        Self {
+            pieces: [0, 1, 2].map(piece),
+            count: found.len(),
+        }
     }
 
     /// Returns the three tetrahedra of a wedge between two triangles.
@@ -144,24 +159,46 @@ mod tests {
     fn the_pieces_conserve_all_moments_and_keep_the_sign() {
         let mut random = Random::new(5);
         for round in 0..10_000 {
-            let whole =
-                Tetrahedron([0; 4].map(|_| Vector::from_fn(|_, _| 10.0 * random.between(0.0, 1.0) - 5.0)));
+            let whole = Tetrahedron(
+                [0; 4].map(|_| Vector::from_fn(|_, _| 10.0 * random.between(0.0, 1.0) - 5.0)),
+            );
             let normal = Vector::from_fn(|_, _| random.between(0.0, 1.0) - 0.5).normalize();
             let offset = 6.0 * random.between(0.0, 1.0) - 3.0;
             let heights = whole.0.map(|corner| normal.dot(&corner) - offset);
             let split = Split::new(&whole, heights);
             let sum = split
                 .pieces()
-                .fold(crate::mass::Moments::default(), |sum, piece| sum + piece.linear([1.0; 4]));
+                .fold(crate::mass::Moments::default(), |sum, piece| {
+                    sum + piece.linear([1.0; 4])
+                });
             let volume = whole.volume_mm3();
             for (got, want) in sum.0.iter().zip(whole.linear([1.0; 4]).0) {
-                assert!((got - want).abs() <= 1e-12 * volume.abs() * 25.0, "{round}: {got} {want}");
+                assert!(
+                    (got - want).abs() <= 1e-12 * volume.abs() * 25.0,
+                    "{round}: {got} {want}"
+                );
             }
             let tiny = 1e-13 * volume.abs();
-            assert!(split.pieces().all(|piece| piece.volume_mm3() * volume.signum() > -tiny));
+            assert!(
+                split
+                    .pieces()
+                    .all(|piece| piece.volume_mm3() * volume.signum() > -tiny)
+            );
             let height = |corner: &Vector| normal.dot(corner) - offset;
-            assert!(split.below().iter().flat_map(|t| t.0).all(|c| height(&c) < 1e-12));
-            assert!(split.above().iter().flat_map(|t| t.0).all(|c| height(&c) > -1e-12));
+            assert!(
+                split
+                    .below()
+                    .iter()
+                    .flat_map(|t| t.0)
+                    .all(|c| height(&c) < 1e-12)
+            );
+            assert!(
+                split
+                    .above()
+                    .iter()
+                    .flat_map(|t| t.0)
+                    .all(|c| height(&c) > -1e-12)
+            );
         }
     }
 
@@ -169,7 +206,12 @@ mod tests {
     fn corners_in_the_plane_make_no_pieces_that_are_not_numbers() {
         let corners = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
         let whole = Tetrahedron(corners.map(Vector::from));
-        for heights in [[0.0; 4], [0.0, 0.0, 0.0, 1.0], [0.0, 1.0, -1.0, 0.0], [0.0, 1., 1., 1.]] {
+        for heights in [
+            [0.0; 4],
+            [0.0, 0.0, 0.0, 1.0],
+            [0.0, 1.0, -1.0, 0.0],
+            [0.0, 1., 1., 1.],
+        ] {
             let split = Split::new(&whole, heights);
             let volume: f64 = split.pieces().map(Tetrahedron::volume_mm3).sum();
             assert!((volume - 1.0 / 6.0).abs() < 1e-15, "{heights:?}: {volume}");

@@ -111,7 +111,10 @@ mod tests {
             for (index, (exact, gauss)) in exact.0.iter().zip(gauss.0).enumerate() {
                 let degree = [0, 1, 1, 1, 2, 2, 2, 2, 2, 2][index];
                 let scale = volume * 10.0 * 10f64.powi(degree);
-                assert!((exact - gauss).abs() <= 1e-12 * scale, "{index}: {exact} {gauss}");
+                assert!(
+                    (exact - gauss).abs() <= 1e-12 * scale,
+                    "{index}: {exact} {gauss}"
+                );
             }
         }
     }

@@ -44,7 +44,10 @@ impl FromStr for FieldChoice {
         } else {
             Source::Words(typed.parse()?)
         };
-        Ok(Self { typed: typed.to_owned(), source })
+        Ok(Self {
+            typed: typed.to_owned(),
+            source,
+        })
     }
 }
 

@@ -52,7 +52,10 @@ mod tests {
 
     #[test]
     fn the_whole_range_is_hollowing() {
-        let world = worlds::egg(Objective::SpinIt { gamma_c: 0.0, gamma_i: 1.0 });
+        let world = worlds::egg(Objective::SpinIt {
+            gamma_c: 0.0,
+            gamma_i: 1.0,
+        });
         let hollow = solve(&world.problem(), &Settings::default(), &Watch::silent());
         let two = best_densities(&world.problem(), range(0.0, 1.0), None, &Watch::silent());
         assert!((two.certificate.value - hollow.certificate.value).abs() < 1e-9);
@@ -62,7 +65,8 @@ mod tests {
     fn of_all_65536_ways_to_print_sixteen_blocks_none_stands_better_than_two_densities() {
         for (low, high) in [(0.15, 1.0), (0.1, 0.7)] {
             let world = worlds::blocks_on_a_slope();
-            let solution = best_densities(&world.problem(), range(low, high), None, &Watch::silent());
+            let solution =
+                best_densities(&world.problem(), range(low, high), None, &Watch::silent());
             assert!(solution.is_usable() && solution.certificate.gap_ratio.abs() < 1e-6);
             let lost = world.columns.moments() * (1.0 - high);
             let mut best = f64::NEG_INFINITY;
@@ -93,7 +97,10 @@ mod tests {
             };
             let lost = lost_moments(&world, density);
             let figures = compute_figures(&world.goal, &(world.fixed - lost));
-            best = f64::max(best, figures.toppling_angle_rad.unwrap_or(f64::NEG_INFINITY));
+            best = f64::max(
+                best,
+                figures.toppling_angle_rad.unwrap_or(f64::NEG_INFINITY),
+            );
         }
         assert!(best <= solution.certificate.bound + 1e-12);
     }
