@@ -14,13 +14,13 @@ mod common;
 
 use std::time::Instant;
 
-use common::shared_model;
+use common::{assert_exit, equipoise, json, path, printed, shared_model, words};
 use equipoise::base::watch::Watch;
 use equipoise::field::{Density, Linear, Order, Profile, Ramp, Sine, Skin, Uniform, measure};
 use equipoise::geom::{Point, Vector};
 use equipoise::io::read_model;
 use equipoise::mass::{Cones, Moments, moments_of_mesh};
-use equipoise::mesh::{Solid, TriMesh};
+use equipoise::mesh::{Solid, TriMesh, primitives::cuboid};
 use equipoise::repair::repair;
 
 /// The models with about 12 000 faces, the size for which times are promised.
@@ -188,4 +188,98 @@ fn linear_fields_take_20_ms_and_waves_300_ms() {
         let faces = mesh.triangles().len() as f64 / 12_000.0;
         assert!(linear_s <= 0.02 * faces.max(1.0) && wave_s <= 0.3 * faces.max(1.0));
     }
+}
+
+/// A cuboid of 40 × 30 × 20 mm beside the origin, as an STL file in a folder.
+fn write_cuboid(folder: &std::path::Path) -> std::path::PathBuf {
+    let mesh = cuboid(&Point::origin(), &Point::new(40.0, 30.0, 20.0));
+    let mut text = "solid cuboid\n".to_owned();
+    for corners in mesh.iter_corners() {
+        text += "facet normal 0 0 0\nouter loop\n";
+        for corner in corners {
+            text += &format!("vertex {} {} {}\n", corner.x, corner.y, corner.z);
+        }
+        text += "endloop\nendfacet\n";
+    }
+    let file = folder.join("cuboid.stl");
+    std::fs::write(&file, text + "endsolid cuboid\n").unwrap();
+    file
+}
+
+#[test]
+fn inspect_tells_mass_centre_and_moments_of_a_field_and_its_error() {
+    let folder = tempfile::tempdir().unwrap();
+    let model = write_cuboid(folder.path());
+    let ramp = "ramp:1,0,0@0mm..40mm:0..1";
+    let output = equipoise(&["--json", "inspect", path(&model), "--field", ramp]);
+    assert_exit(&output, 0);
+    let field = &json(&output)["field"];
+    // 24 cm³ at a mean of one half and 1.2 g/cm³; the centre of a wedge.
+    let close = |value: &serde_json::Value, want: f64| {
+        let got = value.as_f64().unwrap();
+        assert!((got - want).abs() < 1e-9 * want.abs(), "{got} {want}");
+    };
+    close(&field["mass_g"], 14.4);
+    close(&field["mean_density_ratio"], 0.5);
+    close(&field["body"]["center_mm"][0], 80.0 / 3.0);
+    close(&field["body"]["center_mm"][1], 15.0);
+    // About the long axis: m (b² + c²)/12, the least; the ramp changes only the other two.
+    close(
+        &field["body"]["principal_moments_g_mm2"][0],
+        14.4 * 1300.0 / 12.0,
+    );
+    assert_eq!(field["mass_error_ratio"], 0.0);
+    let output = equipoise(&[
+        "inspect",
+        path(&model),
+        "--field",
+        "sine:0,0,0@40mm:10%..90%",
+    ]);
+    assert_exit(&output, 0);
+    let text = printed(&output);
+    assert!(
+        text.contains("with the field sine:0,0,0@40mm:10%..90%: "),
+        "{text}"
+    );
+    assert!(
+        text.contains("principal moments") && text.contains("error: at most"),
+        "{text}"
+    );
+    // Massless: an answer.
+    let output = equipoise(&["inspect", path(&model), "--field", "uniform:0"]);
+    assert_exit(&output, 0);
+    assert!(printed(&output).contains("no mass"), "{}", printed(&output));
+}
+
+#[test]
+fn a_field_that_is_none_ends_with_2_a_place_and_a_remedy() {
+    let folder = tempfile::tempdir().unwrap();
+    let model = write_cuboid(folder.path());
+    let file = |name: &str, text: &str| {
+        let file = folder.path().join(name);
+        std::fs::write(&file, text).unwrap();
+        path(&file).to_owned()
+    };
+    let steep = "[field]\nlinear = { at_origin = 0.0, gradient = [0.05, 0.0, 0.0] }\n";
+    let misspelt = "[field]\nsun = [\"uniform:10%\"]\n";
+    for (field, part) in [
+        ("uniform:15".to_owned(), "write 15% or 0.15"),
+        ("uniform:1.5".to_owned(), "from 0 to 1"),
+        ("uniform:nan".to_owned(), "from 0 to 1"),
+        ("ramp:0,0,1@0mm..9mm:0.5..0.5".to_owned(), "is not below"),
+        ("wave:0.4".to_owned(), "is not a field"),
+        ("nowhere.toml".to_owned(), "nowhere.toml"),
+        (file("steep.toml", steep), "the field is 2.0000 at (40.00, "),
+        (file("misspelt.toml", misspelt), "misspelt.toml:2:1: "),
+    ] {
+        let output = equipoise(&["inspect", path(&model), "--field", &field]);
+        assert_exit(&output, 2);
+        let text = printed(&output);
+        assert!(
+            text.contains(part) && text.contains("remedy"),
+            "{field}: {text}"
+        );
+    }
+    let line = format!("inspect {} --field", path(&model));
+    assert_exit(&equipoise(&words(&line)), 2);
 }

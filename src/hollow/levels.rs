@@ -134,6 +134,7 @@ impl LevelChange {
 ///
 /// Starts from the smooth change. The rows are met to about 1e-11, unless whole columns change at
 /// once. That happens if a level set is upright in the columns' frame, and the residual says so.
+/// Columns in a tilted frame have no such level sets.
 pub fn least_level_change(
     graded: &Graded,
     levels: &PrintLevels,
@@ -265,6 +266,7 @@ impl<'a> LevelProblem<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geom::{Frame, Point, Vector};
     use crate::hollow::graded::Row;
     use crate::interior::Columns;
 
@@ -289,10 +291,12 @@ mod tests {
         columns
     }
 
+    /// Returns rows for the centre and two products of inertia, seen from a tilted frame. In their
+    /// own frame the level set q = 0 has an upright plane, where whole columns change at once.
     fn rows() -> [Row; 3] {
-        let one = |index: usize| Quadric(std::array::from_fn(|i| f64::from(i == index)));
-        // The centre and a product of inertia. Level sets with z in them are not upright.
-        [3, 6, 5].map(|index| Row::zero(one(index)))
+        let one = |index: usize| Quadric(std::array::from_fn(|i| f64::from(u8::from(i == index))));
+        let tilted = Frame::with_axis(Point::origin(), &Vector::new(0.3, -0.4, 0.85));
+        [3, 6, 5].map(|index| Row::zero(one(index).in_frame(&tilted)))
     }
 
     #[test]
