@@ -15,6 +15,7 @@ use nalgebra::DVector;
 
 use super::graded::{Graded, InUnits, Separation};
 use super::newton::{Limits, Local, minimise};
+use crate::field::DensityRange;
 
 /// Gradient, in units, at which the span is found: far below what it is rounded to.
 const ACCURACY: Limits = Limits {
@@ -51,6 +52,12 @@ pub fn least_high(graded: &Graded, low: f64) -> Threshold {
         density: low + span.density,
         ..span
     }
+}
+
+/// Returns the proof that no density of a range meets the rows; `None` if some density does.
+pub(super) fn proof_against(graded: &Graded, range: DensityRange) -> Option<Separation> {
+    let least = least_span(graded, range.high(), 1.0);
+    least.proof.filter(|_| least.density > range.span())
 }
 
 /// Returns the least span from a density to lesser (sign 1) or greater ones (sign −1).
@@ -143,7 +150,6 @@ impl Signed {
 mod tests {
     use super::*;
     use crate::base::verdict::Verdict;
-    use crate::field::DensityRange;
     use crate::geom::Quadric;
     use crate::hollow::change::least_change;
     use crate::hollow::graded::Row;

@@ -80,7 +80,7 @@ impl Body {
     pub fn check(&self) -> Result<(), ImpossibleBody> {
         let numbers = self.center.coords.iter().chain(self.inertia_g_mm2.iter());
         let is_finite = numbers.into_iter().all(|number| number.is_finite());
-        if !is_finite || !(self.mass_g.is_finite() && self.mass_g > 0.0) {
+        if !(is_finite && self.mass_g.is_finite() && self.mass_g > 0.0) {
             return Err(ImpossibleBody::Mass(self.mass_g));
         }
         let [least, middle, greatest] = self.principal().moments_g_mm2;
