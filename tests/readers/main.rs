@@ -103,7 +103,7 @@ fn models_as_stl_obj_ply_and_3mf() {
 
 #[test]
 fn curves_as_points_lines_and_edges() {
-    let is_finite = |points: &[equipoise::geom::Point]| {
+    let is_finite = |points: &[Point]| {
         assert!(points.iter().all(|p| p.iter().all(|x| x.is_finite())));
         true
     };
