@@ -4,6 +4,7 @@ mod choices;
 pub mod core_kit;
 mod effort;
 mod filling;
+mod model;
 mod sliced;
 mod slicer;
 pub mod telescope;
@@ -15,6 +16,7 @@ use serde::{Deserialize, Deserializer, Serialize, de::Error as _};
 pub use choices::{CutMode, IdStyle, Interior, ModelUnit, PartFormat, PinStyle};
 pub use effort::Effort;
 pub use filling::Filling;
+pub use model::ModelChoice;
 pub use sliced::SlicedRound;
 pub use slicer::SlicerChoice;
 
@@ -30,7 +32,7 @@ use crate::repair::RepairOrder;
 pub const JOB_SCHEMA: u32 = 1;
 
 /// The first line of every written `job.toml`.
-const REMARK: &str = "# Replays the run: equipoise prepare, with this file as its job; elsewhere with the model too.\n\n";
+const REMARK: &str = "# Replays the run: equipoise prepare, with this file as its job; outside of its kit with the model too.\n\n";
 
 /// The line of a `job.toml` that named the only solver.
 const OLD_SOLVER: &str = "solver = \"quadric\"";
@@ -120,39 +122,6 @@ pub struct Job {
     /// A copy of the model that is read in its place. It is no part of the file.
     #[serde(skip)]
     pub model_copy: Option<PathBuf>,
-}
-
-/// The model file and its size.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct ModelChoice {
-    /// The file.
-    pub path: PathBuf,
-    /// The SHA-256 of the file's bytes in lower-case hexadecimal; `None` until they have been read.
-    pub sha256: Option<String>,
-    /// The conversion of the file's numbers to mm.
-    pub scaling: Scaling,
-}
-
-impl ModelChoice {
-    /// Returns the choice as a kit tells it: the name of the file, without the folder in which it
-    /// lay.
-    pub fn without_folder(&self) -> Self {
-        let name = self.path.file_name().map(PathBuf::from);
-        Self {
-            path: name.unwrap_or_default(),
-            ..self.clone()
-        }
-    }
-
-    /// Returns the name under which a kit holds a copy of the file: `name`, with the ending of the
-    /// file.
-    pub fn copy_name(path: &Path, name: &str) -> String {
-        let ending = path.extension();
-        let ending = ending.map(|ending| ending.to_string_lossy().to_lowercase());
-        let ending = ending.filter(|ending| ending.chars().all(|c| c.is_ascii_alphanumeric()));
-        ending.map_or_else(|| name.to_owned(), |ending| format!("{name}.{ending}"))
-    }
 }
 
 /// The conversion of a model file's numbers to mm.

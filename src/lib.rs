@@ -60,10 +60,10 @@ pub mod prepare;
 pub mod printer;
 pub mod verify;
 
-/// Points, meshes, their files, repair and mass.
+/// Points, meshes, their files, repair, mass, and densities that vary.
 pub mod model {
     #[doc(inline)]
-    pub use crate::{geom, io, mass, mend, mesh, repair};
+    pub use crate::{field, geom, io, mass, mend, mesh, repair};
 }
 
 /// From a goal to the best void: what is asked, what may be emptied, the solver and its surfaces.
@@ -121,6 +121,8 @@ pub mod cutting;
 pub mod draw;
 #[doc(hidden)]
 pub mod error;
+#[doc(hidden)]
+pub mod field;
 #[doc(hidden)]
 pub mod geom;
 #[doc(hidden)]

@@ -5,9 +5,10 @@ use std::path::PathBuf;
 
 use serde::Serialize;
 
-use super::args::InspectArgs;
+use super::args::{FieldChoice, InspectArgs};
 use super::broken::{BrokenPictureError, check_name, places, redraw_hint, write_picture};
 use super::exit::Exit;
+use super::field_facts::{FieldFacts, field_facts, field_text};
 use super::flags::{flag, flags, with_flags};
 use super::mass_facts::{Mass, mass, mass_text, plain};
 use super::show::{say, table};
@@ -16,6 +17,7 @@ use crate::advice::{Case, Prospect, name_direction, prospects};
 use crate::base::setting::{Key, Setting};
 use crate::base::units::{format_count, show_mm};
 use crate::base::watch::{Cancelled, Watch};
+use crate::field::{FileError, NotADensity, Order};
 use crate::geom::Vector;
 use crate::goal::{Contact, GoalKind, Request, find_upright};
 use crate::io::{ReadError, read_model};
@@ -43,6 +45,12 @@ pub enum InspectError {
     /// The picture cannot be written.
     #[error(transparent)]
     Picture(#[from] BrokenPictureError),
+    /// The field's file cannot be used.
+    #[error(transparent)]
+    FieldFile(#[from] FileError),
+    /// The field is no density somewhere in the model.
+    #[error(transparent)]
+    Field(#[from] NotADensity),
     /// The printer's profile cannot be used.
     #[error(transparent)]
     Profile(#[from] ProfileError),
@@ -84,6 +92,8 @@ struct Findings {
     can_be_redrawn: bool,
     not_one_body: Option<String>,
     solid: Option<Mass>,
+    /// The mass properties with the field ordered; `None` without one, or if it is not a solid.
+    field: Option<FieldFacts>,
     /// The goals it could reach with a wall; `None` if it is not a solid of one body, or if nobody
     /// prints its size.
     could_become: Option<Becoming>,
@@ -120,6 +130,7 @@ pub fn inspect(
     out: &mut dyn Write,
 ) -> Result<Exit, InspectError> {
     args.picture.as_deref().map_or(Ok(()), check_name)?;
+    let field = args.field.as_ref().map(FieldChoice::order).transpose()?;
     let factor = |longest| args.scaling.scaling().factor(longest);
     let order = args.repair.unwrap_or_default();
     let mended = mend(read_model(&args.model)?, order, factor, &Watch::silent());
@@ -141,6 +152,9 @@ pub fn inspect(
     }
     let mut findings = findings(&facts, mended.repairs.to_string(), &solid);
     findings.not_one_body = refusal.map(|why| why.to_string());
+    if let (Ok(solid), Some(order)) = (&solid, &field) {
+        findings.field = Some(with_field(args, order, solid)?);
+    }
     // Without its size, walls and speeds would be those of another object.
     let is_sized = findings.size_hint.is_none() || args.wall.is_some();
     if let (Ok(solid), None, true) = (&solid, &findings.not_one_body, is_sized) {
@@ -180,6 +194,7 @@ fn findings(facts: &MeshFacts, repairs: String, solid: &Result<Solid, Defects>) 
         can_be_redrawn: solid.as_ref().is_err_and(Defects::can_draw_over),
         not_one_body: None,
         solid: solid.as_ref().ok().map(|solid| mass(solid.mesh())),
+        field: None,
         could_become: None,
     }
 }
@@ -207,6 +222,31 @@ fn long_words(mm: f64) -> String {
     }
 }
 
+/// Returns the mass properties of the solid with the field ordered, of the printer's material.
+fn with_field(
+    args: &InspectArgs,
+    order: &Order,
+    solid: &Solid,
+) -> Result<FieldFacts, InspectError> {
+    let printer = args.printer.as_deref().map(Printer::find).transpose()?;
+    let name = args
+        .field
+        .as_ref()
+        .map_or(String::new(), ToString::to_string);
+    Ok(field_facts(
+        name,
+        order,
+        solid,
+        density_g_cm3(printer.as_ref())?,
+    )?)
+}
+
+/// Returns the density of the printer's material, g/cm³; a plain one without a printer.
+fn density_g_cm3(printer: Option<&Printer>) -> Result<f64, InspectError> {
+    let material = printer.map(|printer| printer.material(None)).transpose()?;
+    Ok(material.map_or(PLAIN_DENSITY_G_CM3, |material| material.density_g_cm3.value))
+}
+
 /// Returns the goals the solid could reach with the wall ordered, or the printer's minimum.
 fn becoming(args: &InspectArgs, solid: &Solid) -> Result<Becoming, InspectError> {
     let ordered_mm = args.wall.map(|wall| wall.mm());
@@ -216,16 +256,13 @@ fn becoming(args: &InspectArgs, solid: &Solid) -> Result<Becoming, InspectError>
         Some(printer) => printer.quantise_wall(ordered_mm, size_mm)?.wall_mm,
         None => ordered_mm.unwrap_or(PLAIN_WALL_RATIO * size_mm),
     };
-    let material = printer.as_ref().map(|printer| printer.material(None));
     let case = Case {
         solid,
         request: Request::new(GoalKind::Stand),
         wall_mm,
         least_wall_mm: wall_mm,
         wall_step_mm: wall_mm,
-        density_g_cm3: material
-            .transpose()?
-            .map_or(PLAIN_DENSITY_G_CM3, |material| material.density_g_cm3.value),
+        density_g_cm3: density_g_cm3(printer.as_ref())?,
         greatest_size_mm: f64::INFINITY,
     };
     let watch = Watch::silent();
@@ -280,6 +317,7 @@ fn text(findings: &Findings) -> String {
         }
         _ => {}
     }
+    text += &findings.field.as_ref().map_or(String::new(), field_text);
     let is_sound = findings.solid.is_some() && findings.not_one_body.is_none();
     text + &match &findings.could_become {
         Some(becoming) => becoming_text(becoming),

@@ -8,6 +8,7 @@ pub mod coupon;
 mod cuts;
 pub mod cutters;
 mod exit;
+mod field_facts;
 mod flags;
 mod if_solid;
 pub mod inspect;

@@ -24,6 +24,11 @@
 //!   optimization", SIAM Journal on Scientific Computing 16, 1995.
 //! * **Tetrahedron tensor**: F. Tonon, "Explicit exact formulas for the 3-D tetrahedron inertia
 //!   tensor in terms of its vertex coordinates", Journal of Mathematics and Statistics 1(1), 2005.
+//! * **Density**: D. R. Bukenberger, H. P. A. Lensch, "Tetrahedra of Varying Density and Their
+//!   Applications", The Visual Computer 37, 2021.
+//! * **Cone rules and Gauss–Jacobi nodes**: A. H. Stroud, "Approximate Calculation of Multiple
+//!   Integrals", Prentice-Hall, 1971; G. H. Golub, J. H. Welsch, "Calculation of Gauss Quadrature
+//!   Rules", Mathematics of Computation 23, 1969.
 //! * **Compensated sums**: A. Neumaier, "Rundungsfehleranalyse einiger Verfahren zur Summation
 //!   endlicher Summen", Zeitschrift für Angewandte Mathematik und Mechanik 54, 1974.
 //! * **Winding numbers**: A. Jacobson, L. Kavan, O. Sorkine-Hornung, "Robust inside-outside

@@ -12,6 +12,8 @@
 //! | Where does a request become a frame with a support? | `place` in `goal/place.rs`, then the goal's own file, say `goal/top.rs` |
 //! | Who decides if a top needs a tip, and which? | `choose_contact` in `prepare/place.rs`; `Lean` in `goal/lean.rs` says how far it leans, `TipPlace` in `goal/tips.rs` picks the pin |
 //! | Where is the bound computed? | `Visit` in `hollow/dual/visit.rs` evaluates the dual, `climb` in `hollow/dual/ascent.rs` raises it |
+//! | Where is a density that varies integrated? | `measure` in `field/measure.rs`, over the signed cones of `mass/cones.rs` and the rays of `mass/rays.rs` |
+//! | Which infill is enough, and which is nearest to a wished one? | `greatest_low` in `hollow/range.rs`, `least_change` in `hollow/change.rs`, in steps by `least_level_change` in `hollow/levels.rs` |
 //! | What is tried if the goal cannot be met? | `remedies` in `prepare/advise.rs`; the trials are in `advice/remedy.rs` |
 //! | Which cut is better than another, and by how much? | `penalty` and `Term` in `cut/planner/score.rs` |
 //! | What of a seam is seen, and what does it cost? | `look` in `cut/seam/look.rs` weighs the outside, `Skin` in `cut/seam/skin.rs` prices a seam |

@@ -89,7 +89,34 @@
 //! factor, and reflected if the filling is the heavier material. Nothing else changes
 //! ([`crate::hollow::Fill`]).
 //!
-//! # 8. Bosses
+//! # 8. Densities
+//! The interior may have a relative density d between a lower and an upper bound, as infill does.
+//! The moments s = ∫ d m dV are linear in d, so the reachable set is again convex. With β = (high −
+//! d)/(high − low) it is that of hollowing, scaled by high − low. Three things follow.
+//!
+//! * **The best for a goal has two densities, across one quadric.** A density that varies smoothly
+//!   is a restriction, and never does better ([`crate::hollow::best_densities`]).
+//! * **The least change is a clamped quadric.** Let d be as near as can be to a wished d₀, in the
+//!   mean square. It must meet A s(d) = b. Then d = clamp(d₀ − q, low, high), where the quadric is
+//!   q = (Aᵀλ)·m. The dual in λ is concave and smooth, and its value is a bound
+//!   ([`crate::hollow::least_change`]). If only the centre is prescribed, q is linear. Then a ramp
+//!   is the best there is.
+//! * **A few levels meet the rows exactly.** The cost is replaced by its chords between printable
+//!   densities. Then the best are nested level sets of one quadric. Nothing is rounded, and it
+//!   costs at most an eighth of the square of a step more ([`crate::hollow::least_level_change`]).
+//!
+//! What is enough is known before any solve. Put F = A s − b at the upper density everywhere. Some
+//! density does it if and only if (high − low) ∫(u·A m)₊ ≥ u·F for every u. The greatest u·F over
+//! the integral is the least span, and that u is the proof ([`crate::hollow::greatest_low`]).
+//!
+//! Masses of fields are exact. The signed cones from any point over the triangles of the surface
+//! add up to the solid. So any density is integrated over it without a tetrahedral mesh
+//! ([`crate::mass::Cones`]). A linear density has a closed form in each cone (Bukenberger and
+//! Lensch, eq. 1 and 2, and ours for the second moments). Cones are split at planes where a density
+//! has kinks. A wave of the distance to a point, and level sets of a quadric, are integrated along
+//! rays in closed form. What is left is quadrature, and its error is told ([`crate::field`]).
+//!
+//! # 9. Bosses
 //! If walls leave no room for pins, material around the pins is taken out of Ω and the same problem
 //! is solved again. The certificate then holds for the rest of Ω. Filling a set B of the void
 //! changes the value by ∫_B g·m to first order. This price compares the places
@@ -99,7 +126,7 @@
 //! radius and R the joint's. A boss needs its room in two places only, or in three if the joint is
 //! round.
 //!
-//! # 9. From the solution to the print
+//! # 10. From the solution to the print
 //! The print is a triangle mesh with pins, sockets and clearances, not the solver's columns. Its
 //! difference is measured exactly, δ = s(mesh) − s(columns). The problem is solved again with δ
 //! added to the material that stays. This δ hardly depends on g, so a few rounds bring the written

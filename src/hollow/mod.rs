@@ -122,6 +122,12 @@
 //! | `goals/`: `yoyo`, `stand`, `float`, `balance` | the programmes of each goal, one or two |
 //! | `goals/`: `ballast` | the least of a denser material if hollowing is not enough |
 //! | `goals/`: `fill` | filled voids |
+//! | `goals/`: `two` | two densities instead of a void |
+//! | `graded` | rows over a body of any density, in units |
+//! | `newton` | Newton's method with bounds |
+//! | `range` | the least and greatest density that can do it |
+//! | `nearest` | the density whose moments are nearest to wanted ones |
+//! | `change`, `levels` | the least change of a wished density, smooth or in steps |
 //! | `top/`: `heights`, `valley`, `lever`, `search` | the search over heights |
 //! | `top/`: `posts`, `cover`, `frontier` | the proof over all heights |
 //! | `top/`: `course` | the data of the plots |
@@ -164,14 +170,20 @@
 //! optimization using ray-reps", Computers & Graphics 58, 2016. Dinkelbach, "On nonlinear
 //! fractional programming", Management Science 13, 1967.
 
+mod change;
 mod dual;
 mod goals;
 mod golden;
+mod graded;
+mod levels;
 mod log;
+mod nearest;
+mod newton;
 #[cfg(any(test, feature = "papers"))]
 pub mod papers;
 mod problem;
 mod proof;
+mod range;
 mod solution;
 mod status;
 mod top;
@@ -181,16 +193,22 @@ mod worlds;
 use crate::base::watch::Watch;
 use crate::goal::GoalKind;
 
+pub use change::{Change, least_change};
 pub use goals::ballast::{Ballast, has_margin, least_ballast};
 pub use goals::fill::Fill;
+pub use goals::two::best_densities;
 pub use golden::golden_section;
+pub use graded::{Graded, Row, Sense, Separation};
+pub use levels::{LevelChange, LevelCountError, PrintLevels, least_level_change};
 pub use log::{LogRow, Pass, Stage};
+pub use nearest::{Match, Nearest, match_moments};
 #[cfg(any(test, feature = "papers"))]
 pub use papers::{
     Accuracy, ByOctree, ByQuadric, ByRays, ByVoxels, Found, Method, MethodError, Outcome, Rounding,
 };
 pub use problem::{Problem, Settings};
 pub use proof::{Proof, ProofPoint, prove};
+pub use range::{Threshold, greatest_low, least_high};
 pub use solution::{Certificate, Figure, Solution};
 pub use status::{Obstacle, Status};
 pub use top::course::{TopCourse, top_course};

@@ -12,7 +12,7 @@ pub struct Problem<'a> {
     /// Moments with nothing emptied, goal frame, mm.
     ///
     /// These are the solid's ([`Goal::solid`]) plus the measured difference of the printed object
-    /// (defect correction, [theory §9](crate::guide::theory#9-from-the-solution-to-the-print)).
+    /// (defect correction, [theory §10](crate::guide::theory#10-from-the-solution-to-the-print)).
     pub fixed: Moments,
     /// Region that may be emptied, goal frame.
     pub columns: &'a Columns,

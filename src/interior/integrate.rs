@@ -42,7 +42,7 @@ const EXPONENTS: [[usize; 3]; 10] = [
 ///
 /// Bitwise the same for any number of threads. Costs about 5 to 10 ns a column.
 pub fn moments_where_positive(columns: &Columns, quadric: &Quadric) -> Moments {
-    pass::<false>(columns, quadric).moments(columns.pitch_mm)
+    pass::<false>(columns, quadric, false).moments(columns.pitch_mm)
 }
 
 /// Returns the moments of { q > 0 } over the columns, and their derivative with respect to q's ten
@@ -54,7 +54,19 @@ pub fn moments_where_positive(columns: &Columns, quadric: &Quadric) -> Moments {
 /// are emptied or kept at once, the sum over columns has no derivative. There W holds the
 /// derivative for the body made of their cells.
 pub fn moments_and_derivative(columns: &Columns, quadric: &Quadric) -> (Moments, Matrix10) {
-    let sums = pass::<true>(columns, quadric);
+    with_derivative(columns, quadric, false)
+}
+
+/// Returns the moments of { q > 0 } over the columns, and the derivative of these very sums.
+///
+/// As [`moments_and_derivative`], but where a surface is upright the derivative is that of the
+/// columns, however steep. A search that must meet equations to the last digit needs it.
+pub fn moments_and_own_derivative(columns: &Columns, quadric: &Quadric) -> (Moments, Matrix10) {
+    with_derivative(columns, quadric, true)
+}
+
+fn with_derivative(columns: &Columns, quadric: &Quadric, keeps_roots: bool) -> (Moments, Matrix10) {
+    let sums = pass::<true>(columns, quadric, keeps_roots);
     (
         sums.moments(columns.pitch_mm),
         sums.derivative(columns.pitch_mm),
@@ -62,7 +74,7 @@ pub fn moments_and_derivative(columns: &Columns, quadric: &Quadric) -> (Moments,
 }
 
 /// Sums every block separately, then adds the blocks in order.
-fn pass<const DERIVATIVE: bool>(columns: &Columns, quadric: &Quadric) -> Sums {
+fn pass<const DERIVATIVE: bool>(columns: &Columns, quadric: &Quadric, keeps_roots: bool) -> Sums {
     let blocks = columns.len().div_ceil(BLOCK_COLUMNS);
     let sum = |block: usize| {
         let first = block * BLOCK_COLUMNS;
@@ -70,6 +82,7 @@ fn pass<const DERIVATIVE: bool>(columns: &Columns, quadric: &Quadric) -> Sums {
             columns,
             quadric,
             first..columns.len().min(first + BLOCK_COLUMNS),
+            Pack::new(keeps_roots),
         )
     };
     if blocks == 1 {
@@ -87,9 +100,9 @@ fn sum_block<const DERIVATIVE: bool>(
     columns: &Columns,
     quadric: &Quadric,
     block: Range<usize>,
+    mut pack: Pack,
 ) -> Sums {
     let mut sums = Sums::default();
-    let mut pack = Pack::new();
     let rows = columns.centers[block.clone()].chunk_by(|one, next| one[1] == next[1]);
     let mut first = block.start;
     for row in rows {
@@ -112,13 +125,16 @@ fn sum_block<const DERIVATIVE: bool>(
     sums
 }
 
+/// Sums of xⁱ yʲ zᵏ, at `[i][j][k]` for i + j + k ≤ 4.
+pub(super) type RootSums = [[[f64; 5]; 5]; 5];
+
 /// Sums over columns, per unit of cell area.
-struct Sums {
+pub(super) struct Sums {
     /// xⁱ yʲ ∫zᵏ over the void, at `[i][j][k]` for i + j + k ≤ 2.
     emptied: [[[f64; 3]; 3]; 3],
     /// xⁱ yʲ Σ zᵏ/|∂q/∂z| over the roots, at `[i][j][k]` for i + j + k ≤ 4. Every entry of m mᵀ is
     /// one of these 35.
-    roots: [[[f64; 5]; 5]; 5],
+    roots: RootSums,
 }
 
 impl Default for Sums {
@@ -131,6 +147,19 @@ impl Default for Sums {
 }
 
 impl Sums {
+    /// Returns sums of xⁱ yʲ ∫zᵏ as moments, and as the integrals of m mᵀ in place of the
+    /// derivative.
+    pub(super) fn of_powers(powers: RootSums) -> Self {
+        let mut sums = Self {
+            roots: powers,
+            ..Self::default()
+        };
+        for [i, j, k] in EXPONENTS {
+            sums.emptied[i][j][k] = powers[i][j][k];
+        }
+        sums
+    }
+
     fn add(&mut self, other: &Self) {
         let own = self.emptied.as_flattened_mut().as_flattened_mut();
         own.iter_mut()
@@ -168,7 +197,7 @@ impl Sums {
         }
     }
 
-    fn moments(&self, pitch_mm: [f64; 2]) -> Moments {
+    pub(super) fn moments(&self, pitch_mm: [f64; 2]) -> Moments {
         let area = pitch_mm[0] * pitch_mm[1];
         let mut moments = EXPONENTS.map(|[i, j, k]| self.emptied[i][j][k] * area);
         moments[7] += moments[0] * cell_variance(pitch_mm[0]);
@@ -176,7 +205,7 @@ impl Sums {
         Moments(moments)
     }
 
-    fn derivative(&self, pitch_mm: [f64; 2]) -> Matrix10 {
+    pub(super) fn derivative(&self, pitch_mm: [f64; 2]) -> Matrix10 {
         let at_centers = Matrix10::from_fn(|row, column| {
             let [i, j, k]: [usize; 3] =
                 std::array::from_fn(|axis| EXPONENTS[row][axis] + EXPONENTS[column][axis]);

@@ -13,6 +13,7 @@ mod row;
 mod without;
 
 // Integrals over the columns.
+mod between;
 mod integrate;
 mod moments;
 mod pack;
@@ -39,13 +40,16 @@ mod rays;
 #[cfg(any(test, feature = "papers"))]
 mod voxels;
 
+pub use between::{Between, integrals_between};
 pub use build::BuildError;
 #[cfg(any(test, feature = "papers"))]
 pub use choice::Choice;
 pub use columns::Columns;
 pub use depths::Depths;
 pub use emptied::{Emptied, Piece};
-pub use integrate::{Matrix10, moments_and_derivative, moments_where_positive};
+pub use integrate::{
+    Matrix10, moments_and_derivative, moments_and_own_derivative, moments_where_positive,
+};
 #[cfg(any(test, feature = "papers"))]
 pub use octree::{Levels, Octree};
 #[cfg(any(test, feature = "papers"))]

@@ -38,6 +38,8 @@ pub(super) struct RowSums {
 /// Stretches of columns of one row, and the results for each.
 pub(super) struct Pack {
     count: usize,
+    /// True if the roots of upright surfaces are those of the columns, and not replaced.
+    keeps_roots: bool,
     x: Numbers,
     bottom: Numbers,
     top: Numbers,
@@ -53,11 +55,13 @@ pub(super) struct Pack {
 }
 
 impl Pack {
-    /// Returns an empty pack.
-    pub fn new() -> Self {
+    /// Returns an empty pack. If it keeps roots, the derivative is that of the columns' own sums,
+    /// even where a surface is upright.
+    pub fn new(keeps_roots: bool) -> Self {
         let none = [0.0; SIZE];
         Self {
             count: 0,
+            keeps_roots,
             x: none,
             bottom: none,
             top: none,
@@ -92,7 +96,9 @@ impl Pack {
         self.cross::<DERIVATIVE>(filled, section);
         self.add_emptied(filled, sums);
         if DERIVATIVE {
-            self.replace_upright_roots(filled, section);
+            if !self.keeps_roots {
+                self.replace_upright_roots(filled, section);
+            }
             self.add_roots(filled, sums);
         }
         self.count = 0;

@@ -23,6 +23,27 @@ pub struct Principal {
     pub axes: Matrix,
 }
 
+/// Excess over the triangle inequality, as a share of the greatest moment, that is rounding.
+const TRIANGLE_ROUNDING: f64 = 1e-9;
+
+/// A reason why no distribution of mass has some mass properties.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ImpossibleBody {
+    /// The mass is not positive, or a number is not finite.
+    #[error(
+        "no body has a mass of {0} g and these numbers; remedy: give finite ones, mass above 0"
+    )]
+    Mass(f64),
+    /// The principal moments violate the triangle inequality.
+    #[error(
+        "no body has the principal moments {:.6}, {:.6} and {:.6} g·mm²: each is at most the sum \
+         of the other two (triangle inequality); remedy: check the signs of the off-diagonals",
+        .0[0], .0[1], .0[2]
+    )]
+    Triangle([f64; 3]),
+}
+
 impl Body {
     /// Returns the body that fills a region of these moments with a material of `density_g_mm3`.
     ///
@@ -35,6 +56,39 @@ impl Body {
             center,
             inertia_g_mm2: Matrix::identity() * central.trace() - central,
         }
+    }
+
+    /// Returns the moments of a region of this material, g/mm³, that has these mass properties: the
+    /// inverse of [`Body::new`].
+    ///
+    /// # Errors
+    /// No distribution of mass has them.
+    pub fn moments(&self, density_g_mm3: f64) -> Result<Moments, ImpossibleBody> {
+        self.check()?;
+        let mass = self.mass_g;
+        let center = self.center.coords;
+        let central = Matrix::identity() * (0.5 * self.inertia_g_mm2.trace()) - self.inertia_g_mm2;
+        let second = central + center * center.transpose() * mass;
+        Ok(Moments::from_parts(mass, &(center * mass), &second) * density_g_mm3.recip())
+    }
+
+    /// Checks that some distribution of mass has these properties: its mass is positive, and no
+    /// principal moment exceeds the sum of the other two.
+    ///
+    /// # Errors
+    /// None has.
+    pub fn check(&self) -> Result<(), ImpossibleBody> {
+        let numbers = self.center.coords.iter().chain(self.inertia_g_mm2.iter());
+        let is_finite = numbers.into_iter().all(|number| number.is_finite());
+        if !(is_finite && self.mass_g.is_finite() && self.mass_g > 0.0) {
+            return Err(ImpossibleBody::Mass(self.mass_g));
+        }
+        let [least, middle, greatest] = self.principal().moments_g_mm2;
+        let rounding = TRIANGLE_ROUNDING * greatest.abs();
+        if greatest > least + middle + rounding || least < -rounding {
+            return Err(ImpossibleBody::Triangle([least, middle, greatest]));
+        }
+        Ok(())
     }
 
     /// Returns the principal moments, ascending, and their axes.

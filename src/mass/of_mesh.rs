@@ -24,7 +24,7 @@ pub fn moments_of_mesh(mesh: &TriMesh) -> Moments {
     sum.total().translated(&center.coords)
 }
 
-/// A compensated sum of the moments of tetrahedra.
+/// A compensated sum of moments.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct MomentSum([NeumaierSum; Moments::COUNT]);
 
@@ -33,6 +33,14 @@ impl MomentSum {
     #[inline]
     pub fn add_tetrahedron(&mut self, corners: [Vector; 3]) {
         for (sum, term) in self.0.iter_mut().zip(tetrahedron_moments(corners).0) {
+            sum.add(term);
+        }
+    }
+
+    /// Adds moments.
+    #[inline]
+    pub fn add(&mut self, moments: &Moments) {
+        for (sum, term) in self.0.iter_mut().zip(moments.0) {
             sum.add(term);
         }
     }

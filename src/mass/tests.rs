@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use proptest::prelude::*;
 
-use super::{Body, Moments, moments_of_mesh};
+use super::{Body, ImpossibleBody, Moments, moments_of_mesh};
 use crate::geom::{Frame, Matrix, Point, Vector};
 use crate::mesh::primitives::{ball, cuboid, cylinder, ellipsoid, torus};
 use crate::mesh::{TriMesh, surface_mm2};
@@ -39,6 +39,31 @@ fn inertia(mesh: &TriMesh) -> Matrix {
 /// twice as fine.
 fn order(coarse: f64, fine: f64, exact: f64) -> f64 {
     ((coarse - exact) / (fine - exact)).log2()
+}
+
+#[test]
+fn a_body_gives_back_its_moments_and_impossible_tensors_are_refused_by_name() {
+    let mesh = cuboid(&Point::new(1.0, -2.0, 3.0), &Point::new(5.0, 4.0, 4.5));
+    let moments = moments_of_mesh(&mesh);
+    let body = Body::new(&moments, 1.2e-3);
+    for (got, want) in body.moments(1.2e-3).unwrap().0.iter().zip(moments.0) {
+        assert!((got - want).abs() < 1e-10 * want.abs(), "{got} {want}");
+    }
+    let tensor = Matrix::from_diagonal(&Vector::new(1.0, 2.0, 3.5));
+    let long = Body {
+        inertia_g_mm2: tensor,
+        ..body
+    };
+    let refused = long.moments(1.0).unwrap_err();
+    assert!(
+        refused.to_string().contains("triangle inequality"),
+        "{refused}"
+    );
+    let light = Body {
+        mass_g: -1.0,
+        ..body
+    };
+    assert_eq!(light.moments(1.0), Err(ImpossibleBody::Mass(-1.0)));
 }
 
 #[test]

@@ -43,6 +43,8 @@ const ARROWS: &[(&str, &[&str])] = &[
     // A skeleton is found in a solid alone; what shells need comes as two lengths.
     ("skeleton", &["base", "geom", "mesh"]),
     ("mass", &["geom", "mesh", "base"]),
+    // A density is a function in space: it is integrated over a mesh, and knows no printer.
+    ("field", &["base", "geom", "mass", "mesh"]),
     // Layer images are made of a mesh alone; what machine shows them comes as pixels and layers.
     ("raster", &["geom", "mass", "mesh", "base"]),
     ("goal", &["geom", "mass", "mesh", "shell", "base"]),
@@ -51,7 +53,10 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("interior", &["geom", "mass", "mesh", "base", "shell"]),
     (
         "hollow",
-        &["geom", "goal", "interior", "mass", "mesh", "base", "shell"],
+        // The best density is a field of levels or a clamped quadric.
+        &[
+            "field", "geom", "goal", "interior", "mass", "mesh", "base", "shell",
+        ],
     ),
     (
         "ballast",
@@ -190,6 +195,7 @@ const ARROWS: &[(&str, &[&str])] = &[
         ],
     ),
     ("job", &["ballast", "cut", "base", "goal", "repair"]),
+    // A run may slice its kit, and tells why that failed.
     (
         "error",
         &[
@@ -241,6 +247,8 @@ const ARROWS: &[(&str, &[&str])] = &[
             "cutter",
             "draw",
             "error",
+            // `inspect` measures the field that is typed.
+            "field",
             "geom",
             "goal",
             "io",
@@ -277,6 +285,7 @@ const ARROWS: &[(&str, &[&str])] = &[
             "cutting",
             "draw",
             "error",
+            "field",
             "geom",
             "goal",
             "hardware",

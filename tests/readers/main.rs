@@ -20,6 +20,8 @@ use std::time::{Duration, Instant};
 use damage::damaged;
 use equipoise::base::watch::Watch;
 use equipoise::cutter::AnyProfile;
+use equipoise::field::read_text;
+use equipoise::geom::Point;
 use equipoise::io::gcode::{Options, read_plates};
 use equipoise::io::layers::read_layers;
 use equipoise::io::{
@@ -28,6 +30,7 @@ use equipoise::io::{
 use equipoise::job::core_kit::CoreJob;
 use equipoise::job::telescope::TelescopeJob;
 use equipoise::job::{Job, read_plan};
+use equipoise::mesh::{Solid, primitives::cuboid};
 use equipoise::printer::Printer;
 use equipoise::skeleton::Skeleton;
 
@@ -103,7 +106,7 @@ fn models_as_stl_obj_ply_and_3mf() {
 
 #[test]
 fn curves_as_points_lines_and_edges() {
-    let is_finite = |points: &[equipoise::geom::Point]| {
+    let is_finite = |points: &[Point]| {
         assert!(points.iter().all(|p| p.iter().all(|x| x.is_finite())));
         true
     };
@@ -231,4 +234,19 @@ fn orders_of_cuts_jobs_and_skeletons() {
         std::str::from_utf8(bytes).is_ok_and(|text| Skeleton::from_toml("s.toml", text).is_ok())
     };
     fuzz("skeleton", &[seeds::skeleton()], reads);
+}
+
+#[test]
+fn fields_of_densities() {
+    let solid = Solid::new(cuboid(&Point::origin(), &Point::new(3.0, 2.0, 1.0))).unwrap();
+    let reads = |bytes: &[u8]| {
+        let text = std::str::from_utf8(bytes);
+        let order = text.is_ok_and(|text| read_text("field.toml", text).is_ok());
+        if order {
+            let order = read_text("field.toml", text.unwrap()).unwrap();
+            assert!(!order.on(&solid).at(&Point::new(1.0, 1.0, 0.5)).is_nan());
+        }
+        order
+    };
+    fuzz("field", &[seeds::field()], reads);
 }

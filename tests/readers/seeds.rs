@@ -304,3 +304,13 @@ pub fn core_job() -> Vec<u8> {
     let job = CoreJob::new(model, printer, machines);
     job.to_toml().unwrap().into_bytes()
 }
+
+/// Returns a field with every kind of part.
+pub fn field() -> Vec<u8> {
+    b"[field]\nsum = [\n  \"uniform:20%\",\n  { product = [\"ramp:0,0,1@0mm..1mm:0..1\", \
+      \"sine:1,2,3@4mm:0..0.5\"] },\n  { polynomial = [{ coefficient = 0.01, x = 2, z = 1 }] },\n\
+      { linear = { at_origin = 0.1, gradient = [0.0, 0.01, 0.0] } },\n  \"skin:1mm:gauss:0..0.1\",\n\
+      { levels = { quadric = [0, 1, 0, 0, 0, 0, 0, 0.5, 0, 0], cuts = [1.0], \
+      densities = [0.1, 0.2] } },\n]\n"
+        .to_vec()
+}

@@ -7,6 +7,7 @@ mod core_kit;
 mod cut;
 mod cutters;
 mod error;
+mod field;
 mod goal;
 mod missing;
 mod prepare;
@@ -31,6 +32,7 @@ pub use again::again;
 pub use core_kit::CoreArgs;
 pub use cutters::{CalibrateCutterArgs, CuttersAction, CuttersArgs, NewCutterArgs};
 pub use error::ArgsError;
+pub use field::FieldChoice;
 pub use missing::Missing;
 pub use prepare::{DEFAULT_PLANS, PrepareArgs, Request};
 pub use printers::{CalibrateArgs, CouponArgs, ImportArgs, NewArgs, PrintersAction, PrintersArgs};
@@ -158,6 +160,13 @@ pub struct InspectArgs {
         help_heading = "Printer"
     )]
     pub wall: Option<Length>,
+    /// Show the mass properties with this density, in words or as a field.toml
+    ///
+    /// The same everywhere is uniform:40%. A ramp is ramp:0,0,1@20mm..60mm:0.2..1. A wave about a
+    /// point is sine:X,Y,Z@40mm:0.1..1. Dense at the surface is skin:4mm:gauss:0.2..1, or linear.
+    /// Lengths are those of the model as scaled, in the axes of its file.
+    #[arg(long, value_name = "FIELD", allow_hyphen_values = true)]
+    pub field: Option<FieldChoice>,
     /// Repair the model as `prepare --repair` does: cavities, fill, remesh or remesh:TOLERANCE
     /// [default: auto]
     #[arg(long, value_name = "HOW")]

@@ -92,7 +92,7 @@ impl Fill {
 }
 
 /// Returns the goal with every moment and mass scaled.
-fn scaled(goal: &Goal, factor: f64) -> Goal {
+pub(super) fn scaled(goal: &Goal, factor: f64) -> Goal {
     let mut goal = goal.clone();
     goal.solid = goal.solid * factor;
     if let Some(afloat) = &mut goal.afloat {
