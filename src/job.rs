@@ -32,7 +32,7 @@ use crate::repair::RepairOrder;
 pub const JOB_SCHEMA: u32 = 1;
 
 /// The first line of every written `job.toml`.
-const REMARK: &str = "# Replays the run: equipoise prepare, with this file as its job; outside of its kit with the model too.\n\n";
+const REMARK: &str = "# Replays the run: equipoise prepare, with this file as its job; away from its kit with the model too.\n\n";
 
 /// The line of a `job.toml` that named the only solver.
 const OLD_SOLVER: &str = "solver = \"quadric\"";

@@ -121,6 +121,9 @@ choice! {
         Out = "out",
         /// The permission to replace what is there; it is not part of a job.
         Force = "force",
+        /// The order to slice a print, and to solve again with its toolpaths; it is not part of a
+        /// job.
+        Slice = "slice",
         /// The list of a slicer's printers; it is not part of a job.
         List = "list",
     }

@@ -18,7 +18,8 @@ use super::wrap::wrapped;
 use crate::advice::Remedy;
 use crate::base::units::{Length, show_mm};
 use crate::base::watch::Watch;
-use crate::error::Error;
+use crate::error::{Error, GradedError};
+use crate::goal::GoalKind;
 use crate::io::read_model;
 use crate::job::{Job, Scaling};
 use crate::kit::Existing;
@@ -67,14 +68,18 @@ pub fn prepare(
     let outcome = run(&request, &watch);
     bars.finish();
     // A kit that was written before the stop button was pressed stays, and so does its answer.
-    let is_written = matches!(outcome, Ok(Outcome::Prepared(_)));
+    let is_written = matches!(&outcome, Ok(ran) if matches!(ran.outcome, Outcome::Prepared(_)));
     if !is_written && let Some(exit) = stop.end() {
         return Ok(exit);
     }
     if outcome.is_err() {
         unit_hint(&request.job).iter().for_each(|hint| say(hint));
     }
-    match outcome? {
+    let Ran { outcome, rounds } = outcome?;
+    if !voice.manner.quiet {
+        rounds.iter().for_each(|rounds| say(&rounds.words()));
+    }
+    match outcome {
         Outcome::Prepared(prepared) => {
             let ending = Ending {
                 request: &request,
@@ -82,7 +87,8 @@ pub fn prepare(
                 stop,
             };
             ending.print(&prepared, out)?;
-            Ok(if prepared.passes() {
+            let is_broken = rounds.is_some_and(|rounds| !rounds.broken.is_empty());
+            Ok(if prepared.passes() && !is_broken {
                 Exit::Kept
             } else {
                 Exit::NotKept
@@ -107,35 +113,79 @@ fn complete(args: PrepareArgs, voice: Voice) -> Result<PrepareArgs, PrepareError
 /// Runs the job, and writes its kit if it has one.
 ///
 /// What the arguments alone decide is checked before the folder, and that before the model is read.
-fn run(request: &Request, watch: &Watch) -> Result<Outcome, Error> {
+fn run(request: &Request, watch: &Watch) -> Result<Ran, Error> {
     check_arguments(&request.job)?;
+    refuse_unsliced(request)?;
     let existing = if request.force {
         Existing::Replace
     } else {
         Existing::Keep
     };
     existing.allows(&request.out)?;
-    let outcome = if request.slice {
+    let ran = if request.slice {
         let sliced = prepare::prepare_sliced(&request.job, watch)?;
-        if !sliced.misses_mm.is_empty() {
-            say(&rounds_words(&sliced.misses_mm));
+        let rounds = Rounds {
+            misses_mm: sliced.misses_mm,
+            broken: sliced.broken,
+        };
+        Ran {
+            outcome: sliced.outcome,
+            rounds: Some(rounds).filter(|rounds| !rounds.misses_mm.is_empty()),
         }
-        sliced.outcome
     } else {
-        prepare::prepare(&request.job, watch)?
+        Ran {
+            outcome: prepare::prepare(&request.job, watch)?,
+            rounds: None,
+        }
     };
-    if let Outcome::Prepared(prepared) = &outcome {
+    if let Outcome::Prepared(prepared) = &ran.outcome {
         let kit = &prepared.kit;
         kit.write_watched(&request.out, existing, watch)?;
     }
-    Ok(outcome)
+    Ok(ran)
 }
 
-/// Words how far the centre of the toolpaths was off in every round.
-fn rounds_words(misses_mm: &[f64]) -> String {
-    let misses = misses_mm.iter().map(|miss_mm| format!("{miss_mm:.4}"));
-    let misses = misses.collect::<Vec<String>>().join(", ");
-    format!("centre of the toolpaths off the promised one, by round: {misses} mm")
+/// The end of a run.
+struct Ran {
+    outcome: Outcome,
+    /// The rounds in which its kits were sliced, if they were.
+    rounds: Option<Rounds>,
+}
+
+/// The rounds of a run whose kits were sliced.
+struct Rounds {
+    /// The distance between the centre of the toolpaths and the promised one in every round, mm.
+    misses_mm: Vec<f64>,
+    /// The promises that the toolpaths of the best kit break.
+    broken: Vec<String>,
+}
+
+impl Rounds {
+    /// Words how far the toolpaths were off, and what they break.
+    fn words(&self) -> String {
+        let misses = self.misses_mm.iter().map(|miss_mm| format!("{miss_mm:.4}"));
+        let misses = misses.collect::<Vec<String>>().join(", ");
+        let sliced = format!(
+            "sliced {} times: the centre of mass was {misses} mm from the promised one",
+            self.misses_mm.len()
+        );
+        if self.broken.is_empty() {
+            return sliced;
+        }
+        let broken = self.broken.join(", ");
+        format!("{sliced}\nwarning: the toolpaths of this kit break {broken}: do not print it")
+    }
+}
+
+/// Refuses a print that floats if nothing tells what it weighs.
+fn refuse_unsliced(request: &Request) -> Result<(), GradedError> {
+    let job = &request.job;
+    let is_unsliced = !request.slice && job.sliced.is_empty();
+    let floats = job.goal.kind == GoalKind::Float && !job.interior.is_hollow();
+    if floats && is_unsliced {
+        return Err(GradedError::FloatUnsliced);
+    }
+    Ok(())
 }
 
 /// Checks what the arguments alone decide: the printer, its material, the size and the wall.

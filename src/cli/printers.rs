@@ -347,7 +347,7 @@ mod tests {
         let said = text(Some(PrintersAction::Check { file }), false);
         assert_eq!(
             said,
-            "shop-mk4: a profile that can be used; 29 numbers, 23 of them process defaults, 12 our own choices\n"
+            "shop-mk4: a profile that can be used; 30 numbers, 24 of them process defaults, 13 our own choices\n"
         );
         let mut out = Vec::new();
         let error = run(

@@ -2,7 +2,7 @@
 
 use crate::ballast::Order;
 use crate::base::setting::{Key, Setting};
-use crate::job::{Filling, Interior};
+use crate::job::{Filling, Interior, PartFormat};
 
 /// A reason why a print cannot be graded.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -51,13 +51,37 @@ pub enum GradedError {
     },
     /// The object is no single body.
     #[error(
-        "a yo-yo on an axle is two halves, and `{}` makes one piece; remedy: leave the axle out \
-         (`{}`), or {}",
+        "a yo-yo on an axle is two halves, and `{}` makes one piece; remedy: leave the axle and \
+         the string gap out, or {}",
         graded(),
-        Setting::new(Key::Axle, "none"),
         hollow()
     )]
     Halves,
+    /// What floats needs its mass to a fraction of a per cent, which only toolpaths tell.
+    #[error(
+        "what floats must weigh what it should to a fraction of a per cent, and only toolpaths \
+         tell what `{}` weighs; remedy: slice it (`{}`), or {}",
+        graded(),
+        Setting::open(Key::Slice),
+        hollow()
+    )]
+    FloatUnsliced,
+    /// The rounds in the job are those of another print.
+    #[error(
+        "the rounds in this job were weighed for another print; remedy: delete all of its \
+         [[sliced]], and slice it anew (`{}`)",
+        Setting::open(Key::Slice)
+    )]
+    OtherRounds,
+    /// The files of the parts alone do not hold the region.
+    #[error(
+        "STL files do not hold the region of `{}`, and no plate is ordered; remedy: order both \
+         formats (`{}`), or {}",
+        graded(),
+        Setting::new(Key::Format, PartFormat::Both),
+        hollow()
+    )]
+    OnlyStl,
     /// Only graded prints are solved again with their toolpaths.
     #[error(
         "the toolpaths of a hollow kit are not solved for; remedy: order one piece (`{}`), or \
@@ -110,6 +134,8 @@ mod tests {
             GradedError::Ballast { order: Order::Auto },
             GradedError::Halves,
             GradedError::Cavities,
+            GradedError::FloatUnsliced,
+            GradedError::OnlyStl,
         ];
         for refusal in refusals {
             let words = refusal.to_string();

@@ -21,7 +21,7 @@ pub const USUAL_FACES: usize = 12;
 pub const CORE_LEAST_ANGLE_DEG: f64 = 5.0;
 
 /// The first line of every written `job.toml`.
-const REMARK: &str = "# Replays the run: equipoise core, with this file as its job; outside of its kit with the model too.\n\n";
+const REMARK: &str = "# Replays the run: equipoise core, with this file as its job; away from its kit with the model too.\n\n";
 
 choice! {
     /// The kind of job, which tells it from others.

@@ -18,7 +18,7 @@ pub const TELESCOPE_SCHEMA: u32 = 1;
 pub const MOST_SHELLS: usize = 40;
 
 /// The first line of every written `job.toml`.
-const REMARK: &str = "# Replays the run: equipoise telescope, with this file as its job; outside of its kit with the curve too.\n\n";
+const REMARK: &str = "# Replays the run: equipoise telescope, with this file as its job; away from its kit with the curve too.\n\n";
 
 /// The toppling angle that a standing telescope promises if the job says nothing else, degrees.
 pub const USUAL_LEAST_ANGLE_DEG: f64 = 5.0;

@@ -6,10 +6,12 @@ use crate::base::verdict::Verdict;
 use crate::base::watch::Watch;
 use crate::error::{Error, GradedError};
 use crate::hollow::Fill;
-use crate::job::{Interior, Job};
+use crate::job::{Interior, Job, PartFormat, SlicedRound};
+use crate::mass::moments_of_mesh;
 use crate::mesh::{TriMesh, shells};
 use crate::printer::{Printer, SparsePrint};
 use crate::run::Placed;
+use crate::verify::beyond_ratio;
 
 use super::levels::with_load;
 
@@ -31,22 +33,31 @@ pub fn sparse_print(job: &Job, printer: &Printer) -> Result<Option<SparsePrint>,
         let order = job.ballast.clone();
         return Err(GradedError::Ballast { order });
     }
+    if job.format == PartFormat::Stl {
+        return Err(GradedError::OnlyStl);
+    }
     let no_infill = || GradedError::NoInfill {
         printer: printer.name.clone(),
     };
     printer.sparsest_print().map(Some).ok_or_else(no_infill)
 }
 
-/// Refuses a placed goal that one closed piece cannot meet.
+/// Refuses a placed goal that one closed piece cannot meet, and rounds of another print.
 ///
 /// # Errors
-/// The object is no single body, or it has cavities of its own.
+/// The object is no single body, it has cavities of its own, or its rounds say that more was laid
+/// than slicers lay.
 pub fn refuse_pieces(placed: &Placed) -> Result<(), Error> {
     if placed.sparse.is_none() {
         return Ok(());
     }
     if placed.string_gap_mm().is_some() {
         return Err(GradedError::Halves.into());
+    }
+    let solid = moments_of_mesh(placed.solid().mesh());
+    let is_other = |round: &SlicedRound| beyond_ratio(&round.beyond, &solid) > 1.0;
+    if placed.job.sliced.iter().any(is_other) {
+        return Err(GradedError::OtherRounds.into());
     }
     let faces_inward = |shell: &TriMesh| shell.signed_volume_mm3() < 0.0;
     if shells(placed.solid().mesh()).iter().any(faces_inward) {

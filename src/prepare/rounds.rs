@@ -33,6 +33,8 @@ pub struct SlicedOutcome {
     pub outcome: Outcome,
     /// The distance between the centre of the toolpaths and the promised one in every round, mm.
     pub misses_mm: Vec<f64>,
+    /// The promises that the toolpaths of the kit break, in words; empty if they keep all.
+    pub broken: Vec<String>,
 }
 
 /// Prepares a graded job, slices its kit, and prepares it again with what the toolpaths lay, until
@@ -50,25 +52,41 @@ pub fn prepare_sliced(job: &Job, watch: &Watch) -> Result<SlicedOutcome, Error> 
         ..job.clone()
     };
     let mut misses_mm: Vec<f64> = Vec::new();
-    let mut best: Option<Outcome> = None;
+    let mut best: Option<(Outcome, Weighed)> = None;
     for _ in 0..=MOST_ROUNDS {
         let outcome = prepare(&job, watch)?;
         let Outcome::Prepared(prepared) = &outcome else {
-            return Ok(SlicedOutcome { outcome, misses_mm });
+            // A later round may go too far; the best kit of those before is kept.
+            let broken = best
+                .as_ref()
+                .map_or_else(Vec::new, |best| best.1.broken.clone());
+            let outcome = best.map_or(outcome, |best| best.0);
+            return Ok(SlicedOutcome {
+                outcome,
+                misses_mm,
+                broken,
+            });
         };
         let found = weigh(&job, prepared, watch)?;
-        let is_nearest = misses_mm.iter().all(|miss_mm| found.miss_mm < *miss_mm);
         misses_mm.push(found.miss_mm);
-        if is_nearest {
-            best = Some(outcome);
+        job.sliced.push(found.round());
+        let is_near = found.is_near();
+        if best
+            .as_ref()
+            .is_none_or(|(_, best)| found.is_better_than(best))
+        {
+            best = Some((outcome, found));
         }
-        if found.is_near() {
+        if is_near {
             break;
         }
-        job.sliced.push(found.round());
     }
-    let outcome = best.ok_or(Error::Cancelled)?;
-    Ok(SlicedOutcome { outcome, misses_mm })
+    let (outcome, found) = best.ok_or(Error::Cancelled)?;
+    Ok(SlicedOutcome {
+        outcome,
+        misses_mm,
+        broken: found.broken,
+    })
 }
 
 /// What the toolpaths of a kit weigh, beside its promise.
@@ -80,6 +98,8 @@ struct Weighed {
     beyond: Moments,
     /// Their volume, mm³.
     volume_mm3: f64,
+    /// The promises that they break, in words.
+    broken: Vec<String>,
 }
 
 /// Slices a kit in a folder of its own, and weighs the toolpaths.
@@ -109,20 +129,29 @@ impl Weighed {
     fn of(judgement: &PrintedJudgement) -> Option<Self> {
         let (laid, written) = (judgement.toolpaths.as_ref()?, &judgement.written);
         let off = [0, 1, 2].map(|axis| laid.center_mm[axis] - written.center_mm[axis]);
+        let broken = judgement.checks.iter().filter(|check| !check.pass);
         let tilts = laid.axis_tilt_deg.zip(written.axis_tilt_deg);
         Some(Self {
             miss_mm: off.iter().map(|mm| mm * mm).sum::<f64>().sqrt(),
             tilt_deg: tilts.map_or(0.0, |(laid, written)| laid - written),
             beyond: judgement.beyond?,
             volume_mm3: laid.volume_mm3,
+            broken: broken.map(|check| check.kind.to_string()).collect(),
         })
     }
 
     fn is_near(&self) -> bool {
-        self.miss_mm < NEAR_MM && self.tilt_deg < NEAR_DEG
+        self.broken.is_empty() && self.miss_mm < NEAR_MM && self.tilt_deg < NEAR_DEG
     }
 
-    /// Returns the round, rounded: what a slicer lays differs from run to run by less.
+    /// Returns whether these toolpaths break fewer promises than others, or as many and are nearer.
+    fn is_better_than(&self, other: &Self) -> bool {
+        let [own, its] = [self, other].map(|one| (one.broken.len(), one.miss_mm));
+        own < its
+    }
+
+    /// Returns the round, rounded. Toolpaths differ in their last digits from run to run. So
+    /// another loop may end with other digits; the job that is kept makes the same kit.
     fn round(&self) -> SlicedRound {
         let volume_step = step(self.volume_mm3 * VOLUME_STEP);
         let moment_step = step(self.volume_mm3 * STEP_MM);
@@ -161,6 +190,7 @@ mod tests {
             tilt_deg,
             beyond: Moments([12.345_678_9; 10]),
             volume_mm3: 21_850.0,
+            broken: Vec::new(),
         }
     }
 
@@ -178,5 +208,10 @@ mod tests {
         assert!(!weighed(0.011, 0.0).is_near());
         assert!(!weighed(0.0, 0.06).is_near());
         assert!(weighed(0.0, -1.0).is_near(), "an axis that became better");
+        let mut broken = weighed(0.0, 0.0);
+        broken.broken.push("waterline".to_owned());
+        assert!(!broken.is_near());
+        assert!(weighed(0.1, 0.0).is_better_than(&broken));
+        assert!(weighed(0.1, 0.0).is_better_than(&weighed(0.2, 0.0)));
     }
 }

@@ -13,8 +13,8 @@ use super::shape_checks::shape_checks;
 use super::thin_checks::thin_checks;
 use super::void_checks::void_checks;
 use super::{
-    Check, CheckKind, CupFacts, JigFacts, Judgement, Limit, PartFacts, Peg, PegFacts, Promise,
-    PromisedPart,
+    Check, CheckKind, CupFacts, InfillOrder, JigFacts, Judgement, Limit, PartFacts, Peg, PegFacts,
+    Promise, PromisedPart,
 };
 
 /// Returns all checks of a kit, in the order of a person's questions. Does it do what was ordered?
@@ -132,7 +132,7 @@ fn surface_checks(promise: &Promise, found: &Judgement) -> Vec<Check> {
     let crossed = surfaces.iter().filter(|(_, s)| s.crossings > 0);
     let crossings = surfaces.iter().map(|(_, s)| s.crossings).sum();
     let cavities = match &promise.infill {
-        Some(infill) => regions_check(&found.parts, infill.regions),
+        Some(infill) => regions_check(promise, &found.parts, infill),
         None => cavities_check(&found.parts),
     };
     vec![
@@ -152,6 +152,9 @@ fn surface_checks(promise: &Promise, found: &Judgement) -> Vec<Check> {
         )),
         cavities,
     ]
+    .into_iter()
+    .chain(beyond_check(found))
+    .collect()
 }
 
 /// Checks that no part has a closed cavity.
@@ -164,10 +167,26 @@ fn cavities_check(parts: &[PartFacts]) -> Check {
 }
 
 /// Checks that a print of one piece has its regions of sparse infill, and no other cavity.
-fn regions_check(parts: &[PartFacts], regions: usize) -> Check {
+///
+/// An STL cannot say that its cavity is infill: there the region must have a file of its own.
+fn regions_check(promise: &Promise, parts: &[PartFacts], infill: &InfillOrder) -> Check {
     let found: usize = parts.iter().map(|part| part.cavities).sum();
+    let is_stl = |file: &str| file.ends_with(".stl");
+    let unsaid = infill.file.is_none() && promise.parts.iter().any(|part| is_stl(&part.file));
+    let wrong = found.abs_diff(infill.regions) + usize::from(unsaid);
     let promise = "every region of sparse infill is there, and there is no void besides";
-    no_faults(CheckKind::ClosedCavities, promise, found.abs_diff(regions))
+    no_faults(CheckKind::ClosedCavities, promise, wrong)
+}
+
+/// Checks that no more is said to be laid beyond the written print than slicers lay.
+fn beyond_check(found: &Judgement) -> Option<Check> {
+    let ratio = found.beyond_ratio?;
+    Some(Check::new(
+        CheckKind::LaidBeyond,
+        "what the slicer laid beyond the written print is no more than slicers lay, as a share",
+        Some(ratio),
+        Limit::at_most(1.0, ""),
+    ))
 }
 
 /// Checks that every part lies on the plate as its pose says.

@@ -111,6 +111,7 @@ fn judge_beside(
         jigs,
         overlaps: inside.overlaps,
         voids: inside.voids,
+        beyond_ratio: figures.beyond_ratio,
         film_error: film_error(promise, &evidence.parts),
         lost_strokes: inside.lost_strokes,
         checks: Vec::new(),
@@ -138,6 +139,7 @@ struct AllFigures {
     fit: Option<Fit>,
     spin: Option<SpinFacts>,
     ballast_room_mm: Option<f64>,
+    beyond_ratio: Option<f64>,
     /// Moments of all that is put together, and the setting in which they are weighed.
     whole: Moments,
     setting: Setting,
@@ -152,7 +154,10 @@ impl AllFigures {
             inside,
             joined,
             sparse,
+            beyond,
         } = Loads::of(promise, body, &setting);
+        let written = moments_of_mesh(&body.welded) + sparse;
+        let sparse = sparse + beyond;
         let assembled = assembly_moments(&evidence.parts) + sparse;
         let hardware = setting.hardware * setting.density_g_mm3().recip();
         let figures = |printed: &Moments, load: &Moments| {
@@ -161,7 +166,7 @@ impl AllFigures {
         };
         Ok(Self {
             solid: Figures::new(&moments_of_mesh(outer), &setting),
-            hollowed: figures(&(moments_of_mesh(&body.welded) + sparse), &inside)?,
+            hollowed: figures(&(written + beyond), &inside)?,
             assembly: figures(&assembled, &(inside + joined))?,
             fit: measure_fit(
                 &promise.hardware,
@@ -170,6 +175,11 @@ impl AllFigures {
                 promise.wall.required_mm,
             ),
             spin: SpinFacts::of_top(&promise.goal, &promise.hardware, outer),
+            beyond_ratio: promise
+                .infill
+                .as_ref()
+                .and_then(|infill| infill.beyond)
+                .map(|beyond| super::beyond_ratio(&beyond, &written)),
             ballast_room_mm: least_room_mm(&promise.ballast, &body.welded, outer),
             whole: assembled + inside + joined + hardware,
             setting,

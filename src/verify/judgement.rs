@@ -23,6 +23,9 @@ pub struct Judgement {
     /// The smallest wall between a void and the outside, in the uncut result and the parts, mm;
     /// `None` without voids.
     pub wall_min_mm: Option<f64>,
+    /// What is laid beyond the written print, over the most that slicers lay; `None` if the kit
+    /// says nothing of it.
+    pub beyond_ratio: Option<f64>,
     /// The surfaces of the parts against what they should be.
     pub shape: ShapeFacts,
     /// The fit of the hardware in the outer surface; `None` without hardware.

@@ -65,6 +65,8 @@ pub enum CheckKind {
     SelfIntersections,
     /// Cavities that no cut opens.
     ClosedCavities,
+    /// What a slicer is said to lay beyond the written print, over the most that slicers lay.
+    LaidBeyond,
     /// Files that hold more than one body, or none.
     OneBody,
     /// Triangles of the parts that are not where they should be.
@@ -258,6 +260,7 @@ impl fmt::Display for CheckKind {
             Self::BrokenSurfaces => "broken surfaces",
             Self::SelfIntersections => "self-intersections",
             Self::ClosedCavities => "closed cavities",
+            Self::LaidBeyond => "laid beyond",
             Self::OneBody => "one body",
             Self::PartSurfaces => "part surfaces",
             Self::Resting => "resting",
@@ -295,7 +298,7 @@ mod tests {
     use serde_json::json;
 
     /// The keys and names of all kinds without data.
-    const KEYS: [(CheckKind, &str, &str); 75] = [
+    const KEYS: [(CheckKind, &str, &str); 76] = [
         (CheckKind::Papers, "papers", "papers"),
         (CheckKind::Replay, "replay", "replay"),
         (CheckKind::AxisOffset, "axis-offset", "axis offset"),
@@ -335,6 +338,7 @@ mod tests {
             "closed-cavities",
             "closed cavities",
         ),
+        (CheckKind::LaidBeyond, "laid-beyond", "laid beyond"),
         (CheckKind::OneBody, "one-body", "one body"),
         (CheckKind::PartSurfaces, "part-surfaces", "part surfaces"),
         (CheckKind::Resting, "resting", "resting"),

@@ -14,9 +14,10 @@ pub(super) struct Loads {
     pub(super) inside: Moments,
     /// Glue and dowels in the joints.
     pub(super) joined: Moments,
-    /// Sparse infill, and what a slicer lays beyond it. It is printed, though its regions are
-    /// cavities of the written surfaces.
+    /// Sparse infill. It is printed, though its regions are cavities of the written surfaces.
     pub(super) sparse: Moments,
+    /// What a slicer lays beyond surfaces and regions.
+    pub(super) beyond: Moments,
 }
 
 impl Loads {
@@ -29,8 +30,8 @@ impl Loads {
         Self {
             inside: ballast_moments(&promise.ballast, density_g_mm3)
                 + fill_moments(promise.fill, &voids, setting.density_g_cm3),
-            sparse: sparse_moments(infill, &voids)
-                + infill.map_or(Moments::default(), InfillOrder::beyond),
+            sparse: sparse_moments(infill, &voids),
+            beyond: infill.map_or(Moments::default(), InfillOrder::beyond),
             joined: joined_g * density_g_mm3.recip(),
         }
     }

@@ -113,7 +113,7 @@ pub use promise::{
     PromisedFigure, PromisedJig, PromisedJoint, PromisedPart, PromisedVoid, SCHEMA, WallOrder,
 };
 pub use rotor::RotorOrder;
-pub use sparse::InfillOrder;
+pub use sparse::{InfillOrder, beyond_ratio};
 pub use water::WaterOrder;
 
 // The facts.

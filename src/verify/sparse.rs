@@ -3,8 +3,11 @@
 use serde::{Deserialize, Serialize};
 
 use crate::base::units::MM3_PER_CM3;
+use crate::geom::{Frame, Vector};
 use crate::mass::{Moments, moments_of_mesh};
 use crate::mesh::TriMesh;
+
+use super::PRINTED_CENTER_LIMIT_MM;
 
 /// The regions of sparse infill in a print of one piece.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -45,6 +48,42 @@ impl InfillOrder {
     }
 }
 
+/// The most that a slicer lays beyond surfaces and regions, as a share of the print's volume. A
+/// bunny of 40 mm got 3.3 %, larger models less.
+const BEYOND_RATIO: f64 = 0.05;
+/// The most by which that moves the centre, mm: twice what toolpaths may be off. The same bunny's
+/// centre moved by 0.143 mm.
+const BEYOND_SHIFT_MM: f64 = 2.0 * PRINTED_CENTER_LIMIT_MM;
+/// The same as a share of the mean distance of the print from its centre, for large models.
+const BEYOND_SHIFT_RATIO: f64 = 0.01;
+/// Square of the distance of a surface from the centre, over the mean one of the print inside.
+const SURFACE_SPREAD: f64 = 6.0;
+
+/// Returns what is said to be laid beyond surfaces and regions, over the most that slicers lay.
+/// Above 1 no toolpaths do. `written` are the moments of the print without it.
+pub fn beyond_ratio(beyond: &[f64; 10], written: &Moments) -> f64 {
+    if !beyond.iter().all(|moment| moment.is_finite()) {
+        return f64::INFINITY;
+    }
+    let volume = written.volume();
+    let about = Frame {
+        origin: written.centroid(),
+        ..Frame::identity()
+    };
+    let spread_mm2: f64 = written.in_frame(&about).0[7..].iter().sum::<f64>() / volume;
+    let [laid, x, y, z, second @ ..] = Moments(*beyond).in_frame(&about).0;
+    let shift_mm = Vector::new(x, y, z).norm() / volume;
+    let most_mm = BEYOND_SHIFT_MM.max(BEYOND_SHIFT_RATIO * spread_mm2.sqrt());
+    let most_second = BEYOND_RATIO * SURFACE_SPREAD * spread_mm2 * volume;
+    let second = second.into_iter().map(f64::abs).fold(0.0, f64::max);
+    let shares = [
+        laid.abs() / (BEYOND_RATIO * volume),
+        shift_mm / most_mm,
+        second / most_second,
+    ];
+    shares.into_iter().fold(0.0, f64::max)
+}
+
 /// Returns the moments of what is laid in the cavities of a surface, in volumes of solid print.
 /// Cavities are turned inward.
 pub(super) fn sparse_moments(infill: Option<&InfillOrder>, cavities: &TriMesh) -> Moments {
@@ -57,7 +96,30 @@ pub(super) fn sparse_moments(infill: Option<&InfillOrder>, cavities: &TriMesh) -
 mod tests {
     use super::*;
     use crate::geom::Point;
-    use crate::mesh::primitives::cuboid;
+    use crate::mesh::primitives::{ball, cuboid};
+
+    #[test]
+    fn no_more_is_believed_to_be_laid_than_slicers_lay() {
+        let at = Point::new(40.0, -10.0, 25.0);
+        let print = moments_of_mesh(&ball(&at, 20.0, 4));
+        // A film all around is what slicers lay: 0.1 mm are 1.5 % of this ball.
+        let film = moments_of_mesh(&ball(&at, 20.1, 4)) - print;
+        assert!(beyond_ratio(&film.0, &print) < 0.5);
+        let thick = moments_of_mesh(&ball(&at, 20.4, 4)) - print;
+        assert!(beyond_ratio(&thick.0, &print) > 1.0);
+        // The same film moves the centre by more than 0.3 mm if it all lies on one side.
+        let mut aside = film;
+        aside.0[1] += 0.35 * print.volume();
+        assert!(beyond_ratio(&aside.0, &print) > 1.0);
+        let mut turned = film;
+        turned.0[4] += print.in_frame(&Frame::identity()).0[7];
+        assert!(beyond_ratio(&turned.0, &print) > 1.0);
+        for wrong in [f64::NAN, f64::INFINITY, 1e300] {
+            let mut beyond = film.0;
+            beyond[5] = wrong;
+            assert!(beyond_ratio(&beyond, &print) > 1.0, "{wrong}");
+        }
+    }
 
     #[test]
     fn a_region_weighs_its_share_of_solid_print_in_its_place() {
