@@ -209,6 +209,7 @@ fn what_one_closed_piece_cannot_have_is_refused_with_a_remedy() {
         ("--printer eos-p396", "without infill"),
         ("--printer prusa-mk4 --fill 2.3", "--fill=2.3"),
         ("--printer prusa-mk4 --ballast auto", "--ballast=auto"),
+        ("--printer prusa-mk4 --format stl", "STL files"),
     ] {
         let said = with(options);
         assert!(said.contains(named), "{options}: {said}");
@@ -223,6 +224,70 @@ fn what_one_closed_piece_cannot_have_is_refused_with_a_remedy() {
     .unwrap();
     let said = with(&format!("--printer prusa-mk4 --cut {}", path(&cuts)));
     assert!(said.contains("cuts are ordered"), "{said}");
+}
+
+#[test]
+fn what_floats_is_refused_unless_its_toolpaths_are_weighed() {
+    let said = refuse("--goal float --size 50mm --interior graded --printer prusa-mk4");
+    assert!(said.contains("slice it (--slice)"), "{said}");
+}
+
+#[test]
+fn rounds_of_another_print_are_refused() {
+    let folder = TempDir::new().unwrap();
+    let job = folder.path().join("job.toml");
+    let own = fs::read_to_string(bench().kit().join("job.toml")).unwrap();
+    let own = own.replace("tilted-ellipsoid.stl", ELLIPSOID);
+    let rest = ", 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0";
+    // Much more mass, a centre three millimetres aside, and no number at all.
+    for beyond in [
+        format!("1e9, 0.0{rest}"),
+        format!("0.0, 67000.0{rest}"),
+        format!("nan, 0.0{rest}"),
+    ] {
+        let rounds = format!("\n[[sliced]]\nmiss_mm = 0.1\nbeyond = [{beyond}]\n");
+        fs::write(&job, own.clone() + &rounds).unwrap();
+        let out = folder.path().join("kit");
+        let output = equipoise(&["prepare", "--job", path(&job), "--out", path(&out)]);
+        assert_exit(&output, 2);
+        assert!(
+            printed(&output).contains("another print"),
+            "{}",
+            printed(&output)
+        );
+        assert!(!out.exists());
+    }
+}
+
+#[test]
+fn a_sliced_print_lays_what_it_promises_and_its_job_makes_it_again_without_a_slicer() {
+    if !has_slicer() {
+        return;
+    }
+    let folder = TempDir::new().unwrap();
+    let [kit, again, toolpaths] =
+        ["kit", "again", "toolpaths"].map(|name| folder.path().join(name));
+    let output = prepare(&kit, &format!("{SMALL} --slice"));
+    assert_exit(&output, 0);
+    let output = equipoise(&["--json", "slice", path(&kit), "--out", path(&toolpaths)]);
+    assert_exit(&output, 0);
+    let gcode = toolpaths.join("plate.gcode");
+    let output = equipoise(&["--json", "verify", path(&kit), "--gcode", path(&gcode)]);
+    assert_exit(&output, 0);
+    let off_mm = number(&json(&output)["parts"][0], "/center_off_mm");
+    // The loop ends within a hundredth; toolpaths differ from run to run in their last digits.
+    assert!(off_mm < 0.015, "{off_mm}");
+    let job = kit.join("job.toml");
+    let output = equipoise(&[
+        "--json",
+        "prepare",
+        "--job",
+        path(&job),
+        "--out",
+        path(&again),
+    ]);
+    assert_exit(&output, 0);
+    assert_eq!(files(&again), files(&kit));
 }
 
 #[test]

@@ -167,7 +167,7 @@ impl Entity {
 pub fn decode_cut_svg(bytes: &[u8]) -> Result<(Vec<DrawnLine>, [f64; 2]), DrawingError> {
     let text = std::str::from_utf8(bytes).map_err(|_| DrawingError::NotText)?;
     let mut reader = Reader::from_str(text);
-    let (mut size, mut layer) = ([f64::NAN; 2], None);
+    let (mut size, mut layer) = (None, None);
     let mut found: Vec<DrawnLine> = Vec::new();
     loop {
         let shape = |why| DrawingError::Shape {
@@ -185,7 +185,7 @@ pub fn decode_cut_svg(bytes: &[u8]) -> Result<(Vec<DrawnLine>, [f64; 2]), Drawin
             return Err(shape("a transform"));
         }
         match tag.name().as_ref() {
-            "svg" => size = size_of(tag).ok_or_else(|| shape("the size is not in mm"))?,
+            "svg" => size = Some(size_of(tag).ok_or_else(|| shape("the size is not in mm"))?),
             "g" => {
                 let id = attribute(tag, "id");
                 layer = CutLayer::ALL
@@ -194,7 +194,8 @@ pub fn decode_cut_svg(bytes: &[u8]) -> Result<(Vec<DrawnLine>, [f64; 2]), Drawin
             }
             _ => {
                 let layer = layer.ok_or_else(|| shape("the layer is not known"))?;
-                let read = shape_of(tag, size[1]).ok_or_else(|| shape("it is not understood"))?;
+                let [_, height_mm] = size.ok_or_else(|| shape("the drawing has no size"))?;
+                let read = shape_of(tag, height_mm).ok_or_else(|| shape("it is not understood"))?;
                 found.push(DrawnLine { layer, shape: read });
             }
         }
@@ -202,7 +203,16 @@ pub fn decode_cut_svg(bytes: &[u8]) -> Result<(Vec<DrawnLine>, [f64; 2]), Drawin
             return Err(DrawingError::TooMuch);
         }
     }
+    let size = size.ok_or(DrawingError::Shape {
+        number: found.len() + 1,
+        why: "the drawing has no size",
+    })?;
     Ok((found, size))
+}
+
+/// Reads a number of a drawing; `None` for any other text, and for what is no finite number.
+fn finite(text: &str) -> Option<f64> {
+    text.parse().ok().filter(|number: &f64| number.is_finite())
 }
 
 fn attribute(tag: &BytesStart, name: &str) -> Option<String> {
@@ -212,19 +222,14 @@ fn attribute(tag: &BytesStart, name: &str) -> Option<String> {
 
 /// Returns the width and height of a drawing; `None` unless the view box has the same numbers.
 fn size_of(tag: &BytesStart) -> Option<[f64; 2]> {
-    let side = |name| {
-        attribute(tag, name)?
-            .strip_suffix("mm")?
-            .parse::<f64>()
-            .ok()
-    };
+    let side = |name| finite(attribute(tag, name)?.strip_suffix("mm")?);
     let size = [side("width")?, side("height")?];
     let view = numbers(&attribute(tag, "viewBox")?, ' ')?;
     (view == [0.0, 0.0, size[0], size[1]]).then_some(size)
 }
 
 fn shape_of(tag: &BytesStart, height_mm: f64) -> Option<DrawnShape> {
-    let number = |name| attribute(tag, name)?.parse::<f64>().ok();
+    let number = |name| finite(&attribute(tag, name)?);
     match tag.name().as_ref() {
         "circle" => Some(DrawnShape::Circle {
             center_mm: [number("cx")?, height_mm - number("cy")?],
@@ -248,7 +253,7 @@ fn shape_of(tag: &BytesStart, height_mm: f64) -> Option<DrawnShape> {
 }
 
 fn numbers(text: &str, between: char) -> Option<Vec<f64>> {
-    let numbers = text.split(between).map(|number| number.parse::<f64>().ok());
+    let numbers = text.split(between).map(finite);
     numbers.collect()
 }
 
@@ -315,5 +320,17 @@ mod tests {
             assert!(why.is_err(), "{from}: {why:?}");
         }
         assert!(decode_dxf(&[0xff, 0xfe]).is_err() && decode_dxf(b"").is_err());
+    }
+
+    #[test]
+    fn a_drawing_without_a_size_or_with_endless_numbers_is_refused() {
+        let sound = encode_cut_svg(&drawing());
+        assert!(decode_cut_svg(sound.as_bytes()).is_ok());
+        assert!(decode_cut_svg(b"").is_err());
+        assert!(decode_cut_svg(b"<g id=\"cut\"></g>").is_err());
+        let [width, _] = drawing().size_mm;
+        let endless = sound.replace(&format!("{width}"), "inf");
+        assert_ne!(sound, endless);
+        assert!(decode_cut_svg(endless.as_bytes()).is_err());
     }
 }
