@@ -26,7 +26,7 @@ fn one_piece() -> Evidence {
         mass_g: 0.142 * REGION_MM3 * 1.2e-3,
         beyond: None,
         misses_mm: Vec::new(),
-        file: None,
+        file: Some("modifiers/region.stl".to_owned()),
     });
     evidence
 }
@@ -51,6 +51,25 @@ fn a_void_beside_the_regions_is_found_and_so_is_a_region_that_is_lost() {
     assert_eq!(failures(&evidence), ["closed cavities"]);
     regions(&mut evidence, 2);
     assert_eq!(failures(&evidence), ["closed cavities"]);
+}
+
+#[test]
+fn a_cavity_in_an_stl_is_no_infill_unless_the_region_has_a_file_of_its_own() {
+    let mut evidence = one_piece();
+    evidence.promise.infill.as_mut().unwrap().file = None;
+    assert_eq!(failures(&evidence), ["closed cavities"]);
+}
+
+#[test]
+fn more_than_slicers_lay_is_not_believed() {
+    let mut evidence = one_piece();
+    for (moments, moment) in [(0, 1e9), (2, 1e6), (4, f64::NAN)] {
+        let mut beyond = [0.0; 10];
+        beyond[moments] = moment;
+        evidence.promise.infill.as_mut().unwrap().beyond = Some(beyond);
+        let failed = failures(&evidence);
+        assert!(failed.contains(&"laid beyond".to_owned()), "{failed:?}");
+    }
 }
 
 #[test]
