@@ -274,7 +274,10 @@ fn a_sliced_print_lays_what_it_promises_and_its_job_makes_it_again_without_a_sli
     let gcode = toolpaths.join("plate.gcode");
     let output = equipoise(&["--json", "verify", path(&kit), "--gcode", path(&gcode)]);
     assert_exit(&output, 0);
-    let off_mm = number(&json(&output)["parts"][0], "/center_off_mm");
+    let found = json(&output);
+    let masses = ["/written/mass_g", "/toolpaths/mass_g"].map(|key| number(&found, key));
+    assert!((masses[1] / masses[0] - 1.0).abs() < 3e-3, "{masses:?}");
+    let off_mm = number(&found["parts"][0], "/center_off_mm");
     // The loop ends within a hundredth; toolpaths differ from run to run in their last digits.
     assert!(off_mm < 0.015, "{off_mm}");
     let job = kit.join("job.toml");

@@ -42,11 +42,10 @@ pub fn sparse_print(job: &Job, printer: &Printer) -> Result<Option<SparsePrint>,
     printer.sparsest_print().map(Some).ok_or_else(no_infill)
 }
 
-/// Refuses a placed goal that one closed piece cannot meet, and rounds of another print.
+/// Refuses a placed goal that one closed piece cannot meet.
 ///
 /// # Errors
-/// The object is no single body, it has cavities of its own, or its rounds say that more was laid
-/// than slicers lay.
+/// The object is no single body, or it has cavities of its own.
 pub fn refuse_pieces(placed: &Placed) -> Result<(), Error> {
     if placed.sparse.is_none() {
         return Ok(());
@@ -54,16 +53,24 @@ pub fn refuse_pieces(placed: &Placed) -> Result<(), Error> {
     if placed.string_gap_mm().is_some() {
         return Err(GradedError::Halves.into());
     }
-    let solid = moments_of_mesh(placed.solid().mesh());
-    let is_other = |round: &SlicedRound| beyond_ratio(&round.beyond, &solid) > 1.0;
-    if placed.job.sliced.iter().any(is_other) {
-        return Err(GradedError::OtherRounds.into());
-    }
     let faces_inward = |shell: &TriMesh| shell.signed_volume_mm3() < 0.0;
     if shells(placed.solid().mesh()).iter().any(faces_inward) {
         return Err(GradedError::Cavities.into());
     }
     Ok(())
+}
+
+/// Refuses rounds of another print.
+///
+/// # Errors
+/// They say that more was laid than slicers lay.
+pub fn refuse_rounds(placed: &Placed) -> Result<(), GradedError> {
+    let solid = moments_of_mesh(placed.solid().mesh());
+    let is_other = |round: &SlicedRound| beyond_ratio(&round.beyond, &solid) > 1.0;
+    match placed.job.sliced.iter().any(is_other) {
+        true => Err(GradedError::OtherRounds),
+        false => Ok(()),
+    }
 }
 
 /// Returns the hint that voids do what sparse infill does not, if a solve confirms it.

@@ -48,6 +48,7 @@ pub fn prepare(job: &Job, watch: &Watch) -> Result<Outcome, Error> {
     let model = load::model(job, &printer, watch)?;
     let shop = load::shop(job, printer, &model)?;
     let placed = place::goal(job, model, shop, watch)?;
+    graded::refuse_rounds(&placed)?;
     let solved = match solve::best(&placed, watch)? {
         Verdict::Found(solved) => solved,
         Verdict::No(impossible) => {

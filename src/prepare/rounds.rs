@@ -20,6 +20,8 @@ const MOST_ROUNDS: usize = 4;
 const NEAR_MM: f64 = 0.01;
 /// Tilt of the principal axis beyond the promised one that is near enough, degrees.
 const NEAR_DEG: f64 = 0.05;
+/// Deviation of the mass from the promised one that is near enough, as a share.
+const NEAR_MASS_RATIO: f64 = 2e-3;
 /// Steps to which a round's centre is known, mm.
 const STEP_MM: f64 = 1e-4;
 /// Steps to which its volume is known, as a share of it. The centre is as far from the origin as
@@ -94,6 +96,8 @@ struct Weighed {
     miss_mm: f64,
     /// Tilt of the principal axis against that of the written parts, degrees; 0 for goals without.
     tilt_deg: f64,
+    /// Their mass over the promised one, less 1.
+    heavier_ratio: f64,
     /// What they lay beyond the written parts, model frame.
     beyond: Moments,
     /// Their volume, mm³.
@@ -134,6 +138,7 @@ impl Weighed {
         Some(Self {
             miss_mm: off.iter().map(|mm| mm * mm).sum::<f64>().sqrt(),
             tilt_deg: tilts.map_or(0.0, |(laid, written)| laid - written),
+            heavier_ratio: laid.mass_g / written.mass_g - 1.0,
             beyond: judgement.beyond?,
             volume_mm3: laid.volume_mm3,
             broken: broken.map(|check| check.kind.to_string()).collect(),
@@ -141,7 +146,10 @@ impl Weighed {
     }
 
     fn is_near(&self) -> bool {
-        self.broken.is_empty() && self.miss_mm < NEAR_MM && self.tilt_deg < NEAR_DEG
+        self.broken.is_empty()
+            && self.miss_mm < NEAR_MM
+            && self.tilt_deg < NEAR_DEG
+            && self.heavier_ratio.abs() < NEAR_MASS_RATIO
     }
 
     /// Returns whether these toolpaths break fewer promises than others, or as many and are nearer.
@@ -188,6 +196,7 @@ mod tests {
         Weighed {
             miss_mm,
             tilt_deg,
+            heavier_ratio: 0.0,
             beyond: Moments([12.345_678_9; 10]),
             volume_mm3: 21_850.0,
             broken: Vec::new(),
@@ -211,6 +220,11 @@ mod tests {
         let mut broken = weighed(0.0, 0.0);
         broken.broken.push("waterline".to_owned());
         assert!(!broken.is_near());
+        let heavy = Weighed {
+            heavier_ratio: 0.03,
+            ..weighed(0.0, 0.0)
+        };
+        assert!(!heavy.is_near());
         assert!(weighed(0.1, 0.0).is_better_than(&broken));
         assert!(weighed(0.1, 0.0).is_better_than(&weighed(0.2, 0.0)));
     }

@@ -118,7 +118,7 @@ impl Weighing {
         let setting = Setting::new(&evidence.promise, &body.outer);
         let loads = Loads::of(&evidence.promise, body, &setting);
         Self {
-            written: assembly_moments(&evidence.parts) + loads.sparse,
+            written: assembly_moments(&evidence.parts) + loads.sparse + loads.beyond,
             loads,
             setting,
         }
