@@ -35,7 +35,7 @@ pub trait Wing {
     type Job;
     /// The checklist.
     type Sheet: KindSheet + Serialize;
-    /// What its answer tells besides the reason.
+    /// More that its answer tells, besides the reason.
     type More: Serialize;
     /// A reason why a run reaches no answer.
     type Error: std::error::Error;
@@ -82,7 +82,7 @@ pub enum WingError<E: std::error::Error + 'static> {
 
 /// The places to which a command speaks.
 pub struct Ends<'a> {
-    /// How it speaks.
+    /// The manner of speaking.
     pub voice: Voice,
     /// The end that a signal asks for.
     pub stop: &'a Stop,

@@ -19,11 +19,11 @@ pub enum GradedError {
         /// The printer's name.
         printer: String,
     },
-    /// Cuts were ordered for what stays in one piece.
+    /// Cuts, or plans of cuts, were ordered for what stays in one piece.
     #[error(
-        "`{}` makes one piece, and cuts are ordered (`{}`); remedy: leave the cuts out, or {}",
+        "`{}` makes one piece, and cuts are ordered; remedy: leave the order of cuts or plans out, \
+         or {}",
         graded(),
-        Setting::open(Key::Plan),
         hollow()
     )]
     Cuts,
@@ -57,7 +57,7 @@ pub enum GradedError {
         hollow()
     )]
     Halves,
-    /// What floats needs its mass to a fraction of a per cent, which only toolpaths tell.
+    /// A print that floats needs its mass to a fraction of a per cent, which only toolpaths tell.
     #[error(
         "what floats must weigh what it should to a fraction of a per cent, and only toolpaths \
          tell what `{}` weighs; remedy: slice it (`{}`), or {}",

@@ -9,6 +9,7 @@
 
 mod aabb;
 mod bvh;
+mod corner_orders;
 mod frame;
 pub mod hull;
 mod parting;
@@ -20,6 +21,7 @@ pub mod triangle;
 
 pub use aabb::Aabb;
 pub use bvh::{Bundle, Bvh, Member, NO_HINT, Nearest};
+pub use corner_orders::{CORNER_FIRST, PAIR_FIRST};
 pub use frame::Frame;
 pub use parting::Parting;
 pub use plane::{Plane, orthonormal_basis};

@@ -105,9 +105,10 @@
 //!   densities. Then the best are nested level sets of one quadric. Nothing is rounded, and it
 //!   costs at most an eighth of the square of a step more ([`crate::hollow::least_level_change`]).
 //!
-//! What is enough is known before any solve. Put F = A s − b at the upper density everywhere. Some
-//! density does it if and only if (high − low) ∫(u·A m)₊ ≥ u·F for every u. The greatest u·F over
-//! the integral is the least span, and that u is the proof ([`crate::hollow::greatest_low`]).
+//! Whether bounds are enough is known before any solve. Put F = A s − b at the upper density
+//! everywhere. Some density does it if and only if (high − low) ∫(u·A m)₊ ≥ u·F for every u.
+//! The greatest u·F over the integral is the least span, and that u is the proof
+//! ([`crate::hollow::greatest_low`]).
 //!
 //! Masses of fields are exact. The signed cones from any point over the triangles of the surface
 //! add up to the solid. So any density is integrated over it without a tetrahedral mesh

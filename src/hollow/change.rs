@@ -193,28 +193,8 @@ mod tests {
     use crate::geom::{Frame, Point, Vector};
     use crate::hollow::graded::{Row, Sense};
     use crate::hollow::range::greatest_low;
+    use crate::hollow::testing::leaning_block;
     use crate::interior::Columns;
-
-    /// Returns a leaning block of columns, without mirror symmetry.
-    pub(crate) fn block() -> Columns {
-        let mut columns = Columns {
-            pitch_mm: [0.5; 2],
-            starts: vec![0],
-            ..Columns::default()
-        };
-        for j in 0..16 {
-            for i in 0..20 {
-                let place = |at: i32| (f64::from(at) + 0.5) * 0.5;
-                let [x, y] = [place(i) - 4.0, place(j) - 3.0];
-                columns.centers.push([x, y]);
-                columns
-                    .intervals
-                    .push([0.1 * x - 2.0, 3.0 + 0.2 * y + 0.05 * x * x]);
-                columns.starts.push(columns.intervals.len() as u32);
-            }
-        }
-        columns
-    }
 
     /// Returns the row of one moment.
     pub(crate) fn moment(index: usize) -> Quadric {
@@ -253,7 +233,7 @@ mod tests {
 
     #[test]
     fn the_least_change_meets_its_rows_and_its_bound() {
-        let columns = block();
+        let columns = leaning_block(0.5);
         let rows = [1, 2, 6, 5].map(|index| Row::zero(moment(index)));
         let graded = Graded {
             shell: Moments::default(),
@@ -289,7 +269,7 @@ mod tests {
     fn no_other_density_that_meets_the_rows_is_nearer() {
         // Other densities: clamped sums of the best and random waves, with their own rows as
         // wanted values. Each is dearer than the least change for those values.
-        let columns = block();
+        let columns = leaning_block(0.5);
         let mut random = Random::new(23);
         for _ in 0..10 {
             let wave: [f64; 4] = std::array::from_fn(|_| random.between(-1.0, 1.0));
@@ -316,7 +296,7 @@ mod tests {
 
     #[test]
     fn rows_that_are_met_change_nothing_and_inequalities_hold_with_their_signs() {
-        let columns = block();
+        let columns = leaning_block(0.5);
         let whole = columns.moments();
         let at_most = |wanted| Row {
             quadric: moment(0),
@@ -344,7 +324,7 @@ mod tests {
 
     #[test]
     fn rows_out_of_reach_are_refused_with_a_proof() {
-        let columns = block();
+        let columns = leaning_block(0.5);
         let whole = columns.moments();
         // The centre two millimetres outside the block.
         let mut row = moment(1);
@@ -368,7 +348,7 @@ mod tests {
 
     #[test]
     fn rows_barely_out_of_reach_are_refused_and_barely_within_are_met() {
-        let columns = block();
+        let columns = leaning_block(0.5);
         let origin = columns.moments().centroid() + Vector::new(0.1, -0.2, 0.3);
         let tilted = Frame::with_axis(origin, &Vector::new(0.3, -0.4, 0.85));
         let rows = [1, 2, 3, 6].map(|index| Row::zero(moment(index).in_frame(&tilted.inverse())));
@@ -398,7 +378,7 @@ mod tests {
 
     #[test]
     fn a_wished_density_at_a_bound_is_no_hindrance() {
-        let columns = block();
+        let columns = leaning_block(0.5);
         let rows = [1, 2].map(|index| Row::zero(moment(index)));
         let graded = Graded {
             shell: Moments::default(),

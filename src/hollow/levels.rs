@@ -268,28 +268,8 @@ mod tests {
     use super::*;
     use crate::geom::{Frame, Vector};
     use crate::hollow::graded::Row;
+    use crate::hollow::testing::leaning_block;
     use crate::interior::Columns;
-
-    /// Returns a leaning block of fine columns, without mirror symmetry.
-    fn block() -> Columns {
-        let mut columns = Columns {
-            pitch_mm: [0.25; 2],
-            starts: vec![0],
-            ..Columns::default()
-        };
-        for j in 0..32 {
-            for i in 0..40 {
-                let place = |at: i32| (f64::from(at) + 0.5) * 0.25;
-                let [x, y] = [place(i) - 4.0, place(j) - 3.0];
-                columns.centers.push([x, y]);
-                columns
-                    .intervals
-                    .push([0.1 * x - 2.0, 3.0 + 0.2 * y + 0.05 * x * x]);
-                columns.starts.push(columns.intervals.len() as u32);
-            }
-        }
-        columns
-    }
 
     /// Returns rows for a centre beside the block's own, seen from a tilted frame.
     fn rows(columns: &Columns) -> [Row; 3] {
@@ -301,7 +281,7 @@ mod tests {
 
     #[test]
     fn a_few_levels_meet_the_rows_and_cost_at_most_an_eighth_of_the_square_of_a_step() {
-        let columns = block();
+        let columns = leaning_block(0.25);
         let rows = rows(&columns);
         let graded = Graded {
             shell: Moments::default(),

@@ -186,6 +186,8 @@ mod proof;
 mod range;
 mod solution;
 mod status;
+#[cfg(test)]
+mod testing;
 mod top;
 #[cfg(test)]
 mod worlds;

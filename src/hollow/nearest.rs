@@ -122,27 +122,7 @@ fn nearest(graded: &Graded, range: DensityRange) -> Nearest {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    /// Returns a block of columns that leans.
-    fn block() -> Columns {
-        let mut columns = Columns {
-            pitch_mm: [0.5; 2],
-            starts: vec![0],
-            ..Columns::default()
-        };
-        for j in 0..16 {
-            for i in 0..20 {
-                let place = |at: i32| (f64::from(at) + 0.5) * 0.5;
-                let [x, y] = [place(i) - 5.0, place(j) - 4.0];
-                columns.centers.push([x, y]);
-                columns
-                    .intervals
-                    .push([0.13 * x - 2.0, 3.0 + 0.2 * y + 0.05 * x * x]);
-                columns.starts.push(columns.intervals.len() as u32);
-            }
-        }
-        columns
-    }
+    use crate::hollow::testing::leaning_block;
 
     fn range() -> DensityRange {
         DensityRange::new(0.2, 0.9).unwrap()
@@ -150,7 +130,7 @@ mod tests {
 
     #[test]
     fn moments_of_some_density_are_met_exactly() {
-        let columns = block();
+        let columns = leaning_block(0.5);
         // Half of the block at 0.3, the other at 0.8.
         let upper = Quadric([-0.5, 0.4, 0.1, 1.0, 0., 0., 0., 0., 0., 0.]);
         let above = crate::interior::moments_where_positive(&columns, &upper);
@@ -166,7 +146,7 @@ mod tests {
 
     #[test]
     fn moments_out_of_reach_have_a_nearest_density_and_a_bound() {
-        let columns = block();
+        let columns = leaning_block(0.5);
         let mut wanted = columns.moments() * 0.5;
         // A centre of mass outside of the block.
         wanted.0[1] = 7.0 * wanted.0[0];

@@ -1,7 +1,7 @@
 //! Tetrahedra split by planes. Every piece keeps the sign of the whole.
 
 use super::tetrahedron::Tetrahedron;
-use crate::geom::Vector;
+use crate::geom::{CORNER_FIRST, PAIR_FIRST, Vector};
 
 /// The pieces of a tetrahedron on either side of a plane: none, one or three on each side.
 ///
@@ -20,18 +20,6 @@ struct Side {
     count: usize,
 }
 
-/// Even permutations of the corners that bring one of them to the front.
-const LONE: [[usize; 4]; 4] = [[0, 1, 2, 3], [1, 0, 3, 2], [2, 3, 0, 1], [3, 2, 1, 0]];
-/// Even permutations of the corners that bring two of them to the front.
-const PAIRS: [[usize; 4]; 6] = [
-    [0, 1, 2, 3],
-    [0, 2, 3, 1],
-    [0, 3, 1, 2],
-    [1, 2, 0, 3],
-    [1, 3, 2, 0],
-    [2, 3, 0, 1],
-];
-
 impl Split {
     /// Splits a tetrahedron at height zero, by the heights of its corners over a plane. Corners in
     /// the plane count as below.
@@ -42,7 +30,7 @@ impl Split {
         let none = Side { count: 0, ..whole };
         match count {
             1 => {
-                let order = LONE.into_iter().find(|order| is_above[order[0]]);
+                let order = CORNER_FIRST.into_iter().find(|order| is_above[order[0]]);
                 let [tip, wedge] = split_lone(&Ordered::new(tetrahedron, heights, order));
                 Self {
                     below: wedge,
@@ -51,11 +39,11 @@ impl Split {
             }
             2 => {
                 let is_pair = |order: &[usize; 4]| !is_above[order[0]] && !is_above[order[1]];
-                let order = PAIRS.into_iter().find(is_pair);
+                let order = PAIR_FIRST.into_iter().find(is_pair);
                 split_pair(&Ordered::new(tetrahedron, heights, order))
             }
             3 => {
-                let order = LONE.into_iter().find(|order| !is_above[order[0]]);
+                let order = CORNER_FIRST.into_iter().find(|order| !is_above[order[0]]);
                 let [tip, wedge] = split_lone(&Ordered::new(tetrahedron, heights, order));
                 Self {
                     below: tip,
@@ -117,7 +105,7 @@ struct Ordered {
 
 impl Ordered {
     fn new(whole: &Tetrahedron, heights: [f64; 4], order: Option<[usize; 4]>) -> Self {
-        let order = order.unwrap_or(LONE[0]);
+        let order = order.unwrap_or(CORNER_FIRST[0]);
         Self {
             corners: order.map(|corner| whole.0[corner]),
             heights: order.map(|corner| heights[corner]),

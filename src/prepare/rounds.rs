@@ -91,14 +91,14 @@ pub fn prepare_sliced(job: &Job, watch: &Watch) -> Result<SlicedOutcome, Error> 
     })
 }
 
-/// What the toolpaths of a kit weigh, beside its promise.
+/// The weight of a kit's toolpaths, beside its promise.
 struct Weighed {
     miss_mm: f64,
     /// Tilt of the principal axis against that of the written parts, degrees; 0 for goals without.
     tilt_deg: f64,
     /// Their mass over the promised one, less 1.
     heavier_ratio: f64,
-    /// What they lay beyond the written parts, model frame.
+    /// Moments of all that they lay beyond the written parts, model frame.
     beyond: Moments,
     /// Their volume, mm³.
     volume_mm3: f64,

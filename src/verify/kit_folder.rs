@@ -54,14 +54,6 @@ pub struct KindJudgement {
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum KitFolderError {
-    /// A file of the kit cannot be read.
-    #[error("cannot read {path}; is this the folder of a whole kit?")]
-    File {
-        /// The file.
-        path: PathBuf,
-        /// The error of the system.
-        source: std::io::Error,
-    },
     /// A file is not one that this program writes.
     #[error("{path} is not a file this program can read; write the kit again")]
     Json {
@@ -91,13 +83,7 @@ pub enum KitFolderError {
     /// A mesh of the kit cannot be read.
     #[error(transparent)]
     Mesh(#[from] ReadError),
-    /// The checklist names a file outside the kit.
-    #[error("the checklist names `{file}`, which lies outside the kit; do not trust this kit")]
-    Outside {
-        /// The path in the checklist.
-        file: String,
-    },
-    /// The kit's folder cannot be read.
+    /// A file of the kit cannot be read, or lies outside of it.
     #[error(transparent)]
     Folder(#[from] VerifyError),
 }
@@ -111,9 +97,12 @@ pub struct KitFolder<'a> {
 
 impl KitFolder<'_> {
     /// Returns the bytes of a file.
+    ///
+    /// # Errors
+    /// It cannot be read.
     pub fn bytes(&self, file: &str) -> Result<Vec<u8>, KitFolderError> {
         let path = self.path.join(file);
-        std::fs::read(&path).map_err(|source| KitFolderError::File { path, source })
+        Ok(std::fs::read(&path).map_err(|source| VerifyError::File { path, source })?)
     }
 
     /// Returns a list in the kit, and refuses one of another schema. `schema` reads it.
@@ -208,7 +197,7 @@ pub fn all_inside_kit<'a>(
     mut files: impl Iterator<Item = &'a String>,
 ) -> Result<(), KitFolderError> {
     match files.find(|file| !is_inside_kit(file)) {
-        Some(file) => Err(KitFolderError::Outside { file: file.clone() }),
+        Some(file) => Err(VerifyError::Outside { file: file.clone() }.into()),
         None => Ok(()),
     }
 }

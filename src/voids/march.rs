@@ -5,19 +5,7 @@
 //! E74, 1991).
 
 use super::roots::{VertexKey, corner_key, crossing_key};
-
-/// For each corner, an even permutation of the corners that begins with it.
-const APEX_FIRST: [[usize; 4]; 4] = [[0, 1, 2, 3], [1, 0, 3, 2], [2, 0, 1, 3], [3, 0, 2, 1]];
-
-/// For each pair of corners, an even permutation of the corners that begins with it.
-const PAIR_FIRST: [[usize; 4]; 6] = [
-    [0, 1, 2, 3],
-    [0, 2, 3, 1],
-    [0, 3, 1, 2],
-    [1, 2, 0, 3],
-    [1, 3, 2, 0],
-    [2, 3, 0, 1],
-];
+use crate::geom::{CORNER_FIRST, PAIR_FIRST};
 
 /// A triangle or a quadrilateral of surface, counter-clockwise as seen from outside the region.
 ///
@@ -60,7 +48,7 @@ pub(super) fn piece(corners: [u32; 4], positive: [bool; 4]) -> Option<Piece<Vert
             .map(|&[a, b, c, d]| Piece::Quad([cross(a, c), cross(a, d), cross(b, d), cross(b, c)])),
         count => {
             let apex = positive.iter().position(|&p| p == (count == 1))?;
-            let [a, b, c, d] = APEX_FIRST[apex];
+            let [a, b, c, d] = CORNER_FIRST[apex];
             let [c, d] = if count == 1 { [c, d] } else { [d, c] };
             Some(Piece::Triangle([cross(a, b), cross(a, c), cross(a, d)]))
         }

@@ -46,7 +46,7 @@ pub struct Impossible<M = NoMore> {
     pub hints: Vec<String>,
     /// Changes that were tried in vain.
     pub tried: Vec<String>,
-    /// What else this kind of kit tells.
+    /// More that this kind of kit tells.
     #[serde(flatten)]
     pub more: M,
 }
