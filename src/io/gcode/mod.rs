@@ -14,6 +14,7 @@ mod bgcode;
 mod error;
 mod facts;
 mod feature;
+mod follow;
 mod height;
 mod label;
 mod lines;
