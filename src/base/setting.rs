@@ -49,6 +49,8 @@ choice! {
         Fill = "fill",
         /// The inside of the print.
         Interior = "interior",
+        /// The density of sparse infill.
+        Infill = "infill",
         /// The repairs of the model.
         Repair = "repair",
         /// The unit of the model file's numbers.

@@ -22,6 +22,7 @@ pub mod printers_markdown;
 pub mod profiles;
 pub mod questions;
 mod replay;
+pub mod scale;
 pub mod shop;
 pub mod show;
 pub mod signals;
@@ -103,6 +104,10 @@ fn dispatch(cli: Cli, manner: Manner) -> Result<Exit, Box<dyn Error + Send + Syn
             Ok(skeleton::skeleton(&args, voice, out)?)
         }
         Command::Slice(args) => Ok(slice::slice(&args, voice, &Stop::on_signals(), out)?),
+        Command::ScaleExtrusion(args) => {
+            end_process_on_signal();
+            Ok(scale::scale_extrusion(&args, voice, out)?)
+        }
         Command::Verify(args) => {
             end_process_on_signal();
             Ok(verify::verify(&args, voice, out)?)

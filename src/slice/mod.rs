@@ -4,15 +4,18 @@
 //! * `plates` slices each plate and weighs its toolpaths.
 //! * `row` is the list of what was sliced, and its figures.
 //! * `images` draws each plate layer by layer.
+//! * `scaled` scales the extrusion of toolpaths, so that densities follow a field.
 
 mod error;
 mod format;
 mod images;
 mod plates;
 mod row;
+mod scaled;
 
 pub use error::SliceError;
 pub use format::SliceFormat;
 pub use images::{ImageOrder, Imaged, image_kit};
 pub use plates::{SliceOrder, Sliced, slice_kit};
 pub use row::{PlateSlice, Slices};
+pub use scaled::{MOST_FLOW_MM3_S, ScaleError, ScaleOrder, Scaled, scale_toolpaths};

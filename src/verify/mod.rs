@@ -158,9 +158,9 @@ pub use seal::sums;
 pub use sheet::find_misstatements;
 // The toolpaths of a kit.
 pub use printed::{
-    Cause, CauseKind, MatchedBy, PRINTED_CENTER_LIMIT_MM, PRINTED_MASS_LIMIT_RATIO,
-    PRINTED_SKIN_MM, PRINTED_TILT_LIMIT_DEG, PrintedError, PrintedFile, PrintedJudgement,
-    PrintedPart, verify_printed,
+    Cause, CauseKind, LocatedPart, LocatedPlate, MatchedBy, PRINTED_CENTER_LIMIT_MM,
+    PRINTED_MASS_LIMIT_RATIO, PRINTED_SKIN_MM, PRINTED_TILT_LIMIT_DEG, PrintedError, PrintedFile,
+    PrintedJudgement, PrintedPart, locate_parts, verify_printed,
 };
 // The kinds of kits.
 pub use kit_folder::{KindJudgement, KitFolderError, KitKind};

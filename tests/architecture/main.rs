@@ -185,7 +185,8 @@ const ARROWS: &[(&str, &[&str])] = &[
     (
         "slice",
         &[
-            "base", "geom", "io", "job", "kit", "mesh", "printer", "raster", "slicer", "verify",
+            "base", "field", "geom", "io", "job", "kit", "mesh", "printer", "raster", "slicer",
+            "verify",
         ],
     ),
     (

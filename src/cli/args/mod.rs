@@ -14,6 +14,7 @@ mod prepare;
 mod printers;
 mod quote;
 mod read;
+mod scale;
 mod scaling;
 mod skeleton;
 mod slice;
@@ -38,6 +39,7 @@ pub use prepare::{DEFAULT_PLANS, PrepareArgs, Request};
 pub use printers::{CalibrateArgs, CouponArgs, ImportArgs, NewArgs, PrintersAction, PrintersArgs};
 pub use quote::quoted;
 pub use read::ReadError;
+pub use scale::ScaleArgs;
 pub use scaling::ScalingArgs;
 pub use skeleton::{Root, RootError, SkeletonArgs};
 pub use slice::SliceArgs;
@@ -129,6 +131,12 @@ pub enum Command {
     Coupon(CouponArgs),
     /// Slice a kit's plates, and tell how the toolpaths will balance
     Slice(SliceArgs),
+    /// Scale the infill of a kit's toolpaths, so that its density follows a field (experimental)
+    ///
+    /// Walls, surfaces, bridges and support stay as they are. What the lines weigh is told before
+    /// and after; how a printer follows them is not measured.
+    #[command(hide = true)]
+    ScaleExtrusion(ScaleArgs),
     /// Check a kit's files, and name those that changed
     Verify(VerifyArgs),
     /// Print the completion script of a shell

@@ -1,6 +1,6 @@
 //! Reads lines in bounded memory, whatever their length.
 
-use std::io::BufRead;
+use std::io::{BufRead, Read};
 
 use super::error::{GcodeError, Limit, from_io};
 
@@ -56,6 +56,25 @@ impl<R: BufRead> Lines<R> {
             }
         }
     }
+}
+
+/// Reads a whole line without its end; returns false at the end of the text.
+///
+/// # Errors
+/// The text cannot be read, or the line has more than `most` bytes (`FileTooLarge`).
+pub fn read_whole(
+    input: &mut impl BufRead,
+    line: &mut Vec<u8>,
+    most: u64,
+) -> std::io::Result<bool> {
+    line.clear();
+    let read = input.by_ref().take(most + 1).read_until(b'\n', line)?;
+    if line.last() == Some(&b'\n') {
+        line.pop();
+    } else if read as u64 > most {
+        return Err(std::io::ErrorKind::FileTooLarge.into());
+    }
+    Ok(read > 0)
 }
 
 /// Adds a piece to a line as far as it is needed.

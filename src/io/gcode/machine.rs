@@ -123,6 +123,38 @@ impl Machine {
         Ok(Effect::None)
     }
 
+    /// Returns where the program says that E is, mm or mm³.
+    pub fn e(&self) -> f64 {
+        self.e
+    }
+
+    /// Returns a place of E as the program would write it.
+    pub fn word_of_e(&self, e: f64) -> f64 {
+        e / self.unit_of_e()
+    }
+
+    /// Returns whether words of E say by how much it moves, not where to.
+    pub fn is_e_relative(&self) -> bool {
+        self.is_relative || self.is_e_relative
+    }
+
+    /// Returns a place as the program would write it, mm.
+    pub fn program_place(&self, at: &Point) -> Vector {
+        at.coords - self.origin
+    }
+
+    /// Returns a manner of moves that cannot be cut into pieces; `None` for absolute ones in mm.
+    pub fn odd_manner(&self) -> Option<&'static str> {
+        if self.is_relative {
+            return Some("relative moves (G91)");
+        }
+        if self.unit_mm != 1.0 {
+            return Some("moves in inches (G20)");
+        }
+        self.has_absolute_centres
+            .then_some("arcs with absolute centres (G90.1)")
+    }
+
     /// Changes a mode, and refuses a further command in the same line.
     fn set(&mut self, line: &Line, change: impl Fn(&mut Self)) -> Result<(), GcodeError> {
         line.each_word(|_, _| Ok(()))?;

@@ -6,11 +6,14 @@
 //! * `lines` bounds memory, `words` reads commands, `machine` and `arc` follow the nozzle.
 //! * `feature`, `label`, `height` and `notes` read the comments of slicers into [`Feature`],
 //!   [`Label`] and [`Facts`].
+//! * [`rewrite_text`] writes a program again with other amounts in some of its beads: `pieces` cuts
+//!   them, `edit` changes single words.
 //! * `sums` adds the beads before the diameter of the filament is known, as PrusaSlicer writes it
 //!   last; `totals` applies it.
 
 mod arc;
 mod bgcode;
+mod edit;
 mod error;
 mod facts;
 mod feature;
@@ -22,7 +25,9 @@ mod machine;
 mod notes;
 mod open;
 mod parse;
+mod pieces;
 mod plates;
+mod rewrite;
 mod sums;
 mod supports;
 #[cfg(test)]
@@ -37,6 +42,7 @@ pub use feature::Feature;
 pub use label::Label;
 pub use open::{read_gcode, read_plates};
 pub use parse::{Options, read_text};
+pub use rewrite::{Portions, RewriteError, Rewriting, Rewritten, rewrite_text};
 pub use sums::Place;
 pub use supports::SupportCell;
 pub use toolpath::{Deposits, DiameterSource, Feed, Plate, PrintedObject, Tally, Toolpath};

@@ -12,7 +12,7 @@ use super::totals::{Gauge, Totals};
 use crate::base::watch::Watch;
 
 /// Lines between two looks at the watch.
-const WATCHED: u64 = 1 << 14;
+pub(super) const WATCHED: u64 = 1 << 14;
 
 /// What a caller knows about a file and asks of it.
 #[derive(Debug, Clone, PartialEq, Default)]

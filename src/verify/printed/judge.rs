@@ -142,7 +142,7 @@ const UNEXPLAINED: &str = "no wrong setting was found: lines of whole width fill
     unevenly, and the print will balance as shown";
 
 /// Returns the parts of the kit, then its jigs, with their places on plates.
-fn catalogue(evidence: &Evidence) -> Catalogue<'_> {
+pub(super) fn catalogue(evidence: &Evidence) -> Catalogue<'_> {
     let promise = &evidence.promise;
     let spot = |id: &str| -> Option<&PlateSpot> {
         let mut spots = promise.plates.iter().flat_map(|plate| &plate.holds);

@@ -71,3 +71,5 @@ pub(super) const CLEARLY_RATIO: f64 = 0.5;
 pub(super) const FREE_TURN_MM: f64 = 1.0;
 /// Misfits below this tell no poses apart, mm: the accuracy of a centre.
 pub(super) const MISFIT_MM: f64 = 0.15;
+/// Poses whose misfits differ by less are alike, mm: those of a symmetric part.
+pub(super) const ALIKE_MM: f64 = 0.01;

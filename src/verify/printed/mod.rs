@@ -5,6 +5,7 @@
 //! names the causes of a wrong print with the setting to change.
 //!
 //! * `images` reads layer images as material.
+//! * `locate` tells where toolpaths lay the parts.
 //! * `source` reads files; `names`, `shape`, `turns` and `matching` find the parts.
 //! * `part` and `density` weigh them; `supports` finds support in voids.
 //! * `cause` and `causes` name what is set wrong; `checks` gives the verdict.
@@ -18,6 +19,7 @@ mod images;
 mod judge;
 mod judgement;
 mod limits;
+mod locate;
 mod matching;
 mod names;
 mod part;
@@ -35,5 +37,6 @@ pub use judgement::{PrintedFile, PrintedJudgement};
 pub use limits::{
     PRINTED_CENTER_LIMIT_MM, PRINTED_MASS_LIMIT_RATIO, PRINTED_SKIN_MM, PRINTED_TILT_LIMIT_DEG,
 };
+pub use locate::{LocatedPart, LocatedPlate, locate_parts};
 pub use matching::MatchedBy;
 pub use part::PrintedPart;

@@ -1,6 +1,6 @@
 //! The shape of printed material, and of the parts that it may be: moments and boxes.
 
-use super::limits::{CLEARLY_RATIO, FREE_TURN_MM, MISFIT_MM, PLACE_MM};
+use super::limits::{ALIKE_MM, CLEARLY_RATIO, FREE_TURN_MM, MISFIT_MM, PLACE_MM};
 use super::turns::{free_turns, right_turns};
 use crate::geom::hull::convex_hull;
 use crate::geom::{Aabb, Matrix, Point, Vector};
@@ -130,8 +130,15 @@ impl<'a> Thing<'a> {
         }
         let best = |is_mirrored: bool| {
             let those = others.iter().filter(|fit| fit.is_mirrored == is_mirrored);
-            those
-                .min_by(|a, b| a.miss_mm.total_cmp(&b.miss_mm))
+            let least_mm = those
+                .clone()
+                .map(|fit| fit.miss_mm)
+                .fold(f64::INFINITY, f64::min);
+            // A symmetric part fits in several poses: the one nearest to the kit's is meant.
+            let alike = those.filter(|fit| fit.miss_mm <= least_mm + ALIKE_MM);
+            let near = |fit: &&Fit| (usual.turn.transpose() * fit.turn).trace();
+            alike
+                .max_by(|a, b| near(a).total_cmp(&near(b)))
                 .copied()
                 .unwrap_or(usual)
         };

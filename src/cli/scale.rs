@@ -1,0 +1,161 @@
+//! `equipoise scale-extrusion`: toolpaths whose density follows a field.
+
+use std::fs::{self, File};
+use std::io::{BufWriter, Write};
+use std::path::{Path, PathBuf};
+
+use serde::Serialize;
+
+use super::args::ScaleArgs;
+use super::exit::Exit;
+use super::new_files::{NewFileError, check_free, draft};
+use super::show::table;
+use super::voice::Voice;
+use crate::base::numbers::quantity;
+use crate::base::watch::Watch;
+use crate::field::FileError;
+use crate::slice::{ScaleError, ScaleOrder, Scaled, scale_toolpaths};
+use crate::verify::{Figures, PrintedError, PrintedPart, verify_printed};
+
+/// A reason why no toolpaths were written.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum ScaleCommandError {
+    /// The field cannot be read.
+    #[error(transparent)]
+    Field(#[from] FileError),
+    /// The toolpaths cannot be scaled.
+    #[error(transparent)]
+    Scale(#[from] ScaleError),
+    /// The file cannot be written.
+    #[error(transparent)]
+    File(#[from] NewFileError),
+    /// The toolpaths cannot be weighed.
+    #[error(transparent)]
+    Printed(#[from] PrintedError),
+    /// The file to write is the one to read.
+    #[error("{} would be overwritten while it is read; remedy: write another file", .0.display())]
+    Same(PathBuf),
+    /// The result cannot be put into JSON.
+    #[error("the result cannot be written as JSON")]
+    Json(#[from] serde_json::Error),
+    /// The standard output is closed.
+    #[error("cannot write to the standard output")]
+    Output(#[from] std::io::Error),
+}
+
+/// The findings as they are printed as JSON.
+#[derive(Serialize)]
+struct Found<'a> {
+    file: &'a Path,
+    scaled: &'a Scaled,
+    /// The parts as the slicer lays them, and as they are laid now.
+    parts: Vec<[&'a PrintedPart; 2]>,
+    /// All parts together, before and after; `None` if another plate holds some of them.
+    together: Option<[&'a Figures; 2]>,
+}
+
+/// Scales toolpaths, weighs them before and after, and prints what changed to `out`.
+///
+/// # Errors
+/// The field, the kit or the toolpaths cannot be used, or the file cannot be written.
+pub fn scale_extrusion(
+    args: &ScaleArgs,
+    voice: Voice,
+    out: &mut dyn Write,
+) -> Result<Exit, ScaleCommandError> {
+    check_free(&args.out, args.force)?;
+    let is_same = |path: &Path| path.canonicalize().ok();
+    if args.out.exists() && is_same(&args.out) == is_same(&args.toolpaths) {
+        return Err(ScaleCommandError::Same(args.out.clone()));
+    }
+    let watch = Watch::silent();
+    let order = ScaleOrder {
+        toolpaths: args.toolpaths.clone(),
+        kit: args.kit.clone(),
+        field: args.field.order()?,
+        infill_ratio: args.infill,
+        most_flow_mm3_s: args.most_flow,
+    };
+    let scaled = write(&order, &args.out, &watch)?;
+    let judged = [&args.toolpaths, &args.out].map(|file| {
+        let files = [file.clone()];
+        verify_printed(&args.kit, &files, &watch)
+    });
+    let [before, after] = judged;
+    let (before, after) = (before?, after?);
+    let parts = before.parts.iter().filter_map(|part| {
+        let now = after.parts.iter().find(|now| now.id == part.id)?;
+        Some([part, now])
+    });
+    let found = Found {
+        file: &args.out,
+        scaled: &scaled,
+        parts: parts.collect(),
+        together: before
+            .toolpaths
+            .as_ref()
+            .zip(after.toolpaths.as_ref())
+            .map(|(a, b)| [a, b]),
+    };
+    if voice.json {
+        writeln!(out, "{}", serde_json::to_string_pretty(&found)?)?;
+    } else if !voice.manner.quiet {
+        write!(out, "{}", text(&found))?;
+    }
+    Ok(Exit::Kept)
+}
+
+/// Writes the scaled toolpaths under another name first, so that nothing half-written is left.
+fn write(order: &ScaleOrder, path: &Path, watch: &Watch) -> Result<Scaled, ScaleCommandError> {
+    let refused = |source| NewFileError::Write {
+        path: path.to_owned(),
+        source,
+    };
+    let draft = draft(path);
+    let mut output = BufWriter::new(File::create(&draft).map_err(refused)?);
+    let written = scale_toolpaths(order, &mut output, watch).map_err(ScaleCommandError::from);
+    let written = written.and_then(|scaled| {
+        output.flush().map_err(refused)?;
+        fs::rename(&draft, path).map_err(refused)?;
+        Ok(scaled)
+    });
+    if written.is_err() {
+        // The fault that matters is reported, not that of removing the draft.
+        let _ = fs::remove_file(&draft);
+    }
+    written
+}
+
+/// Words what was scaled, and what the parts weigh before and after.
+fn text(found: &Found) -> String {
+    let written = &found.scaled.written;
+    let head = ["part", "mass sliced", "scaled", "centre sliced", "scaled"];
+    let center = |part: &PrintedPart| part.center_mm.map(|mm| format!("{mm:.3}")).join(", ");
+    let rows = found.parts.iter().map(|[before, after]| {
+        vec![
+            before.id.clone(),
+            quantity(before.mass_g, "g"),
+            quantity(after.mass_g, "g"),
+            format!("{} mm", center(before)),
+            format!("{} mm", center(after)),
+        ]
+    });
+    let head = head.map(str::to_owned).to_vec();
+    let rows: Vec<Vec<String>> = std::iter::once(head).chain(rows).collect();
+    let [least, most] = written.factors;
+    let mut said = format!(
+        "{}{} lines of infill in {} pieces, laid {least:.2} to {most:.2} times as thick\n",
+        table(&rows),
+        written.beads,
+        written.pieces,
+    );
+    if written.slowed > 0 {
+        said += &format!(
+            "{} pieces are laid more slowly, as the hot end melts no more\n",
+            written.slowed
+        );
+    }
+    said += "how a printer follows such lines is not measured: print a small piece and weigh it\n";
+    format!("{said}written to {}\n", found.file.display()).replace('\u{a0}', " ")
+}

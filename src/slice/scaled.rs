@@ -1,0 +1,218 @@
+//! Scales the extrusion of toolpaths, so that the density of a part follows a field.
+
+use std::fs::File;
+use std::io::{BufReader, Read, Seek, SeekFrom, Write};
+use std::path::{Path, PathBuf};
+
+use serde::Serialize;
+
+use crate::base::setting::{Key, Setting};
+use crate::base::watch::Watch;
+use crate::field::{Density, NotADensity, Order, check};
+use crate::geom::Point;
+use crate::io::gcode::{Feature, Portions, RewriteError, Rewriting, Rewritten, rewrite_text};
+use crate::mesh::Solid;
+use crate::verify::{LocatedPart, LocatedPlate, PrintedError, locate_parts};
+
+/// Longest piece of a bead, mm. Longer ones blur the field: a bar with a ramp misses its centre by
+/// a sixth if its lines of 10 mm stay whole.
+const PIECE_MM: f64 = 2.0;
+/// Least and greatest factor on a line. Scripts that scale sparse infill keep to these; thinner
+/// lines break.
+const FACTORS: [f64; 2] = [0.2, 5.5];
+/// Most that a usual hot end melts, mm³/s: PrusaResearch.ini, filament_max_volumetric_speed of PLA.
+pub const MOST_FLOW_MM3_S: f64 = 15.0;
+/// The first bytes of a packed program.
+const PACKED: [&[u8]; 2] = [b"GCDE", b"PK\x03\x04"];
+
+/// An order to scale toolpaths.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ScaleOrder {
+    /// The G-code of a plate.
+    pub toolpaths: PathBuf,
+    /// The folder of the kit whose parts it prints.
+    pub kit: PathBuf,
+    /// The density that the parts get, model frame.
+    pub field: Order,
+    /// The density of sparse infill with which they were sliced, over that of solid print. `None`
+    /// takes what the kit or the file says.
+    pub infill_ratio: Option<f64>,
+    /// Most that the hot end melts, mm³/s.
+    pub most_flow_mm3_s: f64,
+}
+
+/// A reason why toolpaths are not scaled.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum ScaleError {
+    /// The parts of the kit are not found in the toolpaths.
+    #[error(transparent)]
+    Printed(#[from] PrintedError),
+    /// The field is no density.
+    #[error(transparent)]
+    Field(#[from] NotADensity),
+    /// The file is packed.
+    #[error(
+        "{} is packed; remedy: let the slicer write plain G-code (.gcode)",
+        .0.display()
+    )]
+    Packed(PathBuf),
+    /// The outside of the kit is no solid.
+    #[error("the model of this kit is no solid; remedy: check the kit (`equipoise verify`)")]
+    NoSolid,
+    /// A part is printed as its mirror image.
+    #[error("{0} is printed as its mirror image; remedy: slice its plate again")]
+    Mirrored(String),
+    /// No bead was scaled.
+    #[error(
+        "no infill of the kit's parts was found in it, and walls and surfaces are never scaled; \
+         remedy: slice with comments on features (;TYPE:), as PrusaSlicer writes them"
+    )]
+    Nothing,
+    /// The file cannot be read.
+    #[error("cannot read {}; remedy: check the path and its permissions", path.display())]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// The fault that the system reports.
+        source: std::io::Error,
+    },
+    /// The program cannot be scaled.
+    #[error("{}: {source}", path.display())]
+    Rewrite {
+        /// The file.
+        path: PathBuf,
+        /// The fault.
+        source: RewriteError,
+    },
+}
+
+/// What was scaled.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Scaled {
+    /// The parts, in the order of the checklist.
+    pub parts: Vec<String>,
+    /// What was written.
+    pub written: Rewritten,
+}
+
+/// Writes the toolpaths of a kit's plate again, so that the infill of its parts has the density of
+/// a field. Perimeters, surfaces, bridges and support stay as they are.
+///
+/// Extrusion scaling is that of Bukenberger and Lensch, "Tetrahedra of Varying Density and Their
+/// Applications", The Visual Computer 37, 2021. Pieces are at most 2 mm long, each scaled by the
+/// mean of the field along it.
+///
+/// # Errors
+/// The file fits no part of the kit, its field is no density, or it asks for lines that are too
+/// thin or too thick.
+pub fn scale_toolpaths(
+    order: &ScaleOrder,
+    output: &mut dyn Write,
+    watch: &Watch,
+) -> Result<Scaled, ScaleError> {
+    let input = open(&order.toolpaths)?;
+    let plate = locate_parts(&order.kit, &order.toolpaths, watch)?;
+    if let Some(part) = plate.parts.iter().find(|part| part.is_mirrored) {
+        return Err(ScaleError::Mirrored(part.id.clone()));
+    }
+    let solid = Solid::new(plate.outside.clone()).map_err(|_| ScaleError::NoSolid)?;
+    let field = order.field.on(&solid);
+    check(&solid, field.as_ref())?;
+    let portions = OfField {
+        field: field.as_ref(),
+        sparse_ratio: order
+            .infill_ratio
+            .or(plate.laid_ratio)
+            .or(plate.stated_ratio),
+        plate: &plate,
+    };
+    let rewriting = Rewriting {
+        portions: &portions,
+        piece_mm: PIECE_MM,
+        factors: FACTORS,
+        most_flow_mm3_s: order.most_flow_mm3_s,
+        filament_mm2: std::f64::consts::FRAC_PI_4 * plate.filament_mm * plate.filament_mm,
+    };
+    let written = rewrite_text(input, output, &rewriting, watch);
+    let written = written.map_err(|source| ScaleError::Rewrite {
+        path: order.toolpaths.clone(),
+        source,
+    })?;
+    if written.beads == 0 {
+        return Err(ScaleError::Nothing);
+    }
+    let parts = plate.parts.iter().map(|part| part.id.clone());
+    Ok(Scaled {
+        parts: parts.collect(),
+        written,
+    })
+}
+
+/// Opens a program as text.
+fn open(path: &Path) -> Result<BufReader<File>, ScaleError> {
+    let fault = |source| ScaleError::Read {
+        path: path.to_owned(),
+        source,
+    };
+    let mut file = File::open(path).map_err(fault)?;
+    let mut start = Vec::new();
+    Read::by_ref(&mut file)
+        .take(4)
+        .read_to_end(&mut start)
+        .map_err(fault)?;
+    if PACKED.contains(&start.as_slice()) {
+        return Err(ScaleError::Packed(path.to_owned()));
+    }
+    file.seek(SeekFrom::Start(0)).map_err(fault)?;
+    Ok(BufReader::new(file))
+}
+
+/// How much of a bead a field asks for.
+struct OfField<'a> {
+    field: &'a dyn Density,
+    /// The density of sparse infill as sliced, over that of solid print, if it is known.
+    sparse_ratio: Option<f64>,
+    plate: &'a LocatedPlate,
+}
+
+impl OfField<'_> {
+    /// Returns the part that a place belongs to; `None` beside all parts.
+    fn part(&self, at: &Point) -> Option<&LocatedPart> {
+        self.plate.parts.iter().find(|part| part.holds(at))
+    }
+}
+
+impl Portions for OfField<'_> {
+    fn takes(&self, feature: Feature, middle: &Point) -> Result<bool, String> {
+        if !matches!(feature, Feature::Infill | Feature::SolidInfill) {
+            return Ok(false);
+        }
+        let mut holding = self.plate.parts.iter().filter(|part| part.holds(middle));
+        let (first, second) = (holding.next(), holding.next());
+        if let (Some(first), Some(second)) = (first, second) {
+            let (first, second) = (&first.id, &second.id);
+            return Err(format!(
+                "{first} and {second} lie too close to tell them apart; \
+                 remedy: arrange the plate with more room"
+            ));
+        }
+        if feature == Feature::Infill && first.is_some() && self.sparse_ratio.is_none() {
+            return Err(format!(
+                "the file does not say how dense its infill is; remedy: say it (`{}`)",
+                Setting::new(Key::Infill, "40%")
+            ));
+        }
+        Ok(first.is_some())
+    }
+
+    fn factor(&self, feature: Feature, at: &Point) -> f64 {
+        let laid = match feature {
+            Feature::Infill => self.sparse_ratio.unwrap_or(1.0),
+            _ => 1.0,
+        };
+        let wanted = self.part(at).map(|part| self.field.at(&part.to_model(at)));
+        // A bead may reach out of its part's box by rounding.
+        wanted.map_or(1.0, |wanted| wanted / laid)
+    }
+}
