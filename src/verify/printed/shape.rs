@@ -119,13 +119,14 @@ impl<'a> Thing<'a> {
     /// Returns how the shape fits: as the kit lays the part, unless another pose or its mirror
     /// image fits far better.
     pub(super) fn fit(&self, shape: &Shape) -> Fit {
-        let usual = self.fit_turned(shape, &self.usual_turn());
+        let usual_turn = self.usual_turn();
+        let usual = self.fit_turned(shape, &usual_turn);
         let right = right_turns().map(|turn| self.fit_turned(shape, &turn));
         let mut others: Vec<Fit> = right.collect();
         let misses = |fit: &Fit| fit.miss_mm > FREE_TURN_MM;
         if misses(&usual) && others.iter().all(misses) {
             let miss_mm = |turn: &Matrix| self.fit_turned(shape, turn).miss_mm;
-            let free = free_turns(miss_mm).map(|turn| self.fit_turned(shape, &turn));
+            let free = free_turns(&usual_turn, miss_mm).map(|turn| self.fit_turned(shape, &turn));
             others.extend(free);
         }
         let best = |is_mirrored: bool| {
