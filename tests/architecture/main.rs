@@ -188,6 +188,8 @@ const ARROWS: &[(&str, &[&str])] = &[
             "base", "geom", "io", "job", "kit", "mesh", "printer", "raster", "slicer", "verify",
         ],
     ),
+    // A quote puts the shop's rates on what was sliced.
+    ("quote", &["base", "page", "printer", "sheet", "slice"]),
     (
         "coupon",
         &[
@@ -225,7 +227,7 @@ const ARROWS: &[(&str, &[&str])] = &[
             "repair", "run", "verify",
         ],
     ),
-    // A graded kit is sliced, and solved for again with what its toolpaths lay.
+    // A kit is sliced, and solved for again with what its toolpaths lay.
     (
         "prepare",
         &[
@@ -261,6 +263,7 @@ const ARROWS: &[(&str, &[&str])] = &[
             "prepare",
             "press",
             "printer",
+            "quote",
             "base",
             "run",
             "sheet",
@@ -302,6 +305,7 @@ const ARROWS: &[(&str, &[&str])] = &[
             "polyhedra",
             "poses",
             "press",
+            "quote",
             "repair",
             "run",
             "sheet",
