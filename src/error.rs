@@ -1,10 +1,12 @@
 //! The union of the stages' errors.
 
 mod graded;
+mod sliced;
 
 use std::path::PathBuf;
 
 pub use graded::GradedError;
+pub use sliced::SlicedError;
 
 use crate::ballast::{BallastError, Order};
 use crate::base::setting::{Key, Setting};
@@ -143,6 +145,9 @@ pub enum Error {
     /// The print cannot be graded.
     #[error(transparent)]
     Graded(#[from] GradedError),
+    /// A kit is not sliced, or its rounds are refused.
+    #[error(transparent)]
+    Sliced(#[from] SlicedError),
     /// The surface of the voids cannot be made.
     #[error(transparent)]
     Voids(VoidError),

@@ -17,7 +17,7 @@ pub use choices::{CutMode, IdStyle, Interior, ModelUnit, PartFormat, PinStyle};
 pub use effort::Effort;
 pub use filling::Filling;
 pub use model::ModelChoice;
-pub use sliced::SlicedRound;
+pub use sliced::{SlicedKit, SlicedPart, SlicedPlate, SlicedRound};
 pub use slicer::SlicerChoice;
 
 use crate::ballast::Order;
@@ -112,10 +112,12 @@ pub struct Job {
     /// The balls that no seam enters; none if the key is missing.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub keep_clear: Vec<KeepClear>,
-    /// The rounds in which the graded kit was sliced. The last one holds; none if the key is
-    /// missing.
+    /// The rounds in which the kit was sliced. The last one holds; none if the key is missing.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub sliced: Vec<SlicedRound>,
+    /// The toolpaths of the kit itself, as they were weighed; `None` if nobody sliced it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub toolpaths: Option<SlicedKit>,
     /// The cuts and pins that the user ordered, in place of the planner's.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub plan: Option<CutOrder>,
@@ -250,6 +252,7 @@ impl Job {
             goal,
             keep_clear: Vec::new(),
             sliced: Vec::new(),
+            toolpaths: None,
             plan: None,
             model_copy: None,
         }
@@ -411,6 +414,21 @@ mod tests {
             miss_mm: 0.0317,
             beyond: [460.1, -3.0, 0.1 + 0.2, 0.0, 1e-7, 2.0, 3.0, 4e9, 5.0, 6.0],
         }];
+        other.toolpaths = Some(SlicedKit {
+            slicer: "PrusaSlicer 2.5.0".into(),
+            mass_g: 81.25,
+            miss_mm: 0.0031,
+            tilt_deg: None,
+            plates: vec![SlicedPlate {
+                file: "plate.3mf".into(),
+                sha256: "ab".repeat(32),
+                minutes: 185,
+                parts_g: 81.25,
+                support_g: 7.5,
+                filament_g: Some(0.1 + 0.2),
+            }],
+            parts: Vec::new(),
+        });
         other.least_part = "5%".parse().unwrap();
         other.repair = "remesh:0.1mm,fill".parse().unwrap();
         other.keep_clear = vec!["1,2.5,-3,4".parse().unwrap(), "0,0,9,1".parse().unwrap()];

@@ -94,7 +94,7 @@ pub mod large {
 /// Checklists, job sheets, drawings and coupons.
 pub mod report {
     #[doc(inline)]
-    pub use crate::{coupon, draw, page, press, sheet, slicer};
+    pub use crate::{coupon, draw, page, press, quote, sheet, slicer};
 }
 
 // The rooms of the six groups, and the command line, which is no library.
@@ -155,6 +155,8 @@ pub mod polyhedra;
 pub mod poses;
 #[doc(hidden)]
 pub mod press;
+#[doc(hidden)]
+pub mod quote;
 #[doc(hidden)]
 pub mod raster;
 #[doc(hidden)]

@@ -14,7 +14,9 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use std::sync::OnceLock;
 
-use common::{ELLIPSOID, assert_exit, equipoise, files, list, number, path, printed, sum, words};
+use common::{
+    ELLIPSOID, assert_exit, equipoise, equipoise_in, files, list, number, path, printed, sum, words,
+};
 use serde_json::Value;
 
 /// A kit for a filament printer.
@@ -185,4 +187,146 @@ fn what_cannot_be_sliced_is_told_with_a_remedy_and_writes_nothing() {
     let (output, _) = bench.slice("other", &["--force"]);
     assert_exit(&output, 2);
     assert!(other.join("letter.txt").is_file());
+}
+
+/// Writes a program that names itself as a slicer, and runs these lines in place of one.
+#[cfg(unix)]
+fn write_slicer(file: &Path, lines: &str) {
+    use std::os::unix::fs::PermissionsExt;
+    let text = format!(
+        "#!/bin/sh\nif [ \"$1\" = --help ]; then echo PrusaSlicer-2.5.0 based on Slic3r; exit; fi\n\
+         while [ $# -gt 0 ]; do if [ \"$1\" = -o ]; then out=$2; fi; shift; done\n{lines}\n"
+    );
+    fs::write(file, text).unwrap();
+    fs::set_permissions(file, fs::Permissions::from_mode(0o755)).unwrap();
+}
+
+#[cfg(unix)]
+#[test]
+fn the_traps_of_slicers_are_found_whatever_their_exit_code_says() {
+    let bench = bench();
+    let file = bench.folder.join("false-slicer");
+    for (lines, named) in [
+        (
+            "echo G1 >$out; echo 'print warning: Empty layer between 37.6 and 48'; exit 0",
+            "cannot print a layer of plate.3mf",
+        ),
+        (
+            "echo G1 >$out; echo 'key = fill_pattern loaded = wavy substituted = stars'; exit 0",
+            "changed a setting of plate.3mf: key",
+        ),
+        ("echo 'Nothing to print'; exit 0", "wrote no toolpaths"),
+        (
+            "echo 'Objects could not fit on the bed' >&2; kill -ABRT $$",
+            "could not fit on the bed",
+        ),
+        ("echo 'G1 X1 Y1 E1' >$out; exit 0", "names no print time"),
+    ] {
+        write_slicer(&file, lines);
+        let (output, folder) = bench.slice("trap", &["--slicer", path(&file)]);
+        assert_exit(&output, 2);
+        assert!(
+            printed(&output).contains(named),
+            "{lines}: {}",
+            printed(&output)
+        );
+        assert!(!folder.exists());
+    }
+}
+
+#[test]
+fn a_setting_that_a_real_slicer_does_not_know_is_no_toolpath() {
+    if !has_slicer() {
+        return;
+    }
+    let bench = bench();
+    let profile = bench.folder.join("wavy.ini");
+    fs::write(&profile, "fill_pattern = wavy\n").unwrap();
+    let (output, folder) = bench.slice("wavy", &["--profile", path(&profile)]);
+    assert_exit(&output, 2);
+    assert!(
+        printed(&output).contains("fill_pattern"),
+        "{}",
+        printed(&output)
+    );
+    assert!(!folder.exists());
+}
+
+#[test]
+fn a_quote_needs_the_shops_rates_and_says_what_to_write() {
+    let bench = bench();
+    let shop = bench.folder.join("no-rates");
+    fs::create_dir_all(&shop).unwrap();
+    let file = shop.join("equipoise.toml");
+    let kit = bench.kit();
+    let quote = |text: &str| {
+        fs::write(&file, text).unwrap();
+        let output = equipoise_in(&shop, &["slice", path(&kit), "--quote", "--out", "quoted"]);
+        assert_exit(&output, 2);
+        assert!(!shop.join("quoted").exists());
+        printed(&output)
+    };
+    let printer = "printer = \"prusa-mk4\"\n";
+    let said = quote(printer);
+    for line in ["[rates]", "machine_per_hour = ", "material_per_kg = "] {
+        assert!(said.contains(line), "{line}: {said}");
+    }
+    let said = quote(&format!("{printer}{}", RATES.replace("pla = ", "petg = ")));
+    assert!(said.contains("add `pla = …` to material_per_kg"), "{said}");
+    let said = quote(&format!("{printer}{}", RATES.replace("setup", "set_up")));
+    assert!(
+        said.contains("equipoise.toml:9:1: ") && said.contains("`set_up`"),
+        "{said}"
+    );
+}
+
+/// A shop's rates.
+const RATES: &str = "[rates]\ncurrency = \"EUR\"\nmachine_per_hour = 3\nlabour_per_hour = 42\n\
+    minutes_per_order = 10\nminutes_per_part = 6\nminutes_per_joint = 4\nsetup = 5\n\
+    tax_percent = 19\nmaterial_per_kg = { pla = 24.0 }\n";
+
+#[test]
+fn a_quote_adds_up_and_is_a_page_and_a_line_of_a_table() {
+    if !has_slicer() {
+        return;
+    }
+    let bench = bench();
+    let shop = bench.folder.join("rates");
+    fs::create_dir_all(&shop).unwrap();
+    let text = format!("printer = \"prusa-mk4\"\n{RATES}");
+    fs::write(shop.join("equipoise.toml"), text).unwrap();
+    let kit = bench.kit();
+    let order = [
+        "--json",
+        "slice",
+        path(&kit),
+        "--quote",
+        "--out",
+        "quoted",
+        "--force",
+    ];
+    let output = equipoise_in(&shop, &order);
+    assert_exit(&output, 0);
+    let found = common::json(&output);
+    let quote = &found["quote"];
+    let prices = sum(list(quote, "lines"), "/price");
+    assert!((number(quote, "/costs") - prices).abs() < 1e-9);
+    let machine = number(quote, "/machine_min") / 60.0 * 3.0;
+    assert!((number(quote, "/lines/2/price") - machine).abs() <= 0.005 + 1e-9);
+    let parts = number(&found["slices"], "/plates/0/parts_g") * 0.024;
+    assert!((number(quote, "/lines/0/price") - parts).abs() <= 0.005 + 1e-9);
+    let total = format!("{:.2}", number(quote, "/total"));
+    let page = fs::read_to_string(shop.join("quoted/quote.html")).unwrap();
+    assert!(page.contains(&total), "{total}");
+    let table = fs::read_to_string(shop.join("quoted/quote.csv")).unwrap();
+    let lines: Vec<&str> = table.lines().collect();
+    assert_eq!(lines.len(), 2);
+    // A comma between quotes parts no fields.
+    let outside = |line: &str| -> String { line.split('"').step_by(2).collect() };
+    let count = |line: &str| outside(line).split(',').count();
+    assert_eq!(count(lines[0]), count(lines[1]));
+    assert!(
+        lines[1].contains(&total) && lines[1].ends_with("EUR"),
+        "{table}"
+    );
 }

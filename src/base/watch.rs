@@ -37,11 +37,13 @@ pub enum Phase {
     Verify,
     /// Makes the job sheet and its pictures.
     Report,
+    /// Slices the plates and weighs their toolpaths.
+    Slice,
 }
 
 impl Phase {
     /// All phases, in their order.
-    pub const ALL: [Self; 14] = [
+    pub const ALL: [Self; 15] = [
         Self::Load,
         Self::Waterline,
         Self::Hardware,
@@ -56,6 +58,7 @@ impl Phase {
         Self::Parts,
         Self::Verify,
         Self::Report,
+        Self::Slice,
     ];
 
     /// Returns the key under which the time of the phase is reported.
@@ -75,6 +78,7 @@ impl Phase {
             Self::Parts => "parts",
             Self::Verify => "verify",
             Self::Report => "report",
+            Self::Slice => "slice",
         }
     }
 
@@ -85,10 +89,10 @@ impl Phase {
     pub fn share(self) -> f64 {
         match self {
             Self::Load => 0.015,
-            Self::Waterline | Self::Hardware | Self::Ballast | Self::Advise => 0.005,
+            Self::Waterline | Self::Hardware | Self::Ballast | Self::Advise | Self::Slice => 0.005,
             Self::Columns | Self::Report => 0.035,
             Self::Solve => 0.03,
-            Self::Shell => 0.39,
+            Self::Shell => 0.385,
             Self::Voids | Self::Verify => 0.11,
             Self::Plan => 0.115,
             Self::Bosses => 0.01,

@@ -44,6 +44,7 @@ pub fn words(phase: Phase) -> &'static str {
         Phase::Parts => "cutting the parts",
         Phase::Verify => "checking the files",
         Phase::Report => "writing the sheet",
+        Phase::Slice => "slicing the plates",
     }
 }
 

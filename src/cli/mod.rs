@@ -21,6 +21,7 @@ pub mod printers;
 pub mod printers_markdown;
 pub mod profiles;
 pub mod questions;
+mod quoted;
 mod replay;
 pub mod scale;
 pub mod shop;

@@ -7,6 +7,7 @@ use serde::Serialize;
 
 use super::args::SliceArgs;
 use super::exit::Exit;
+use super::quoted::{QuotedError, ToQuote, quote_words};
 use super::show::{say, table};
 use super::signals::Stop;
 use super::toolpaths::toolpaths_text;
@@ -16,6 +17,7 @@ use crate::base::units::show_mm3;
 use crate::base::watch::Watch;
 use crate::io::layers::StackRow;
 use crate::kit::{Existing, KitError};
+use crate::quote::Quote;
 use crate::slice::{
     ImageOrder, Imaged, SliceError, SliceFormat, SliceOrder, Slices, image_kit, slice_kit,
 };
@@ -34,6 +36,9 @@ pub enum SliceCommandError {
     /// The toolpaths cannot be judged.
     #[error(transparent)]
     Printed(#[from] PrintedError),
+    /// The kit cannot be quoted.
+    #[error(transparent)]
+    Quoted(#[from] QuotedError),
     /// An option says nothing in this format.
     #[error("{0} says nothing in this format; remedy: leave it out")]
     Needless(&'static str),
@@ -51,6 +56,8 @@ struct Found<'a> {
     folder: &'a Path,
     slices: &'a Slices,
     judgement: &'a PrintedJudgement,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    quote: Option<&'a Quote>,
 }
 
 /// The findings about images as they are printed as JSON.
@@ -87,6 +94,7 @@ fn slice_toolpaths(
     let target = target(args, "gcode");
     let existing = existing(args);
     existing.allows(&target)?;
+    let to_quote = args.quote.then(|| ToQuote::read(&args.kit)).transpose()?;
     let watch = Watch::silent_until(stop.flag());
     let order = SliceOrder {
         kit: args.kit.clone(),
@@ -95,16 +103,18 @@ fn slice_toolpaths(
     };
     let written = slice_kit(&order, &watch)
         .map_err(SliceCommandError::from)
-        .and_then(|sliced| {
+        .and_then(|mut sliced| {
+            let quote = to_quote.map(|kit| kit.add(&sliced.slices, &mut sliced.files));
+            let quote = quote.transpose()?;
             sliced.files.write_watched(&target, existing, &watch)?;
-            Ok(sliced.slices)
+            Ok((sliced.slices, quote))
         });
     if written.is_err()
         && let Some(exit) = stop.end()
     {
         return Ok(exit);
     }
-    let slices = written?;
+    let (slices, quote) = written?;
     let files = slices.plates.iter();
     let files: Vec<PathBuf> = files.map(|plate| target.join(&plate.toolpaths)).collect();
     let judgement = verify_printed(&args.kit, &files, &watch)?;
@@ -113,10 +123,14 @@ fn slice_toolpaths(
             folder: &target,
             slices: &slices,
             judgement: &judgement,
+            quote: quote.as_ref(),
         };
         writeln!(out, "{}", serde_json::to_string_pretty(&found)?)?;
     } else if !voice.manner.quiet {
         write!(out, "{}", text(&slices, &judgement, &target, voice.manner))?;
+        if let Some(quote) = &quote {
+            write!(out, "{}", quote_words(quote, &target))?;
+        }
     } else if !judgement.passes() {
         say(toolpaths_text(&judgement, voice.manner).trim_end());
     }
@@ -256,6 +270,7 @@ mod tests {
                 format: None,
                 slicer: None,
                 profile: None,
+                quote: false,
                 out: None,
                 force: false,
             };

@@ -66,13 +66,6 @@ pub enum GradedError {
         hollow()
     )]
     FloatUnsliced,
-    /// The rounds in the job are those of another print.
-    #[error(
-        "the rounds in this job were weighed for another print; remedy: delete all of its \
-         [[sliced]], and slice it anew (`{}`)",
-        Setting::open(Key::Slice)
-    )]
-    OtherRounds,
     /// The files of the parts alone do not hold the region.
     #[error(
         "STL files do not hold the region of `{}`, and no plate is ordered; remedy: order both \
@@ -82,19 +75,6 @@ pub enum GradedError {
         hollow()
     )]
     OnlyStl,
-    /// Only graded prints are solved again with their toolpaths.
-    #[error(
-        "the toolpaths of a hollow kit are not solved for; remedy: order one piece (`{}`), or \
-         slice the kit by itself",
-        graded()
-    )]
-    Hollow,
-    /// The toolpaths of a kit lack its part.
-    #[error(
-        "the toolpaths of `{}` lack its part; remedy: slice the kit by itself to see why",
-        graded()
-    )]
-    NotAllLaid,
     /// The model has cavities of its own.
     #[error(
         "the model has cavities, and `{}` prints no void; remedy: fill them (`{}`), or {}",

@@ -21,12 +21,16 @@ use crate::verify::{PartEvidence, assembly_moments};
 ///
 /// Pins, sockets and glue weigh too, and files round: see [`crate::guide::theory`]. Of all attempts
 /// the one that comes nearest to the goal is returned.
-pub fn make(placed: &Placed, candidate: Candidate, watch: &Watch) -> Result<Made, Error> {
+pub fn make<'a>(
+    placed: &'a Placed,
+    candidate: Candidate<'a>,
+    watch: &Watch,
+) -> Result<Made, Error> {
     watch.enter(Phase::Parts);
     let Candidate {
         opened,
         mut resolver,
-    } = candidate;
+    } = candidate.weighing(placed);
     let value_before_cleaning = resolver.first_value();
     let more = moments_of_mesh(&opened.plan.pegs()) + placed.joining_moments(&opened.plan);
     let mut corrector = Corrector {

@@ -22,7 +22,7 @@ use crate::voids::{Cavity, CavitySpec, VoidError, grow_bodies, without_slivers};
 /// Draws voids, measures them and solves again. What it keeps solid stays so.
 #[derive(Clone)]
 pub struct Resolver<'a> {
-    placed: &'a Placed,
+    pub(super) placed: &'a Placed,
     /// The columns of what may still be emptied, and the last solution on them.
     solved: Solved,
     /// The figure of the certificate before anything was kept solid.

@@ -7,7 +7,7 @@ use super::resolve::Resolver;
 use crate::cut::{self, CutError, CutPlan, PlanRequest};
 use crate::error::Error;
 use crate::hollow::{Certificate, Figure};
-use crate::run::{Achieved, CleaningRound, Opened, Policy, Remark, Rung, Voids};
+use crate::run::{Achieved, CleaningRound, Opened, Placed, Policy, Remark, Rung, Voids};
 
 /// Share by which the toppling angle of a draft must exceed the promised one, by our own judgement.
 /// Pins and sockets take some of it, and the coarse copy differs a little from the body.
@@ -25,6 +25,16 @@ pub struct Candidate<'a> {
     pub opened: Opened,
     /// The resolver as the search left it.
     pub resolver: Resolver<'a>,
+}
+
+impl<'a> Candidate<'a> {
+    /// Returns the plan for the same goal with other weights: those that a slicer lays. Its cuts
+    /// and pins stay.
+    #[must_use]
+    pub fn weighing(mut self, placed: &'a Placed) -> Self {
+        self.resolver.placed = placed;
+        self
+    }
 }
 
 /// The result of a rung.

@@ -3,7 +3,7 @@
 use maud::{Markup, html};
 
 use crate::base::numbers::{number, quantity};
-use crate::sheet::{Checklist, Half, Process};
+use crate::sheet::{Checklist, Half, PartRow, Process};
 use crate::verify::InfillOrder;
 
 /// Deviation of a sound print's mass where the profile gives none, as a share of the mass.
@@ -44,9 +44,17 @@ fn window(mass_g: f64, spread_ratio: f64) -> Markup {
     }
 }
 
-/// Returns the mass of all parts, g.
+/// Returns the mass of a part as it is printed, g: by the toolpaths, if they were weighed.
+pub(super) fn printed_mass_g(sheet: &Checklist, part: &PartRow) -> f64 {
+    let toolpaths = sheet.toolpaths.as_ref();
+    let laid_g = toolpaths.and_then(|toolpaths| toolpaths.mass_of(&part.id));
+    laid_g.unwrap_or(part.mass_g)
+}
+
+/// Returns the mass of all parts as they are printed, g.
 pub(super) fn mass_of_parts_g(sheet: &Checklist) -> f64 {
-    sheet.parts.iter().map(|part| part.mass_g).sum()
+    let parts = sheet.parts.iter();
+    parts.map(|part| printed_mass_g(sheet, part)).sum()
 }
 
 /// Names a half of a yo-yo.

@@ -44,6 +44,7 @@ mod telescope_album;
 mod telescope_proof;
 #[cfg(test)]
 mod tests;
+mod toolpaths;
 mod tools;
 mod trials;
 mod view;

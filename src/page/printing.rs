@@ -8,6 +8,7 @@ use super::figure::{Picture, Role, figures};
 use super::hardware::{bar, word};
 use super::infill;
 use super::support;
+use super::toolpaths::weighed;
 use crate::base::numbers::{measured, measured_extent, quantity};
 use crate::base::units::MM3_PER_CM3;
 use crate::mesh::{BRIM_MM, GOOD_FOOT_MM2};
@@ -56,6 +57,7 @@ pub(super) fn print_step(sheet: &Checklist, pictures: &[Picture]) -> Markup {
                 (infill::levels(sheet, infill))
             }
         }
+        @if let Some(toolpaths) = &sheet.toolpaths { (weighed(sheet, toolpaths)) }
         div class="cards" { @for part in &sheet.parts { (card(sheet, part, pictures)) } }
         (jigs(sheet))
         (bought(sheet))

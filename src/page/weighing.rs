@@ -2,7 +2,7 @@
 
 use maud::{Markup, html};
 
-use super::fields::{blank, mass_of_parts_g, residue, spread_ratio};
+use super::fields::{blank, mass_of_parts_g, printed_mass_g, residue, spread_ratio};
 use super::hardware::word;
 use super::infill::wrong_weight;
 use crate::base::numbers::measured;
@@ -36,7 +36,9 @@ pub(super) fn weigh_parts(sheet: &Checklist) -> Markup {
                 }
             }
             tbody {
-                @for part in &sheet.parts { (weigh_line(sheet, &part.id, part.mass_g)) }
+                @for part in &sheet.parts {
+                    (weigh_line(sheet, &part.id, printed_mass_g(sheet, part)))
+                }
                 @if sheet.parts.len() > 1 { (weigh_line(sheet, "all parts", mass_of_parts_g(sheet))) }
             }
         }

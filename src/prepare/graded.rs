@@ -4,7 +4,7 @@ use crate::ballast::Load;
 use crate::base::setting::{Key, Setting};
 use crate::base::verdict::Verdict;
 use crate::base::watch::Watch;
-use crate::error::{Error, GradedError};
+use crate::error::{Error, GradedError, SlicedError};
 use crate::hollow::Fill;
 use crate::job::{Interior, Job, PartFormat, SlicedRound};
 use crate::mass::moments_of_mesh;
@@ -64,11 +64,12 @@ pub fn refuse_pieces(placed: &Placed) -> Result<(), Error> {
 ///
 /// # Errors
 /// They say that more was laid than slicers lay.
-pub fn refuse_rounds(placed: &Placed) -> Result<(), GradedError> {
+pub fn refuse_rounds(placed: &Placed) -> Result<(), SlicedError> {
     let solid = moments_of_mesh(placed.solid().mesh());
     let is_other = |round: &SlicedRound| beyond_ratio(&round.beyond, &solid) > 1.0;
-    match placed.job.sliced.iter().any(is_other) {
-        true => Err(GradedError::OtherRounds),
+    let own = placed.job.toolpaths.as_ref();
+    match placed.job.sliced.iter().any(is_other) || own.is_some_and(|own| !own.is_sound()) {
+        true => Err(SlicedError::OtherRounds),
         false => Ok(()),
     }
 }

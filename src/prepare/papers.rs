@@ -11,6 +11,7 @@ use crate::io::read_bytes;
 use crate::job::{Job, JobError, ModelChoice};
 use crate::kit::Kit;
 use crate::page::cup_warning;
+use crate::press::Drawings;
 use crate::run::Placed;
 use crate::sheet::from_run::{Facts, checklist};
 use crate::sheet::{Checklist, Timing};
@@ -24,19 +25,22 @@ use crate::verify::{
 /// `slicer` tells what the plates take.
 pub fn finish(
     placed: &Placed,
-    mut draft: Draft,
+    draft: &Draft,
     slicer: Option<&Slicer>,
     watch: &Watch,
 ) -> Result<Prepared, Error> {
     watch.enter(Phase::Report);
-    let mut checklist = fill(placed, &draft);
+    let mut checklist = fill(placed, draft);
     let mut drawings = draft.drawings.clone();
     draft
         .layout()
         .draw_figures(&checklist, &mut drawings, watch)?;
-    draft.drawings = drawings;
     watch.check()?;
-    let mut kit = files(placed, &draft, slicer)?;
+    let mut kit = files(placed, draft, slicer)?;
+    for picture in &drawings.pictures {
+        kit.add(&picture.file, picture.bytes());
+    }
+    slice::refuse_other_plates(&placed.job, &kit)?;
     let settings = SliceSettings::of(&placed.shop.printer, &placed.shop.material);
     if let (Some(slicer), Some(settings)) = (slicer, settings) {
         checklist.print_time = Some(slice::time(&settings, slicer, kit.files(), watch)?);
@@ -44,7 +48,7 @@ pub fn finish(
     let hashed = |(file, bytes): (&str, &[u8])| (file.to_owned(), sha256_hex(&[bytes]));
     checklist.files = kit.files().map(hashed).collect();
     watch.check()?;
-    add_papers(&mut kit, &checklist, &draft)?;
+    add_papers(&mut kit, &checklist, &drawings)?;
     let laps = watch.laps().into_iter();
     let laps = laps.map(|(phase, seconds)| (phase.key().to_owned(), seconds));
     checklist.timing_s = Some(Timing(laps.collect()));
@@ -102,9 +106,6 @@ fn files(placed: &Placed, draft: &Draft, slicer: Option<&Slicer>) -> Result<Kit,
         let (file, bytes) = model_copy(placed)?;
         kit.add(&file, bytes);
     }
-    for picture in &draft.drawings.pictures {
-        kit.add(&picture.file, picture.bytes());
-    }
     Ok(kit)
 }
 
@@ -119,11 +120,11 @@ fn model_copy(placed: &Placed) -> Result<(String, Vec<u8>), Error> {
 
 /// Adds the job sheet, for people and for machines, without anything that differs from run to run,
 /// and the list of all hashes.
-fn add_papers(kit: &mut Kit, sheet: &Checklist, draft: &Draft) -> Result<(), Error> {
+fn add_papers(kit: &mut Kit, sheet: &Checklist, drawings: &Drawings) -> Result<(), Error> {
     let json = sheet.to_json()?;
     let sha256 = sha256_hex(&[json.as_bytes()]);
     kit.add(CHECKLIST_FILE, json.into_bytes());
-    for (file, page) in draft.drawings.print(sheet, &sha256) {
+    for (file, page) in drawings.print(sheet, &sha256) {
         kit.add(file, page.into_bytes());
     }
     kit.add(SUMS_FILE, sums(kit.files()).into_bytes());

@@ -4,7 +4,7 @@ mod choice;
 
 pub use choice::{PlanChoice, SeamRow, figure_words, part_words, seam_words};
 
-use super::{advise, load, outcome::Impossible, place, solve};
+use super::{advise, outcome::Impossible, placed, solve};
 use crate::base::verdict::Verdict;
 use crate::base::watch::{Phase, Watch};
 use crate::cut::{CutError, CutOrder, parts};
@@ -40,10 +40,7 @@ pub fn plans(
     if !job.interior.is_hollow() {
         return Err(GradedError::Cuts.into());
     }
-    let printer = load::printer(job, watch)?;
-    let model = load::model(job, &printer, watch)?;
-    let shop = load::shop(job, printer, &model)?;
-    let placed = place::goal(job, model, shop, watch)?;
+    let placed = placed(job, watch)?.as_planned();
     let solved = match solve::best(&placed, watch)? {
         Verdict::Found(solved) => solved,
         Verdict::No(impossible) => {

@@ -42,6 +42,7 @@ pub(super) fn find_false_job(sheet: &Checklist, job: &Job) -> Vec<String> {
         &json!(sheet.wall.asked_mm),
         &json!(asked_mm),
     );
+    faults.judge_rounds(sheet, job);
     let is_known = |printer: &Printer| printer.id == job.printer.id;
     let known = Printer::all()
         .unwrap_or_default()
@@ -71,6 +72,32 @@ impl Faults {
                 .0
                 .push(format!("{at} is {stated} on the checklist, not {right}")),
         }
+    }
+
+    /// Compares the rounds in which the kit was sliced, and its own toolpaths.
+    fn judge_rounds(&mut self, sheet: &Checklist, job: &Job) {
+        let infill = sheet.infill.as_ref();
+        let stated = match &sheet.laid {
+            Some(laid) => (Some(laid.beyond), laid.misses_mm.as_slice()),
+            None => (
+                infill.and_then(|infill| infill.beyond),
+                infill.map_or(&[][..], |infill| infill.misses_mm.as_slice()),
+            ),
+        };
+        let beyond = job.sliced.last().map(|round| round.beyond);
+        let misses_mm: Vec<f64> = job.sliced.iter().map(|round| round.miss_mm).collect();
+        self.compare("laid.beyond", &json!(stated.0), &json!(beyond));
+        self.compare("laid.misses_mm", &json!(stated.1), &json!(misses_mm));
+        let mut own = json!(job.toolpaths);
+        let plates = own.get_mut("plates").and_then(Value::as_array_mut);
+        for plate in plates.into_iter().flatten() {
+            let sha256 = plate.as_object_mut().and_then(|row| row.remove("sha256"));
+            let file = plate["file"].as_str().unwrap_or_default();
+            let at = format!("the hash of {file} when it was sliced");
+            let listed = json!(sheet.files.get(file));
+            self.compare(&at, &listed, &sha256.unwrap_or_default());
+        }
+        self.compare("toolpaths", &json!(sheet.toolpaths), &own);
     }
 
     fn judge_printer(&mut self, sheet: &Checklist, job: &Job, printer: &Printer) {

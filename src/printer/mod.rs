@@ -44,6 +44,7 @@ mod materials;
 mod plate;
 mod profile;
 mod quantity;
+mod rates;
 mod reader;
 mod resolve;
 mod room;
@@ -62,6 +63,7 @@ pub use machine::{Grid, PrintPose, Printer, SizedWall, Support, Tolerance, Unkno
 pub use material::{Material, MaterialError};
 pub use plate::{Plate, Spot};
 pub use quantity::Quantity;
+pub use rates::Rates;
 pub use shop::{CONFIGURATION, SHOP_FILE, ShopDefaults, ShopError};
 pub use size::{SizeError, check_room_for_void};
 pub use wall::{WallChoice, WallError, whole_steps};

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use serde::Deserialize;
 use toml::Spanned;
 
+use super::Rates;
 use super::library::{BUILT_IN, PROFILE_ENDING, by_id};
 use crate::base::toml_text::{self, TextFault};
 
@@ -15,7 +16,7 @@ pub const SHOP_FILE: &str = "equipoise.toml";
 pub const CONFIGURATION: &str = "equipoise";
 
 /// A shop's defaults.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct ShopDefaults {
     /// The file that states them.
     pub file: PathBuf,
@@ -23,6 +24,8 @@ pub struct ShopDefaults {
     pub printer: String,
     /// The id of the material; `None` for the printer's default.
     pub material: Option<String>,
+    /// What the shop charges; `None` if it does not say.
+    pub rates: Option<Rates>,
 }
 
 /// An error in a shop's defaults.
@@ -47,6 +50,7 @@ pub enum ShopError {
 struct ShopText {
     printer: Spanned<String>,
     material: Option<String>,
+    rates: Option<Rates>,
 }
 
 impl ShopDefaults {
@@ -78,6 +82,7 @@ impl ShopDefaults {
             file: file.to_owned(),
             printer,
             material: shop.material,
+            rates: shop.rates,
         })
     }
 }

@@ -132,8 +132,21 @@ impl Placed {
     /// Returns the moments of what a slicer lays beyond the written parts, model frame; zero if it
     /// was not asked.
     pub fn laid_beyond(&self) -> Moments {
-        let last = self.job.sliced.last().filter(|_| self.sparse.is_some());
+        let last = self.job.sliced.last();
         last.map_or(Moments::default(), |round| Moments(round.beyond))
+    }
+
+    /// Returns the goal as it is solved, and as its cuts are planned.
+    ///
+    /// What a slicer lays on hollow parts is made up for when they are written. So cuts and pins
+    /// stay where they were when it was weighed. One piece is solved anew.
+    #[must_use]
+    pub fn as_planned(&self) -> Self {
+        let mut planned = self.clone();
+        if self.sparse.is_none() {
+            planned.job.sliced.clear();
+        }
+        planned
     }
 
     /// Returns the body as its surface is printed. Regions of sparse infill are no voids of it.

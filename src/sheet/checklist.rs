@@ -11,11 +11,13 @@ use super::parts::PartRow;
 use super::print_time::PrintTimeRow;
 use super::printer::{GridRow, MaterialRow, PrinterRow, WallRow};
 use super::timing::Timing;
+use super::toolpaths::ToolpathsRow;
 use super::voids::{CutRow, VoidRow};
 use crate::printer::Plate;
 use crate::repair::RepairOrder;
 use crate::verify::{
-    Check, Figures, FillOrder, Hardware, InfillOrder, PromisedFigure, PromisedPlate, SCHEMA,
+    Check, Figures, FillOrder, Hardware, InfillOrder, LaidOrder, PromisedFigure, PromisedPlate,
+    SCHEMA,
 };
 
 /// The job sheet of a kit, for machines; the room `page` renders the same for people.
@@ -106,6 +108,12 @@ pub struct Checklist {
     /// Regions of sparse infill in one piece; `None` for a print that is solid but for its voids.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub infill: Option<InfillOrder>,
+    /// What a slicer lays beyond the written parts; `None` if nobody sliced a hollow kit.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub laid: Option<LaidOrder>,
+    /// Toolpaths of the kit, weighed when it was made; `None` if nobody sliced it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub toolpaths: Option<ToolpathsRow>,
     /// Rounds in which material was kept solid around pins.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub rounds: Vec<RoundRow>,

@@ -15,6 +15,7 @@ pub mod telescope;
 #[cfg(test)]
 mod tests;
 mod timing;
+mod toolpaths;
 mod voids;
 
 pub use certificate::{Certificate, CleaningRow, Course, HeightProof, KeptRow, PassRow, SpeedRow};
@@ -31,5 +32,6 @@ pub use printer::{
 };
 pub use shortfall::{Shortfall, Taken, Taker};
 pub use timing::Timing;
+pub use toolpaths::{ToolpathPart, ToolpathPlate, ToolpathsRow};
 pub(crate) use voids::checks_of_void;
 pub use voids::{CutRow, SideRow, VoidRow, is_clean};

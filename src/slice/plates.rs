@@ -59,8 +59,10 @@ pub fn slice_kit(order: &SliceOrder, watch: &Watch) -> Result<Sliced, SliceError
     let slicer = Slicer::find(order.slicer.as_deref())?;
     let mut files = Kit::default();
     let mut plates = Vec::new();
+    let count = names.len();
     for name in names {
         watch.check()?;
+        watch.advance(plates.len() as f64 / count as f64);
         let path = order.kit.join(&name);
         let bytes = fs::read(&path).map_err(|source| SliceError::Read { path, source })?;
         let plate = PlateFile {

@@ -67,6 +67,18 @@ pub enum SlicerError {
         /// What it said.
         said: String,
     },
+    /// The slicer took another value for one that it does not know.
+    #[error(
+        "{version} changed a setting of {plate}: {said}; remedy: export the profile from this slicer anew, or leave it out"
+    )]
+    Substituted {
+        /// The slicer.
+        version: String,
+        /// The plate.
+        plate: String,
+        /// What it said.
+        said: String,
+    },
     /// The slicer took too long.
     #[error("{version} was stopped after {limit_s} s on {plate}; remedy: slice the plate by hand")]
     Slow {

@@ -21,6 +21,9 @@ const NO_MEMORY: &str = "bad_alloc";
 /// What the slicer says of a layer without lines, at exit code 0.
 const EMPTY_LAYER: &str = "mpty layer";
 
+/// What the slicer says of a value that it does not know, at exit code 0.
+const SUBSTITUTED: &str = "substituted = ";
+
 /// The file of a plate: a 3MF package whose parts lie in their places.
 #[derive(Debug, Clone, Copy)]
 pub struct PlateFile<'a> {
@@ -97,6 +100,14 @@ fn fault_in(words: &str, version: &str, plate: &str) -> Option<SlicerError> {
     if let Some(line) = words.lines().find(|line| line.contains(EMPTY_LAYER)) {
         let said = line.trim().to_owned();
         return Some(SlicerError::EmptyLayer {
+            version,
+            plate,
+            said,
+        });
+    }
+    if let Some(line) = words.lines().find(|line| line.contains(SUBSTITUTED)) {
+        let said = line.trim().to_owned();
+        return Some(SlicerError::Substituted {
             version,
             plate,
             said,
@@ -197,6 +208,9 @@ mod tests {
         assert!(
             matches!(empty, Some(SlicerError::EmptyLayer { said, .. }) if said.starts_with("Empty"))
         );
+        let line = "\tkey = \"fill_pattern\"\t loaded = \"wavy\tsubstituted = \"stars\"";
+        let other = fault(line).unwrap().to_string();
+        assert!(other.contains("fill_pattern"), "{other}");
         let large = fault("terminate called after throwing 'std::bad_alloc'").unwrap();
         assert!(large.to_string().contains("more than 8 GiB"), "{large}");
     }

@@ -82,6 +82,7 @@ pub fn sample_pictures(sheet: &Checklist, evidence: &Evidence) -> (Vec<Picture>,
     } = &evidence.promise;
     let subject = Subject {
         infill: None,
+        laid: None,
         jigs: &evidence.jigs,
         promised_jigs: &evidence.promise.jigs,
         shells: &shells,
@@ -171,6 +172,8 @@ fn checklist(evidence: &Evidence, found: &Judgement) -> Checklist {
         ballast: Vec::new(),
         fill: None,
         infill: None,
+        laid: None,
+        toolpaths: None,
         rounds: Vec::new(),
         checks: found.checks.clone(),
         verdict: Verdict::of(&found.checks),

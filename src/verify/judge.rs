@@ -176,10 +176,8 @@ impl AllFigures {
             ),
             spin: SpinFacts::of_top(&promise.goal, &promise.hardware, outer),
             beyond_ratio: promise
-                .infill
-                .as_ref()
-                .and_then(|infill| infill.beyond)
-                .map(|beyond| super::beyond_ratio(&beyond, &written)),
+                .laid_beyond()
+                .map(|beyond| super::beyond_ratio(&beyond.0, &written)),
             ballast_room_mm: least_room_mm(&promise.ballast, &body.welded, outer),
             whole: assembled + inside + joined + hardware,
             setting,

@@ -85,6 +85,7 @@ fn promise(poses: &[Pose]) -> Promise {
         ballast: Vec::new(),
         fill: None,
         infill: None,
+        laid: None,
         joints: vec![],
         jigs: Vec::new(),
         plates: Vec::new(),

@@ -4,7 +4,7 @@ use super::ballast::{ballast_moments, fill_moments};
 use super::hardware::mass_moments;
 use super::joints::film_moments;
 use super::sparse::sparse_moments;
-use super::{Body, InfillOrder, Promise, Setting};
+use super::{Body, Promise, Setting};
 use crate::mass::Moments;
 
 /// Moments of what a kit promises besides its printed parts, as moments of the print's density in
@@ -31,7 +31,7 @@ impl Loads {
             inside: ballast_moments(&promise.ballast, density_g_mm3)
                 + fill_moments(promise.fill, &voids, setting.density_g_cm3),
             sparse: sparse_moments(infill, &voids),
-            beyond: infill.map_or(Moments::default(), InfillOrder::beyond),
+            beyond: promise.laid_beyond().unwrap_or_default(),
             joined: joined_g * density_g_mm3.recip(),
         }
     }

@@ -5,12 +5,12 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use super::{
-    BallastOrder, BoundProof, Density, FillOrder, Fingerprint, Hardware, InfillOrder, Pose,
-    PrinterLimits, PromisedPlate, RotorOrder, WaterOrder,
+    BallastOrder, BoundProof, Density, FillOrder, Fingerprint, Hardware, InfillOrder, LaidOrder,
+    Pose, PrinterLimits, PromisedPlate, RotorOrder, WaterOrder,
 };
 use crate::geom::{Frame, Point, Vector};
 use crate::goal::GoalKind;
-use crate::mass::FlatFace;
+use crate::mass::{FlatFace, Moments};
 
 /// The schema of `checklist.json` this judge understands.
 pub const SCHEMA: u32 = 1;
@@ -62,6 +62,9 @@ pub struct Promise {
     /// The regions of sparse infill; `None` for a print that is solid but for its voids.
     #[serde(default)]
     pub infill: Option<InfillOrder>,
+    /// What a slicer lays beyond the written parts; `None` if nobody sliced a hollow kit.
+    #[serde(default)]
+    pub laid: Option<LaidOrder>,
     /// The joints between them.
     #[serde(default)]
     pub joints: Vec<PromisedJoint>,
@@ -74,6 +77,20 @@ pub struct Promise {
     /// The SHA-256 of every other file of the kit, by path relative to its folder.
     #[serde(default)]
     pub files: BTreeMap<String, String>,
+}
+
+impl Promise {
+    /// Returns the moments of what a slicer is said to lay beyond surfaces and regions, in the
+    /// model frame; `None` if the kit says nothing of it.
+    pub(super) fn laid_beyond(&self) -> Option<Moments> {
+        let hollow = self.laid.as_ref().map(|laid| Moments(laid.beyond));
+        let infill = self.infill.as_ref();
+        let infill = infill.filter(|infill| infill.beyond.is_some());
+        match (hollow, infill.map(InfillOrder::beyond)) {
+            (Some(hollow), Some(infill)) => Some(hollow + infill),
+            (hollow, infill) => hollow.or(infill),
+        }
+    }
 }
 
 /// The part of the checklist's certificate that the judge reads.

@@ -189,6 +189,8 @@ const ARROWS: &[(&str, &[&str])] = &[
             "verify",
         ],
     ),
+    // A quote puts the shop's rates on what was sliced.
+    ("quote", &["base", "page", "printer", "sheet", "slice"]),
     (
         "coupon",
         &[
@@ -226,7 +228,7 @@ const ARROWS: &[(&str, &[&str])] = &[
             "repair", "run", "verify",
         ],
     ),
-    // A graded kit is sliced, and solved for again with what its toolpaths lay.
+    // A kit is sliced, and solved for again with what its toolpaths lay.
     (
         "prepare",
         &[
@@ -262,6 +264,7 @@ const ARROWS: &[(&str, &[&str])] = &[
             "prepare",
             "press",
             "printer",
+            "quote",
             "base",
             "run",
             "sheet",
@@ -303,6 +306,7 @@ const ARROWS: &[(&str, &[&str])] = &[
             "polyhedra",
             "poses",
             "press",
+            "quote",
             "repair",
             "run",
             "sheet",

@@ -174,8 +174,8 @@ pub struct PrepareArgs {
     /// its time and filament on the sheet
     #[arg(long, value_name = "CMD", help_heading = "Kit")]
     pub slicer: Option<String>,
-    /// Slice a graded kit, and solve again with what its toolpaths lay until they keep the promise
-    #[arg(long, help_heading = "Kit")]
+    /// Slice the kit, and make it again with what its toolpaths lay until they keep the promise
+    #[arg(long, help_heading = "Kit", conflicts_with = "plans")]
     pub slice: bool,
     /// Leave the copy of the model out of the kit; `verify` then needs --model to compare with it
     #[arg(long, help_heading = "Kit")]

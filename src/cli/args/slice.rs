@@ -27,6 +27,9 @@ pub struct SliceArgs {
     /// The folder to write [default: the kit's name and -gcode, or -layers]
     #[arg(long, value_name = "FOLDER")]
     pub out: Option<PathBuf>,
+    /// Write a quote too, as a page and as a table, by the rates in equipoise.toml
+    #[arg(long)]
+    pub quote: bool,
     /// Replace the folder if it exists
     #[arg(long)]
     pub force: bool,
@@ -38,6 +41,7 @@ impl SliceArgs {
         match self.format {
             None | Some(SliceFormat::Gcode) => None,
             _ if self.slicer.is_some() => Some("--slicer"),
+            _ if self.quote => Some("--quote"),
             Some(SliceFormat::Stack) if self.profile.is_some() => Some("--profile"),
             Some(_) => None,
         }

@@ -95,7 +95,8 @@ fn written_value(facts: &Facts, figure: FigureName) -> Option<f64> {
         return facts.judgement.assembly.value_of(figure);
     }
     let joined = placed.joining_moments(&facts.made.plan);
-    let whole = facts.made.written_moments() + joined + placed.hardware_moments();
+    let beside = joined + placed.hardware_moments() + placed.laid_beyond();
+    let whole = facts.made.written_moments() + beside;
     compute_figures(goal, &whole.in_frame(&goal.frame)).spin_it
 }
 

@@ -11,8 +11,9 @@ use super::hardware::{dowels, hardware};
 use super::joints::{cut_list, jig_rows, joint_rows, round_rows};
 use super::parts::part_rows;
 use super::printer::{material_row, printer_row};
-use super::promise::{aim, ballast_orders, fill_order, infill_order};
+use super::promise::{aim, ballast_orders, fill_order, infill_order, laid_order};
 use super::remarks::{notes, offers, warnings};
+use super::toolpaths::{print_time_row, toolpaths_row};
 use super::voids::{cut_rows, void_rows};
 use crate::ballast::PlacedPart;
 use crate::goal::{Objective, RoundKind, RoundSurface, Warning};
@@ -60,7 +61,7 @@ pub fn checklist(facts: &Facts) -> Checklist {
         joints: joint_rows(facts),
         jigs: jig_rows(facts),
         plates: facts.plates.to_vec(),
-        print_time: None,
+        print_time: print_time_row(placed),
         grid: grid_rows(facts),
         hardware: hardware(placed),
         dowels: dowels(&facts.made.plan),
@@ -71,6 +72,8 @@ pub fn checklist(facts: &Facts) -> Checklist {
         ballast: ballast_rows(facts),
         fill: fill_order(placed),
         infill: infill_order(placed, facts.made),
+        laid: laid_order(placed),
+        toolpaths: toolpaths_row(placed),
         rounds: round_rows(facts),
         checks: judgement.checks.clone(),
         verdict: Verdict::of(&judgement.checks),

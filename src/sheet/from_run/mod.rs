@@ -14,6 +14,7 @@ mod printer;
 mod promise;
 mod remarks;
 mod support;
+mod toolpaths;
 mod voids;
 
 pub use checklist::checklist;

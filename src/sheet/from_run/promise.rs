@@ -10,8 +10,8 @@ use crate::cut::{CutPlan, Label, PinSite};
 use crate::goal::Rotor;
 use crate::run::{Made, Placed, WrittenPart};
 use crate::verify::{
-    Aim, BallastOrder, Density, FillOrder, InfillOrder, Mark, Peg, PrinterLimits, Promise,
-    PromisedPart, RotorOrder, SCHEMA, WallOrder, WaterOrder,
+    Aim, BallastOrder, Density, FillOrder, InfillOrder, LaidOrder, Mark, Peg, PrinterLimits,
+    Promise, PromisedPart, RotorOrder, SCHEMA, WallOrder, WaterOrder,
 };
 
 /// Returns the promise of the parts, without the figure that they reach.
@@ -53,6 +53,7 @@ pub fn promise(placed: &Placed, made: &Made) -> Promise {
         ballast: ballast_orders(&made.load),
         fill: fill_order(placed),
         infill: infill_order(placed, made),
+        laid: laid_order(placed),
         files: Default::default(),
     }
 }
@@ -178,6 +179,17 @@ pub fn infill_order(placed: &Placed, made: &Made) -> Option<InfillOrder> {
             .map(|round| round.miss_mm)
             .collect(),
         file: written.file.as_ref().map(|(file, _)| file.clone()),
+    })
+}
+
+/// Returns what a slicer lays beyond the parts of a hollow kit, as the judge reads it; `None` if it
+/// was not sliced, or is one piece.
+pub fn laid_order(placed: &Placed) -> Option<LaidOrder> {
+    let rounds = &placed.job.sliced;
+    let last = rounds.last().filter(|_| placed.sparse.is_none())?;
+    Some(LaidOrder {
+        beyond: last.beyond,
+        misses_mm: rounds.iter().map(|round| round.miss_mm).collect(),
     })
 }
 

@@ -2,7 +2,7 @@
 
 use super::{block, failures, judge, sound_kit};
 use crate::geom::{Matrix, Point, Vector};
-use crate::verify::{Evidence, InfillOrder, PartEvidence, Pose};
+use crate::verify::{Evidence, InfillOrder, LaidOrder, PartEvidence, Pose};
 
 /// Volume of the region, mm³.
 const REGION_MM3: f64 = 54.0 * 34.0 * 6.0;
@@ -84,4 +84,28 @@ fn what_a_slicer_lays_beyond_counts_where_it_lies() {
     assert!((after.mass_g - before.mass_g - added_g).abs() < 1e-9);
     let shift_mm = 10.0 * added_g / after.mass_g;
     assert!((after.center_mm[0] - before.center_mm[0] - shift_mm).abs() < 1e-9);
+}
+
+#[test]
+fn a_hollow_kit_promises_what_a_slicer_lays_beyond_its_parts_and_no_more_than_that() {
+    let mut evidence = sound_kit();
+    let before = judge(&evidence).assembly;
+    let blob = block(Point::new(9.0, -1.0, 14.0), [2.0, 2.0, 4.0]);
+    let beyond = crate::mass::moments_of_mesh(&blob);
+    let mut lay = |beyond: [f64; 10]| {
+        evidence.promise.laid = Some(LaidOrder {
+            beyond,
+            misses_mm: vec![0.1],
+        });
+        (judge(&evidence).assembly, failures(&evidence))
+    };
+    let (after, _) = lay(beyond.0);
+    let added_g = 16.0 * 1.2e-3;
+    assert!((after.mass_g - before.mass_g - added_g).abs() < 1e-9);
+    let moment = before.center_mm[0] * before.mass_g + 10.0 * added_g;
+    assert!((after.center_mm[0] - moment / after.mass_g).abs() < 1e-9);
+    let mut too_much = beyond.0;
+    too_much[0] = 1e9;
+    let (_, failed) = lay(too_much);
+    assert!(failed.contains(&"laid beyond".to_owned()), "{failed:?}");
 }

@@ -21,8 +21,8 @@ use crate::mass::{Moments, moments_of_mesh};
 use crate::verify::changes::find_changes;
 use crate::verify::loads::Loads;
 use crate::verify::{
-    Body, Evidence, Figures, HOLLOWED_FILE, InfillOrder, PlateSpot, Promise, Setting,
-    assembly_moments, files_check, read_kit,
+    Body, Evidence, Figures, HOLLOWED_FILE, PlateSpot, Promise, Setting, assembly_moments,
+    files_check, read_kit,
 };
 
 /// Judges the toolpaths of the kit in `folder`: all plates together, in any order.
@@ -81,8 +81,7 @@ pub(super) fn judge_toolpaths(
         let mass_g = parts.iter().fold(Moments::default(), sum);
         mass_g * weighing.setting.density_g_mm3().recip()
     });
-    let stated = promise.infill.as_ref();
-    let stated = stated.map_or(Moments::default(), InfillOrder::beyond);
+    let stated = promise.laid_beyond().unwrap_or_default();
     let mut judgement = PrintedJudgement {
         files: describe_files(&catalogue, &matches, sources),
         promise: promise.promise,

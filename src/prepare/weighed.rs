@@ -1,0 +1,243 @@
+//! The weight of a kit's toolpaths, beside its promise.
+
+use std::path::PathBuf;
+
+use super::outcome::Prepared;
+use crate::base::digest::sha256_hex;
+use crate::base::watch::{Phase, Watch};
+use crate::error::{Error, SlicedError};
+use crate::job::{SlicedKit, SlicedPart, SlicedPlate, SlicedRound};
+use crate::kit::{Existing, Kit};
+use crate::mass::Moments;
+use crate::slice::{PlateSlice, SliceOrder, slice_kit};
+use crate::slicer::Scratch;
+use crate::verify::{PrintedJudgement, verify_printed};
+
+/// Distance of the centre from the promised one that is near enough, mm.
+const NEAR_MM: f64 = 0.01;
+/// Tilt of the principal axis beyond the promised one that is near enough, degrees.
+const NEAR_DEG: f64 = 0.05;
+/// Deviation of the mass from the promised one that is near enough, as a share.
+const NEAR_MASS_RATIO: f64 = 2e-3;
+/// Steps to which a round's centre is known, mm.
+const STEP_MM: f64 = 1e-4;
+/// Steps to which its volume is known, as a share of it. The centre is as far from the origin as
+/// the model is long.
+const VOLUME_STEP: f64 = 1e-6;
+/// Steps to which a tilt is kept, degrees.
+const STEP_DEG: f64 = 1e-3;
+/// Steps to which a mass is kept, g.
+const STEP_G: f64 = 1e-2;
+
+/// The weight of a kit's toolpaths, beside its promise.
+pub struct Weighed {
+    /// Whether the kit itself keeps every promise.
+    is_sound: bool,
+    pub miss_mm: f64,
+    /// Tilt of the principal axis beyond that of the written parts, degrees; `None` for goals
+    /// without.
+    tilt_deg: Option<f64>,
+    /// Their mass over the promised one, less 1.
+    heavier_ratio: f64,
+    /// Moments of all that they lay beyond the written parts, model frame.
+    beyond: Moments,
+    /// Their volume, mm³.
+    volume_mm3: f64,
+    /// The promises that they break, in words.
+    pub broken: Vec<String>,
+    /// The figures that the kit keeps of them.
+    pub record: SlicedKit,
+}
+
+/// Slices a kit in a folder of its own, and weighs the toolpaths.
+pub fn weigh(command: &str, prepared: &Prepared, watch: &Watch) -> Result<Weighed, Error> {
+    watch.enter(Phase::Slice);
+    let scratch = Scratch::new().map_err(crate::slicer::SlicerError::Folder)?;
+    let [kit, toolpaths] = ["kit", "toolpaths"].map(|name| scratch.path().join(name));
+    prepared.kit.write_watched(&kit, Existing::Keep, watch)?;
+    let order = SliceOrder {
+        kit: kit.clone(),
+        slicer: Some(command.to_owned()),
+        profile: None,
+    };
+    let sliced = slice_kit(&order, watch)?;
+    sliced
+        .files
+        .write_watched(&toolpaths, Existing::Keep, watch)?;
+    let plates = sliced.slices.plates.iter();
+    let files: Vec<PathBuf> = plates
+        .map(|plate| toolpaths.join(&plate.toolpaths))
+        .collect();
+    let judgement = verify_printed(&kit, &files, watch)?;
+    let plates = sliced.slices.plates.iter();
+    let plates = plates.map(|plate| plate_row(plate, &prepared.kit));
+    let kit = SlicedKit {
+        slicer: sliced.slices.slicer.clone(),
+        mass_g: 0.0,
+        miss_mm: 0.0,
+        tilt_deg: None,
+        plates: plates.collect(),
+        parts: Vec::new(),
+    };
+    let not_all = || SlicedError::NotAllLaid {
+        parts: judgement.missing.join(", "),
+    };
+    let weighed = Weighed::of(&judgement, kit).ok_or_else(not_all)?;
+    Ok(Weighed {
+        is_sound: prepared.passes(),
+        ..weighed
+    })
+}
+
+/// Returns the toolpaths of a plate as a job keeps them.
+fn plate_row(plate: &PlateSlice, kit: &Kit) -> SlicedPlate {
+    let bytes = kit.files().find(|(file, _)| *file == plate.plate);
+    SlicedPlate {
+        file: plate.plate.clone(),
+        sha256: bytes.map_or_else(String::new, |(_, bytes)| sha256_hex(&[bytes])),
+        minutes: plate.minutes,
+        parts_g: plate.parts_g,
+        support_g: plate.support_g,
+        filament_g: plate.filament_g,
+    }
+}
+
+impl Weighed {
+    /// Returns what was weighed, with the plates and the slicer of `kit`; `None` if a part is not
+    /// printed.
+    fn of(judgement: &PrintedJudgement, kit: SlicedKit) -> Option<Self> {
+        let (laid, written) = (judgement.toolpaths.as_ref()?, &judgement.written);
+        let off = [0, 1, 2].map(|axis| laid.center_mm[axis] - written.center_mm[axis]);
+        let miss_mm = off.iter().map(|mm| mm * mm).sum::<f64>().sqrt();
+        let broken = judgement.checks.iter().filter(|check| !check.pass);
+        let tilts = laid.axis_tilt_deg.zip(written.axis_tilt_deg);
+        let tilt_deg = tilts.map(|(laid, written)| laid - written);
+        let parts = judgement.parts.iter().map(|part| SlicedPart {
+            id: part.id.clone(),
+            mass_g: to_steps(part.mass_g, STEP_G),
+        });
+        Some(Self {
+            is_sound: true,
+            miss_mm,
+            tilt_deg,
+            heavier_ratio: laid.mass_g / written.mass_g - 1.0,
+            beyond: judgement.beyond?,
+            volume_mm3: laid.volume_mm3,
+            broken: broken.map(|check| check.kind.to_string()).collect(),
+            record: SlicedKit {
+                mass_g: to_steps(laid.mass_g, STEP_G),
+                miss_mm: to_steps(miss_mm, STEP_MM),
+                tilt_deg: tilt_deg.map(|deg| to_steps(deg, STEP_DEG)),
+                parts: parts.collect(),
+                ..kit
+            },
+        })
+    }
+
+    /// Returns whether the toolpaths keep the promise so well that another round says nothing.
+    pub fn is_near(&self) -> bool {
+        self.broken.is_empty()
+            && self.miss_mm < NEAR_MM
+            && self.tilt_deg.unwrap_or(0.0) < NEAR_DEG
+            && self.heavier_ratio.abs() < NEAR_MASS_RATIO
+    }
+
+    /// Returns whether these toolpaths break fewer promises than others, or as many and are nearer.
+    /// A kit that keeps its own promises goes before one that does not.
+    pub fn is_better_than(&self, other: &Self) -> bool {
+        let rank = |one: &Self| (!one.is_sound, one.broken.len(), one.miss_mm);
+        rank(self) < rank(other)
+    }
+
+    /// Returns the round, rounded. Toolpaths differ in their last digits from run to run. So
+    /// another loop may end with other digits; the job that is kept makes the same kit.
+    pub fn round(&self) -> SlicedRound {
+        let volume_step = step(self.volume_mm3 * VOLUME_STEP);
+        let moment_step = step(self.volume_mm3 * STEP_MM);
+        let mut beyond = self.beyond.0.map(|moment| to_steps(moment, moment_step));
+        beyond[0] = to_steps(self.beyond.0[0], volume_step);
+        SlicedRound {
+            miss_mm: to_steps(self.miss_mm, STEP_MM),
+            beyond,
+        }
+    }
+}
+
+/// Returns the power of ten at or below a positive number.
+fn step(number: f64) -> f64 {
+    10.0_f64.powf(number.log10().floor())
+}
+
+/// Rounds a number to whole steps.
+fn to_steps(number: f64, step: f64) -> f64 {
+    let steps = (number / step).round();
+    // A division by a whole power of ten rounds to the fewest digits, a product does not.
+    if step < 1.0 {
+        steps / step.recip().round() + 0.0
+    } else {
+        steps * step + 0.0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn weighed(miss_mm: f64, tilt_deg: f64) -> Weighed {
+        Weighed {
+            is_sound: true,
+            miss_mm,
+            tilt_deg: Some(tilt_deg),
+            heavier_ratio: 0.0,
+            beyond: Moments([12.345_678_9; 10]),
+            volume_mm3: 21_850.0,
+            broken: Vec::new(),
+            record: SlicedKit {
+                slicer: String::new(),
+                mass_g: 0.0,
+                miss_mm: 0.0,
+                tilt_deg: None,
+                plates: Vec::new(),
+                parts: Vec::new(),
+            },
+        }
+    }
+
+    #[test]
+    fn a_round_is_kept_to_a_tenth_of_a_micrometre_of_the_centre() {
+        let round = weighed(0.123_456, 0.0).round();
+        assert_eq!(round.miss_mm, 0.1235);
+        assert_eq!(round.beyond[0], 12.35);
+        assert_eq!(round.beyond[1..], [12.0; 9]);
+    }
+
+    #[test]
+    fn toolpaths_are_near_if_both_centre_and_axis_are() {
+        assert!(weighed(0.009, 0.04).is_near());
+        assert!(!weighed(0.011, 0.0).is_near());
+        assert!(!weighed(0.0, 0.06).is_near());
+        assert!(weighed(0.0, -1.0).is_near(), "an axis that became better");
+        let mut broken = weighed(0.0, 0.0);
+        broken.broken.push("waterline".to_owned());
+        assert!(!broken.is_near());
+        let heavy = Weighed {
+            heavier_ratio: 0.03,
+            ..weighed(0.0, 0.0)
+        };
+        assert!(!heavy.is_near());
+        assert!(weighed(0.1, 0.0).is_better_than(&broken));
+        assert!(weighed(0.1, 0.0).is_better_than(&weighed(0.2, 0.0)));
+    }
+
+    #[test]
+    fn a_kit_that_breaks_its_own_promise_is_never_the_better_one() {
+        let unsound = Weighed {
+            is_sound: false,
+            ..weighed(0.0, 0.0)
+        };
+        let mut broken = weighed(0.5, 0.0);
+        broken.broken.push("waterline".to_owned());
+        assert!(broken.is_better_than(&unsound));
+        assert!(!unsound.is_better_than(&broken));
+    }
+}
