@@ -11,7 +11,7 @@
 mod common;
 
 use std::fs;
-use std::io::Read;
+use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use std::sync::OnceLock;
@@ -135,6 +135,15 @@ fn the_plate_names_the_region_as_prusaslicer_wants_it() {
     let settings = text_of(&plate, SETTINGS);
     let (object, volumes) = settings.split_once("<volume ").unwrap();
     assert!(object.contains("key=\"fill_density\" value=\"100%\""));
+    // Presets of machines have other values for what is laid around a region.
+    for pinned in [
+        "infill_overlap",
+        "top_solid_layers",
+        "thick_bridges",
+        "solid_infill_extrusion_width",
+    ] {
+        assert!(object.contains(&format!("key=\"{pinned}\"")), "{pinned}");
+    }
     let (body, region) = volumes.split_once("<volume ").unwrap();
     assert!(body.contains("value=\"ModelPart\"") && !body.contains("fill_density"));
     for said in [
@@ -172,6 +181,55 @@ fn a_region_that_was_changed_is_told() {
     let (code, said) = common::verify(&kit);
     assert_eq!(code, Some(1), "{said}");
     assert!(said.contains("modifiers/"), "{said}");
+}
+
+/// Packs a package again, with one of its parts changed.
+fn repack(package: &Path, part: &str, edit: impl Fn(String) -> String) {
+    let mut archive = zip::ZipArchive::new(fs::File::open(package).unwrap()).unwrap();
+    let mut packed = zip::ZipWriter::new(std::io::Cursor::new(Vec::new()));
+    for index in 0..archive.len() {
+        let mut entry = archive.by_index(index).unwrap();
+        let mut text = String::new();
+        entry.read_to_string(&mut text).unwrap();
+        let options = zip::write::SimpleFileOptions::default();
+        packed.start_file(entry.name(), options).unwrap();
+        let is_it = entry.name() == part;
+        let text = if is_it { edit(text) } else { text };
+        packed.write_all(text.as_bytes()).unwrap();
+    }
+    drop(archive);
+    fs::write(package, packed.finish().unwrap().into_inner()).unwrap();
+}
+
+#[test]
+fn a_plate_that_orders_other_infill_than_the_sheet_is_told() {
+    let folder = TempDir::new().unwrap();
+    let kit = folder.path().join("kit");
+    for (part, from, to, said) in [
+        (SETTINGS, "\"15%\"", "\"15\"", "an infill of 15, not 15%"),
+        (SETTINGS, "\"15%\"", "\"30%\"", "an infill of 30%, not 15%"),
+        (SETTINGS, "gyroid", "lightning", "filled with lightning"),
+        (
+            SETTINGS,
+            "ParameterModifier",
+            "NegativeVolume",
+            "is a NegativeVolume",
+        ),
+        (
+            SETTINGS,
+            "\"100%\"",
+            "\"20%\"",
+            "has an infill of 20%, not 100%",
+        ),
+        (MODEL, "Version3mf\">1<", "Version3mf\">0<", "at the origin"),
+    ] {
+        common::copy(&bench().kit(), &kit);
+        repack(&kit.join("plate.3mf"), part, |text| text.replace(from, to));
+        let (code, output) = common::verify(&kit);
+        assert_eq!(code, Some(1), "{output}");
+        assert!(output.contains(said), "{said}: {output}");
+        fs::remove_dir_all(&kit).unwrap();
+    }
 }
 
 #[test]

@@ -249,6 +249,7 @@ pub fn print_settings(printer: &Printer) -> Option<PrintSettings> {
     let overhang_deg = printer.number(Quantity::OverhangDeg).map(|deg| deg.value);
     (printer.process.as_deref() == Some(FILAMENT)).then_some(PrintSettings {
         layer_mm: printer.layer_mm.value,
+        line_mm: printer.pixel_x_mm.value,
         perimeters: PERIMETERS,
         overhang_deg: overhang_deg.filter(|_| printer.support != Support::None),
     })

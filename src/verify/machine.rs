@@ -84,6 +84,7 @@ impl Faults {
         for (key, stated, right) in numbers {
             self.compare(&format!("printer.{key}"), stated, &[right]);
         }
+        self.judge_infill(&sheet["infill"], known);
         if let Some(reach_mm) = cleaning.reach_mm {
             let stated = &stated["cleaning"]["reach_mm"];
             self.compare("printer.cleaning.reach_mm", stated, &[reach_mm]);
@@ -100,6 +101,23 @@ impl Faults {
             let name = &stated["name"];
             self.0
                 .push(format!("printer.name states {name}, not {}", known.name));
+        }
+    }
+
+    /// Compares the densities of sparse infill with what the profile's table says of them.
+    fn judge_infill(&mut self, stated: &Value, known: &Printer) {
+        let Some(pattern) = &known.infill else {
+            return;
+        };
+        if stated.is_object() && stated["pattern"] != pattern.pattern.as_str() {
+            let found = &stated["pattern"];
+            let right = &pattern.pattern;
+            self.0
+                .push(format!("infill.pattern states {found}, not {right}"));
+        }
+        if let Some(nominal) = stated["nominal_ratio"].as_f64() {
+            let laid = pattern.laid_ratio(nominal);
+            self.compare("infill.laid_ratio", &stated["laid_ratio"], &[laid]);
         }
     }
 

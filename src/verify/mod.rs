@@ -64,6 +64,7 @@ mod claims;
 mod kit;
 mod machine;
 mod model;
+mod orders;
 mod packages;
 mod redrawn;
 mod rows;

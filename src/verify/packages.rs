@@ -1,15 +1,17 @@
-//! The check of the 3MF files: they hold the parts that are judged, in their places.
+//! The check of the 3MF files: they hold the parts that are judged, in their places, with their
+//! orders for a slicer.
 
 use std::path::Path;
 
 use rayon::prelude::*;
 
 use super::fingerprint::Likeness;
+use super::orders::{Ordered, Wanted};
 use super::reading::{read_file, undo_print_scale};
 use super::{
     Check, CheckKind, Evidence, Fingerprint, Limit, PartEvidence, PlateSpot, Promise, VerifyError,
 };
-use crate::io::threemf::{PlacedObject, decode_objects};
+use crate::io::threemf::{PlacedObject, SlicerOrders, ThreeMfError, decode_objects, decode_orders};
 
 /// The file with all parts in place.
 const ASSEMBLY_FILE: &str = "assembly.3mf";
@@ -66,17 +68,30 @@ pub fn packages_check(folder: &Path, evidence: &Evidence) -> Result<Option<Check
     }
     let there = files.into_par_iter();
     let there = there.filter(|file| folder.join(file).is_file());
-    let decoded = there.map(|file| Ok((file, decode_objects(&read_file(&folder.join(file))?))));
+    let decoded = there.map(|file| Ok((file, decode(&read_file(&folder.join(file))?))));
     let (prints, decoded) = rayon::join(
         || evidence.fingerprints(),
         || decoded.collect::<Vec<Result<_, VerifyError>>>(),
     );
     let (mut faults, mut packages) = (Vec::new(), Vec::new());
+    let wanted = Wanted::of(promise);
     for read in decoded {
         match read? {
             (file, Err(error)) => faults.push(format!("{file}: {error}")),
-            (file, Ok(objects)) => {
+            (file, Ok((objects, orders))) => {
                 faults.extend(misplaced(file, &objects, promise));
+                let package = Ordered {
+                    file,
+                    objects: &objects,
+                    orders: orders.as_ref(),
+                };
+                let is_printed = file != ASSEMBLY_FILE;
+                faults.extend(
+                    is_printed
+                        .then(|| wanted.faults(&package))
+                        .into_iter()
+                        .flatten(),
+                );
                 packages.push(Package::new(file, objects, promise));
             }
         }
@@ -86,7 +101,7 @@ pub fn packages_check(folder: &Path, evidence: &Evidence) -> Result<Option<Check
     let found = packages.par_iter();
     let found = found.map(|package| find_faults(package, &parts));
     faults.extend(found.collect::<Vec<_>>().concat());
-    let words = "every 3MF file holds the parts as they are judged";
+    let words = "every 3MF file holds the parts as they are judged, and orders their infill";
     let check = Check::new(
         CheckKind::Packages,
         words,
@@ -96,6 +111,11 @@ pub fn packages_check(folder: &Path, evidence: &Evidence) -> Result<Option<Check
     Ok(Some(
         check.at((!faults.is_empty()).then(|| faults.join("; "))),
     ))
+}
+
+/// Returns the objects of a package, and its orders for a slicer.
+fn decode(bytes: &[u8]) -> Result<(Vec<PlacedObject>, Option<SlicerOrders>), ThreeMfError> {
+    Ok((decode_objects(bytes)?, decode_orders(bytes)?))
 }
 
 impl Package {

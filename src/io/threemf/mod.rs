@@ -3,12 +3,13 @@
 //! * Reading: `archive` unpacks the parts, `xml` scans their tags, `read` builds one model, and
 //!   `place` puts its objects where the build says.
 //! * Writing: [`Package`] in `write`, with [`PrintSettings`] for slicers in `settings`,
-//!   and regions of other infill in `sparse`.
+//!   and regions of other infill in `sparse`. `orders` reads those settings again.
 //! * Both: [`Transform`], the `names` of the standard, and the faults in `error`.
 
 mod archive;
 mod error;
 mod names;
+mod orders;
 mod place;
 mod read;
 mod settings;
@@ -20,6 +21,7 @@ mod write;
 mod xml;
 
 pub use error::{Limit, ThreeMfError};
+pub use orders::{ObjectOrders, Orders, SlicerOrders, VolumeOrders, decode_orders};
 pub use place::PlacedObject;
 pub use settings::PrintSettings;
 pub use sparse::SparseRegion;

@@ -12,6 +12,8 @@ use crate::mesh::TriMesh;
 /// An object at the place that the package's build gives it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlacedObject {
+    /// The identifier of its triangles in the package.
+    pub id: u32,
     /// Its name in the package; empty if it has none.
     pub name: String,
     /// Its triangles in the coordinates of the build, mm.
@@ -145,6 +147,7 @@ impl<'a> Builder<'a> {
                     return Err(ThreeMfError::NotFinite { object: id });
                 }
                 self.found.push(PlacedObject {
+                    id,
                     name: object.name.clone(),
                     mesh,
                 });

@@ -6,7 +6,7 @@ use std::ops::Range;
 
 use quick_xml::escape::escape;
 
-use super::sparse::{Infill, Pair};
+use super::sparse::{Infill, Pair, around_regions};
 use crate::mesh::{BRIM_MM, GOOD_FOOT_MM2};
 
 /// Path of PrusaSlicer's settings; SuperSlicer reads them too.
@@ -19,6 +19,8 @@ pub const BAMBU_PART: &str = "Metadata/model_settings.config";
 pub struct PrintSettings {
     /// Height of a layer, mm.
     pub layer_mm: f64,
+    /// Width of a line, mm.
+    pub line_mm: f64,
     /// Number of lines along a wall.
     pub perimeters: usize,
     /// Angle to the horizontal from which surfaces print without support, degrees; `None` for no
@@ -53,6 +55,25 @@ impl Subject<'_> {
     }
 }
 
+/// The widths of the lines of a part, in PrusaSlicer's words. Presets have one for every kind.
+const WIDTHS: [&str; 6] = [
+    "extrusion_width",
+    "perimeter_extrusion_width",
+    "external_perimeter_extrusion_width",
+    "infill_extrusion_width",
+    "solid_infill_extrusion_width",
+    "top_infill_extrusion_width",
+];
+
+/// What decides beside widths and densities how much is laid, in PrusaSlicer's words: its usual
+/// values. Presets of machines have others, and the masses of the sheet are those of these.
+const LAID_PRUSA: [[&str; 2]; 4] = [
+    ["infill_overlap", "25%"],
+    ["infill_every_layers", "1"],
+    ["infill_only_where_needed", "0"],
+    ["ensure_vertical_shell_thickness", "0"],
+];
+
 /// Support that takes little material, in PrusaSlicer's words: it follows the overhang, has no
 /// sheath, and ends in two dense layers.
 const LEAN_PRUSA: [[&str; 2]; 3] = [
@@ -78,6 +99,8 @@ impl PrintSettings {
             ("perimeters", self.perimeters.to_string()),
             ("support_material", on_or_off(self.overhang_deg.is_some())),
         ];
+        pairs.extend(WIDTHS.map(|key| (key, self.line_mm.to_string())));
+        pairs.extend(LAID_PRUSA.map(|[key, value]| (key, value.to_owned())));
         if let Some(angle_deg) = self.overhang_deg {
             pairs.push(("support_material_auto", on_or_off(true)));
             pairs.push(("support_material_threshold", format!("{angle_deg:.0}")));
@@ -118,7 +141,9 @@ pub fn prusa_xml(objects: &[Subject], settings: &PrintSettings) -> String {
             "<object id=\"{id}\" instances_count=\"1\">\n\
              <metadata type=\"object\" key=\"name\" value=\"{name}\"/>\n"
         );
-        for (key, value) in settings.for_prusa().into_iter().chain(subject.brim()) {
+        let around = subject.infill.map_or_else(Vec::new, |_| around_regions());
+        let pairs = settings.for_prusa().into_iter().chain(subject.brim());
+        for (key, value) in pairs.chain(around) {
             let _ = writeln!(
                 xml,
                 "<metadata type=\"object\" key=\"{key}\" value=\"{value}\"/>"
@@ -172,6 +197,7 @@ mod tests {
 
     const SETTINGS: PrintSettings = PrintSettings {
         layer_mm: 0.2,
+        line_mm: 0.45,
         perimeters: 2,
         overhang_deg: Some(45.0),
     };
@@ -195,6 +221,8 @@ mod tests {
             (&prusa, "key=\"fill_density\" value=\"100%\""),
             (&prusa, "key=\"support_material\" value=\"1\""),
             (&prusa, "key=\"support_material_style\" value=\"snug\""),
+            (&prusa, "key=\"extrusion_width\" value=\"0.45\""),
+            (&prusa, "key=\"infill_overlap\" value=\"25%\""),
             (&prusa, "lastid=\"11\""),
             (&bambu, "key=\"sparse_infill_density\" value=\"100%\""),
             (&bambu, "key=\"enable_support\" value=\"1\""),

@@ -86,7 +86,7 @@ const PRUSA_NAMESPACE: &str = "http://schemas.slic3r.org/3mf/2017/06";
 const BLOCKER: &str = " slic3rpe:custom_supports=\"8\"";
 /// PrusaSlicer's metadata for the version of a file. Without it, it moves the first volume of an
 /// object to its place and leaves the others behind.
-const PRUSA_VERSION: [&str; 2] = ["slic3rpe:Version3mf", "1"];
+pub(super) const PRUSA_VERSION: [&str; 2] = ["slic3rpe:Version3mf", "1"];
 /// The namespace of this program's own metadata.
 const OUR_NAMESPACE: &str = "urn:equipoise:kit";
 /// Permissions of an extracted file, on systems that keep them.

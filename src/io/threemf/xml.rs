@@ -82,6 +82,13 @@ impl<'a> Scanner<'a> {
         }
     }
 
+    /// Returns the text between the tag that was just read and the next one.
+    pub fn text(&self) -> &'a str {
+        let start = self.reader.buffer_position() as usize;
+        let rest = self.text.get(start..).unwrap_or_default();
+        rest.split('<').next().unwrap_or_default()
+    }
+
     /// Skips the content of the element that was just opened.
     pub fn skip(&mut self, opened: &Tag) -> Result<(), ThreeMfError> {
         let mut depth = usize::from(opened.kind == Kind::Open);

@@ -101,6 +101,7 @@ fn a_package_with_settings_holds_the_same_objects_and_both_files_of_settings() {
         build: Build::Items(places),
         settings: Some(PrintSettings {
             layer_mm: 0.2,
+            line_mm: 0.45,
             perimeters: 2,
             overhang_deg: Some(45.0),
         }),

@@ -28,6 +28,7 @@ fn packed() -> Vec<u8> {
         build: Build::Items(vec![(0, place)]),
         settings: Some(PrintSettings {
             layer_mm: 0.2,
+            line_mm: 0.45,
             perimeters: 2,
             overhang_deg: None,
         }),
