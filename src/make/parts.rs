@@ -45,6 +45,7 @@ pub fn make(placed: &Placed, candidate: Candidate, watch: &Watch) -> Result<Made
     let Voids {
         solution,
         hollowed,
+        inner,
         refused_mm3,
         rounds,
         ..
@@ -56,6 +57,7 @@ pub fn make(placed: &Placed, candidate: Candidate, watch: &Watch) -> Result<Made
         course: resolver.course().clone(),
         solution,
         hollowed,
+        inner,
         refused_mm3,
         plan,
         remarks: opened.remarks,
@@ -126,7 +128,7 @@ impl Corrector<'_, '_> {
         let evidence: Vec<PartEvidence> = parts.iter().map(WrittenPart::evidence).collect();
         let whole = assembly_moments(&evidence) + self.placed.joining_moments(&plan);
         let load = &self.resolver.solved().load;
-        let inside = self.placed.moments_inside(load, &voids.hollowed);
+        let inside = (self.placed).moments_inside(load, &voids.hollowed, &voids.inner);
         let reached = (whole + inside).in_frame(&goal.frame);
         Ok(Attempt {
             defect_ratio: defect_ratio(goal, &voids.solution.moments, &reached),

@@ -9,8 +9,8 @@ use crate::hollow::Fill;
 use crate::job::{Interior, Job, PartFormat, SlicedRound};
 use crate::mass::moments_of_mesh;
 use crate::mesh::{TriMesh, shells};
-use crate::printer::{Printer, SparsePrint};
-use crate::run::Placed;
+use crate::printer::Printer;
+use crate::run::{Nested, Placed};
 use crate::verify::beyond_ratio;
 
 use super::levels::with_load;
@@ -19,7 +19,7 @@ use super::levels::with_load;
 ///
 /// # Errors
 /// The printer has no infill, or the job orders what one closed piece cannot have.
-pub fn sparse_print(job: &Job, printer: &Printer) -> Result<Option<SparsePrint>, GradedError> {
+pub fn sparse_print(job: &Job, printer: &Printer) -> Result<Option<Nested>, GradedError> {
     if job.interior.is_hollow() {
         return Ok(None);
     }
@@ -39,7 +39,8 @@ pub fn sparse_print(job: &Job, printer: &Printer) -> Result<Option<SparsePrint>,
     let no_infill = || GradedError::NoInfill {
         printer: printer.name.clone(),
     };
-    printer.sparsest_print().map(Some).ok_or_else(no_infill)
+    let print = printer.sparsest_print().ok_or_else(no_infill)?;
+    Ok(Some(Nested::of_sparsest(print)))
 }
 
 /// Refuses a placed goal that one closed piece cannot meet.

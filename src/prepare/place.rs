@@ -48,7 +48,7 @@ pub fn goal(job: &Job, model: Model, shop: Shop, watch: &Watch) -> Result<Placed
     let sparse = graded::sparse_print(job, &shop.printer)?;
     let laid = sparse
         .as_ref()
-        .and_then(|sparse| Fill::new(sparse.laid_ratio));
+        .and_then(|sparse| Fill::new(sparse.levels.last()?.laid_ratio));
     let placed = Placed {
         fill: match laid {
             Some(laid) => laid,

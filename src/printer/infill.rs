@@ -48,13 +48,6 @@ pub struct SparsePrint {
     pub laid_ratio: f64,
 }
 
-impl SparsePrint {
-    /// Returns the density to set in the slicer, per cent of that of solid print.
-    pub fn nominal_percent(&self) -> f64 {
-        (self.nominal_ratio * 1e8).round() / 1e6
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

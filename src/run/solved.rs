@@ -60,6 +60,15 @@ impl Placed {
         };
         self.fill.solve(&problem, known, &watch.muted())
     }
+
+    /// Returns the moments of the body with what a solution empties or fills; `fixed` are those of
+    /// the solid without any void (goal frame).
+    pub fn filled(&self, fixed: Moments, columns: &Columns, solution: &Solution) -> Moments {
+        match &self.sparse {
+            Some(nested) => nested.filled(fixed, columns, &solution.quadric),
+            None => self.fill.filled(fixed, columns, &solution.quadric),
+        }
+    }
 }
 
 impl Solved {

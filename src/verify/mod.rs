@@ -41,6 +41,7 @@ mod peg_shape;
 mod pegs;
 mod plates;
 mod play;
+mod regions;
 mod rim;
 mod rooms;
 mod shape;
@@ -114,7 +115,7 @@ pub use promise::{
     PromisedFigure, PromisedJig, PromisedJoint, PromisedPart, PromisedVoid, SCHEMA, WallOrder,
 };
 pub use rotor::RotorOrder;
-pub use sparse::{InfillOrder, beyond_ratio};
+pub use sparse::{InfillLevel, InfillOrder, beyond_ratio};
 pub use water::WaterOrder;
 
 // The facts.
@@ -128,6 +129,7 @@ pub use joints::FilmError;
 pub use measure::{PartFacts, SurfaceFacts};
 pub use pegs::PegFacts;
 pub use play::JointFacts;
+pub use regions::RegionFacts;
 pub use rotor::Unbalance;
 pub use shape::{ShapeFacts, Stray};
 pub use shells::Shells;
