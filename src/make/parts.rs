@@ -12,7 +12,7 @@ use crate::cut::{
 use crate::error::Error;
 use crate::mass::{Moments, moments_of_mesh};
 use crate::mesh::TriMesh;
-use crate::open::{Candidate, Planner, Resolver, defect_ratio, finish};
+use crate::open::{Candidate, Planner, Resolver, finish, shortfall_ratio};
 use crate::run::{BossRound, KeptBoss, Made, Placed, Voids, WrittenPart};
 use crate::verify::{PartEvidence, assembly_moments};
 
@@ -131,7 +131,7 @@ impl Corrector<'_, '_> {
         let inside = (self.placed).moments_inside(load, &voids.hollowed, &voids.inner);
         let reached = (whole + inside).in_frame(&goal.frame);
         Ok(Attempt {
-            defect_ratio: defect_ratio(goal, &voids.solution.moments, &reached),
+            defect_ratio: shortfall_ratio(self.placed, &voids.solution.moments, &reached),
             more: whole - moments_of_mesh(&voids.hollowed.to_mesh()),
             voids,
             plan,

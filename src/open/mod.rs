@@ -31,7 +31,7 @@ mod way;
 #[cfg(test)]
 mod scenes;
 
-pub use defect::defect_ratio;
+pub use defect::shortfall_ratio;
 pub use draw::finish;
 pub use one_piece::one_piece;
 pub use plan::Planner;

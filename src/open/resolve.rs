@@ -4,7 +4,7 @@
 use std::sync::Arc;
 
 use super::budget::{Budget, Work};
-use super::defect::defect_ratio;
+use super::defect::shortfall_ratio;
 use super::draw::{draw_inner, outermost, pockets};
 use super::plan::Planner;
 use crate::base::watch::Watch;
@@ -199,9 +199,9 @@ impl<'a> Resolver<'a> {
     /// nearly equal, its principal axis wanders between rounds by more than the tolerance. A goal
     /// that cannot be met any more is not solved for again.
     pub fn correct(&mut self, mut voids: Voids, more: Moments) -> Result<Voids, Error> {
-        let goal = self.placed.goal();
+        let placed = self.placed;
         let mut measured = self.measure(&voids, more);
-        let mut least = defect_ratio(goal, &voids.solution.moments, &measured);
+        let mut least = shortfall_ratio(placed, &voids.solution.moments, &measured);
         let mut best = voids.clone();
         for _ in 0..self.placed.policy.correction_rounds {
             if least <= 1.0 || !voids.solution.is_usable() {
@@ -209,7 +209,7 @@ impl<'a> Resolver<'a> {
             }
             voids = self.solve_again(&voids, measured)?;
             measured = self.measure(&voids, more);
-            let defect = defect_ratio(goal, &voids.solution.moments, &measured);
+            let defect = shortfall_ratio(placed, &voids.solution.moments, &measured);
             if defect < least {
                 (least, best) = (defect, voids.clone());
             }

@@ -1,6 +1,7 @@
 //! The line from a job to a kit: load, place, solve, open, make, judge, kit.
 
 mod advise;
+mod densities;
 mod failure;
 mod graded;
 mod hardware;
@@ -17,6 +18,7 @@ mod rotor;
 mod rounds;
 mod slice;
 mod solve;
+mod thresholds;
 mod upright;
 mod waterline;
 

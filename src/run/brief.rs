@@ -120,8 +120,8 @@ impl Placed {
     }
 
     /// Returns the moments of what is put into the print, model frame: ballast, hardware and the
-    /// filling of the voids. With them goes what a slicer lays beyond the written parts. `inner` are
-    /// the regions of infill inside of the voids, as [`Voids::inner`](super::Voids::inner).
+    /// filling of the voids. With them goes what a slicer lays beyond the written parts. The
+    /// regions of infill inside of the voids are `inner`, as [`Voids::inner`](super::Voids::inner).
     pub fn moments_inside(&self, load: &Load, hollowed: &Hollowed, inner: &[TriMesh]) -> Moments {
         let voids = hollowed.voids.iter();
         let voids = voids.map(|void| moments_of_mesh(void.mesh()));

@@ -1,9 +1,9 @@
 //! The infill of a print in one piece: nested regions, the outermost first.
 
 use crate::geom::Quadric;
+use crate::hollow::NearWished;
 use crate::interior::{Columns, moments_where_positive};
 use crate::mass::Moments;
-use crate::printer::SparsePrint;
 
 /// The infill of a print in one piece.
 #[derive(Debug, Clone, PartialEq)]
@@ -12,6 +12,9 @@ pub struct Nested {
     pub pattern: String,
     /// The regions, the outermost first. Each lies in the one before.
     pub levels: Vec<Level>,
+    /// The infill that is wished everywhere, and changed as little as the goal allows. `None` if
+    /// the goal alone decides.
+    pub near: Option<NearWished>,
 }
 
 /// A region of one density of infill, less the regions in it.
@@ -52,19 +55,6 @@ impl Level {
 }
 
 impl Nested {
-    /// Returns the infill with one region of a printer's sparsest print, where the solution's
-    /// quadric is positive.
-    pub fn of_sparsest(print: SparsePrint) -> Self {
-        Self {
-            pattern: print.pattern,
-            levels: vec![Level {
-                nominal_ratio: print.nominal_ratio,
-                laid_ratio: print.laid_ratio,
-                extent: Extent::Above(0.0),
-            }],
-        }
-    }
-
     /// Returns the moments of what is laid in regions with these moments, the outermost first.
     pub fn laid(&self, regions: impl IntoIterator<Item = Moments>) -> Moments {
         let mut around = 0.0;
@@ -107,6 +97,7 @@ mod tests {
                 level(0.3, Extent::Above(-0.1)),
                 level(0.1, Extent::Above(0.2)),
             ],
+            near: None,
         };
         let ball = |mm3: f64| Moments([mm3, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0]);
         let laid = nested.laid([1000.0, 400.0, 100.0].map(ball));

@@ -58,7 +58,11 @@ impl Placed {
             fixed,
             columns,
         };
-        self.fill.solve(&problem, known, &watch.muted())
+        let near = self.sparse.as_ref().and_then(|nested| nested.near.as_ref());
+        match near {
+            Some(near) => near.solve(&problem),
+            None => self.fill.solve(&problem, known, &watch.muted()),
+        }
     }
 
     /// Returns the moments of the body with what a solution empties or fills; `fixed` are those of

@@ -9,10 +9,9 @@ use super::limits::{
     STRING_GAP_TOLERANCE_MM, VOLUME_SUM_LIMIT_RATIO, WALL_TOLERANCE_MM,
 };
 use super::play::worst_joint;
-use super::regions::regions_check;
 use super::shape_checks::shape_checks;
 use super::thin_checks::thin_checks;
-use super::void_checks::void_checks;
+use super::void_checks::{regions_check, void_checks};
 use super::{
     Check, CheckKind, CupFacts, JigFacts, Judgement, Limit, PartFacts, Peg, PegFacts, Promise,
     PromisedPart,
@@ -358,7 +357,7 @@ fn worst_peg(
 }
 
 /// Checks that a count of faults is zero.
-pub(super) fn no_faults(kind: CheckKind, promise: &str, count: usize) -> Check {
+fn no_faults(kind: CheckKind, promise: &str, count: usize) -> Check {
     Check::new(kind, promise, Some(count as f64), Limit::at_most(0.0, ""))
 }
 

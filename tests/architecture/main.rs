@@ -229,10 +229,10 @@ const ARROWS: &[(&str, &[&str])] = &[
     (
         "prepare",
         &[
-            "advice", "ballast", "base", "cut", "error", "geom", "goal", "hardware", "hollow",
-            "interior", "io", "job", "kit", "make", "mass", "mend", "mesh", "open", "page",
-            "press", "printer", "repair", "run", "sheet", "shell", "slice", "slicer", "thin",
-            "verify",
+            "advice", "ballast", "base", "cut", "error", "field", "geom", "goal", "hardware",
+            "hollow", "interior", "io", "job", "kit", "make", "mass", "mend", "mesh", "open",
+            "page", "press", "printer", "repair", "run", "sheet", "shell", "slice", "slicer",
+            "thin", "verify",
         ],
     ),
     (

@@ -27,7 +27,7 @@ pub struct Infill {
 
 /// What the slicer lays where the solid print meets a region, in PrusaSlicer's words: its usual
 /// values. Presets of machines have others. Their six layers for a shell moved the centre of a
-/// bunny of 60 mm by 0.05 mm, their thin bridges by 0.03 mm.
+/// bunny of 60 mm by 0.05 mm. Their thin bridges moved it by 0.03 mm.
 const AROUND_REGIONS: [[&str; 2]; 7] = [
     ["top_solid_layers", "3"],
     ["bottom_solid_layers", "3"],

@@ -9,6 +9,7 @@ use crate::base::digest::sha256_hex;
 use crate::cut::{CutPlan, Label, PinSite};
 use crate::goal::Rotor;
 use crate::mesh::shells;
+use crate::repair::weld;
 use crate::run::{Made, Placed, WrittenPart, WrittenRegion};
 use crate::verify::{
     Aim, BallastOrder, Density, FillOrder, InfillLevel, InfillOrder, Mark, Peg, PrinterLimits,
@@ -193,7 +194,7 @@ fn infill_levels(placed: &Placed, regions: &[WrittenRegion]) -> Vec<InfillLevel>
         InfillLevel {
             nominal_ratio: level.nominal_ratio,
             laid_ratio: level.laid_ratio,
-            regions: shells(&region.mesh).len(),
+            regions: shells(&weld(&region.mesh)).len(),
             volume_mm3: volume_mm3(region),
             mass_g: level.laid_ratio * (volume_mm3(region) - within_mm3) * density_g_mm3,
             file: region.file.as_ref().map(|(file, _)| file.clone()),
