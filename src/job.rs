@@ -2,6 +2,7 @@
 
 mod choices;
 pub mod core_kit;
+mod densities;
 mod effort;
 mod filling;
 mod model;
@@ -14,6 +15,7 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Deserializer, Serialize, de::Error as _};
 
 pub use choices::{CutMode, IdStyle, Interior, ModelUnit, PartFormat, PinStyle};
+pub use densities::{DensityError, DensityOrder, InfillDensity, LevelCount};
 pub use effort::Effort;
 pub use filling::Filling;
 pub use model::ModelChoice;
@@ -99,6 +101,17 @@ pub struct Job {
         skip_serializing_if = "Interior::is_hollow"
     )]
     pub interior: Interior,
+    /// The least and the greatest density of a graded print; those of the printer if the key is
+    /// missing.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub density: Option<DensityOrder>,
+    /// The infill that a graded print should be near to everywhere; the goal alone decides if the
+    /// key is missing.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub infill: Option<InfillDensity>,
+    /// The number of densities near that infill; the usual number if the key is missing.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub levels: Option<LevelCount>,
     /// The repairs of the model asked for; those that everyone gets if the key is missing.
     #[serde(default, skip_serializing_if = "RepairOrder::is_auto")]
     pub repair: RepairOrder,
@@ -246,6 +259,9 @@ impl Job {
             ballast: Order::None,
             fill: None,
             interior: Interior::Hollow,
+            density: None,
+            infill: None,
+            levels: None,
             repair: RepairOrder::default(),
             model,
             printer,
@@ -410,6 +426,9 @@ mod tests {
         other.seam = SeamStyle::Level;
         other.effort = Effort::Thorough;
         other.interior = Interior::Graded;
+        other.density = Some("15%..62.5%".parse().unwrap());
+        other.infill = Some("40%".parse().unwrap());
+        other.levels = Some("6".parse().unwrap());
         other.sliced = vec![SlicedRound {
             miss_mm: 0.0317,
             beyond: [460.1, -3.0, 0.1 + 0.2, 0.0, 1e-7, 2.0, 3.0, 4e9, 5.0, 6.0],

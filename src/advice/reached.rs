@@ -55,6 +55,7 @@ impl fmt::Display for Reached {
             }
             Figure::VolumeMm3 => write!(f, "runs true with {} of material", show_mm3(value)),
             Figure::BalanceGradeMmS => write!(f, "runs at grade G {value:.2}"),
+            Figure::InfillChange => write!(f, "differs from the wished infill by {value:.3}"),
         }
     }
 }

@@ -49,8 +49,12 @@ choice! {
         Fill = "fill",
         /// The inside of the print.
         Interior = "interior",
-        /// The density of sparse infill.
+        /// The least and the greatest density of a graded print.
+        Density = "density",
+        /// The infill that a graded print should be near to.
         Infill = "infill",
+        /// The number of densities near that infill.
+        Levels = "levels",
         /// The repairs of the model.
         Repair = "repair",
         /// The unit of the model file's numbers.

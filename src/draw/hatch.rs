@@ -1,7 +1,9 @@
 //! The hatching of cut faces. The stripes of printed material, hardware and ballast run in
 //! different directions, so that they differ in grey print and to every colour vision.
 
-use super::palette::{BALLAST, CROSSED, Color, HARDWARE, HATCH, RODS, SECTION, SPARSE, VOID};
+use super::palette::{
+    BALLAST, CROSSED, Color, DENSE, HARDWARE, HATCH, RODS, SECTION, SPARSE, VOID, mix,
+};
 use super::svg::{Drawing, Paint, Spot, Stroke};
 
 /// Period of the stripes in samples of a shaded picture, and how many of them are stripe: finer
@@ -62,6 +64,15 @@ impl Hatch {
         pale: BALLAST,
         stripes: Stripes::Crossed,
     };
+
+    /// Returns the filling of one of several densities of infill: 0 for the sparsest of them, 1 for
+    /// the densest.
+    pub fn infill(share: f64) -> Self {
+        Self {
+            dark: mix(SPARSE, DENSE, share),
+            ..Self::SPARSE
+        }
+    }
 
     /// Returns the colour of the sample of a shaded picture at this place to the right and down.
     pub fn color_at(&self, [x, y]: [usize; 2]) -> Color {

@@ -25,6 +25,9 @@ pub const HATCH: Color = [255, 214, 170];
 /// The ground of sparse infill: pale blue.
 pub const SPARSE: Color = [226, 241, 251];
 
+/// The ground of the densest infill of several: a blue between that and the inside of a void.
+pub const DENSE: Color = [120, 172, 208];
+
 /// Hardware: dark grey.
 pub const HARDWARE: Color = [84, 88, 96];
 
@@ -74,6 +77,14 @@ pub fn hex(color: Color) -> String {
         "#{}",
         color.map(|channel| format!("{channel:02x}")).concat()
     )
+}
+
+/// Returns the colour between two others: the first for a share of 0, the second for 1.
+pub fn mix(from: Color, to: Color, share: f64) -> Color {
+    std::array::from_fn(|i| {
+        let [from, to] = [from, to].map(|color| f64::from(color[i]));
+        (from + (to - from) * share).round() as u8
+    })
 }
 
 #[cfg(test)]

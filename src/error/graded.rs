@@ -2,7 +2,7 @@
 
 use crate::ballast::Order;
 use crate::base::setting::{Key, Setting};
-use crate::job::{Filling, Interior, PartFormat};
+use crate::job::{DensityOrder, Filling, InfillDensity, Interior, LevelCount, PartFormat};
 
 /// A reason why a print cannot be graded.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -66,6 +66,87 @@ pub enum GradedError {
         hollow()
     )]
     FloatUnsliced,
+    /// Densities were ordered for a hollow print.
+    #[error(
+        "a hollow print is solid but for its voids, and `{order}` is ordered; remedy: order one \
+         piece (`{}`), or leave it out",
+        graded()
+    )]
+    NotGraded {
+        /// The order.
+        order: Setting,
+    },
+    /// A density is less than the printer's infill carries.
+    #[error(
+        "infill of {density} does not carry what {printer} prints over it; remedy: order no less \
+         than {least} (`{}`), or lower least_infill_ratio in a profile of your own",
+        Setting::new(Key::Density, at_least(*least, *high))
+    )]
+    TooSparse {
+        /// The printer's name.
+        printer: String,
+        /// The least density that was ordered.
+        density: InfillDensity,
+        /// The greatest.
+        high: InfillDensity,
+        /// The least that prints.
+        least: InfillDensity,
+    },
+    /// The wished infill is beyond the densities that may be printed.
+    #[error(
+        "the wished `{}` is not within `{}`; remedy: order densities around it",
+        Setting::new(Key::Infill, wished),
+        Setting::new(Key::Density, densities)
+    )]
+    WishedOutside {
+        /// The wished infill.
+        wished: InfillDensity,
+        /// The densities.
+        densities: DensityOrder,
+    },
+    /// Levels were ordered, and no infill that they should be near.
+    #[error(
+        "`{}` are levels near a wished infill, and none is ordered; remedy: order one (`{}`), or \
+         leave the levels out for the two densities at their best",
+        Setting::new(Key::Levels, levels),
+        Setting::new(Key::Infill, "40%")
+    )]
+    LevelsAlone {
+        /// The levels.
+        levels: LevelCount,
+    },
+    /// The densities are too near to each other for the levels.
+    #[error(
+        "{count} levels do not fit between the densities; remedy: order fewer (`{}`), or \
+         densities farther apart (`{}`)",
+        Setting::open(Key::Levels),
+        Setting::open(Key::Density)
+    )]
+    Levels {
+        /// The number of levels.
+        count: usize,
+    },
+    /// Floating depends on the mass, which a wished infill leaves open.
+    #[error(
+        "what floats has one right mass, and `{}` asks for another; remedy: leave it out, so that \
+         two densities give the right one",
+        Setting::new(Key::Infill, wished)
+    )]
+    WishedAfloat {
+        /// The wished infill.
+        wished: InfillDensity,
+    },
+    /// A package read as a part does not tell regions in regions apart.
+    #[error(
+        "a part's own 3MF file holds one region of infill, and {regions} are ordered; remedy: \
+         order both formats (`{}`), or densities up to 100% (`{}`)",
+        Setting::new(Key::Format, PartFormat::Both),
+        Setting::open(Key::Density)
+    )]
+    OnlyThreeMf {
+        /// The number of regions.
+        regions: usize,
+    },
     /// The files of the parts alone do not hold the region.
     #[error(
         "STL files do not hold the region of `{}`, and no plate is ordered; remedy: order both \
@@ -83,6 +164,16 @@ pub enum GradedError {
         hollow()
     )]
     Cavities,
+}
+
+/// Words the densities from the least that prints.
+fn at_least(least: InfillDensity, high: InfillDensity) -> String {
+    let high = if high > least {
+        high
+    } else {
+        InfillDensity::SOLID
+    };
+    format!("{least}..{high}")
 }
 
 fn graded() -> Setting {

@@ -33,6 +33,8 @@ pub enum Figure {
     /// Lower bound of a rotor's balance grade at its speed, mm/s; exact if both end planes are
     /// equally unbalanced.
     BalanceGradeMmS,
+    /// Root mean square of the change of a wished infill, as a share of solid print.
+    InfillChange,
 }
 
 /// The value that was reached, and a proven bound on anything better.

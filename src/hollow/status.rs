@@ -93,6 +93,8 @@ pub enum Obstacle {
     PrincipalAxis,
     /// Each could be met alone, but not both together.
     Both,
+    /// Stand: it cannot bear the tilt that is promised.
+    Tilt,
 }
 
 impl Status {
@@ -155,6 +157,9 @@ impl Status {
 
     /// Returns changes that may make the goal possible; empty if it is possible.
     pub fn remedies(&self, goal: &Goal) -> &'static [&'static str] {
+        if self.is_tilt() {
+            return &TILT_REMEDIES;
+        }
         match (self, goal.kind) {
             (Self::ConstraintsInfeasible { .. }, GoalKind::Top) => &[
                 "make the model larger with the same wall, or the wall thinner",
@@ -211,6 +216,12 @@ impl Status {
         }
     }
 
+    /// Returns whether it cannot bear the tilt that is promised.
+    fn is_tilt(&self) -> bool {
+        let tilt = Obstacle::Tilt;
+        matches!(self, Self::ConstraintsInfeasible { obstacle, .. } if *obstacle == tilt)
+    }
+
     /// Returns the quadric whose integral over every interior proves that the goal cannot be met.
     /// `None` if the bound of the solution's own quadric is the proof.
     pub fn separator(&self) -> Option<Quadric> {
@@ -245,6 +256,12 @@ fn explain_limit(gap_ratio: f64, residual: f64) -> String {
          missed by {residual:.1e}. Allow more passes."
     )
 }
+
+/// Changes that may let an object bear the tilt that is promised.
+const TILT_REMEDIES: [&str; 2] = [
+    "promise less tilt",
+    "make the model larger with the same wall, or the wall thinner",
+];
 
 /// The reason why a body does not turn steadily about an axis.
 const WOBBLES: &str = "it would wobble about this axis however it is hollowed";
@@ -288,6 +305,7 @@ fn compare_moments(least_ratio: f64) -> String {
 impl Obstacle {
     fn task(self, kind: GoalKind) -> &'static str {
         match (self, kind) {
+            (Self::Tilt, _) => "bear the tilt that is promised",
             (Self::Center, GoalKind::Top | GoalKind::Balance) => {
                 "bring the centre of mass onto the spin axis"
             }

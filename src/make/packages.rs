@@ -14,7 +14,7 @@ use crate::io::{decode_model, stl};
 use crate::job::PartFormat;
 use crate::mesh::TriMesh;
 use crate::printer::{LaidPlate, Printer, Quantity, Spot, Support};
-use crate::run::{Made, Placed, WrittenJig, WrittenPart, WrittenSparse};
+use crate::run::{Made, Placed, WrittenJig, WrittenPart, WrittenRegion, WrittenSparse};
 use crate::verify::{PlateSpot, PromisedPlate};
 
 /// The name of the assembly in a kit.
@@ -51,10 +51,7 @@ pub fn repack(placed: &Placed, mut made: Made, watch: &Watch) -> Result<Made, Er
             file,
             bytes,
             read_back: read_back.map_vertices(|p| p.coords.component_div(&scale).into()),
-            sparse: part.sparse.clone().map(|sparse| WrittenSparse {
-                file: None,
-                ..sparse
-            }),
+            sparse: part.sparse.clone().map(within_package),
             ..part
         })
     });
@@ -72,6 +69,19 @@ pub fn repack(placed: &Placed, mut made: Made, watch: &Watch) -> Result<Made, Er
     });
     made.jigs = jigs.collect::<Result<_, Error>>()?;
     Ok(made)
+}
+
+/// Returns the sparse infill of a part whose own file holds its regions.
+fn within_package(sparse: WrittenSparse) -> WrittenSparse {
+    let regions = sparse.regions.into_iter();
+    let regions = regions.map(|region| WrittenRegion {
+        file: None,
+        ..region
+    });
+    WrittenSparse {
+        regions: regions.collect(),
+        ..sparse
+    }
 }
 
 /// A jig's own package, as it lies in print pose.
@@ -219,12 +229,13 @@ fn object(placed: &Placed, index: usize, part: &WrittenPart, printed: &TriMesh) 
     let (name, color) = (part.part.id.to_string(), part_color(index));
     match (&part.sparse, &placed.sparse) {
         (Some(written), Some(sparse)) => {
-            let region = SparseRegion {
-                mesh: enlarge(&written.region, &scale),
+            let regions = written.regions.iter().map(|region| SparseRegion {
+                mesh: enlarge(&region.mesh, &scale),
                 pattern: sparse.pattern.clone(),
-                percent: sparse.nominal_percent(),
-            };
-            Object::with_region(&name, color, printed, &region)
+                percent: region.level.nominal_percent(),
+            });
+            let regions: Vec<SparseRegion> = regions.collect();
+            Object::with_regions(&name, color, printed, &regions)
         }
         _ => Object::with_blockers(&name, color, printed, in_socket),
     }

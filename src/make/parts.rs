@@ -12,7 +12,7 @@ use crate::cut::{
 use crate::error::Error;
 use crate::mass::{Moments, moments_of_mesh};
 use crate::mesh::TriMesh;
-use crate::open::{Candidate, Planner, Resolver, defect_ratio, finish};
+use crate::open::{Candidate, Planner, Resolver, finish, shortfall_ratio};
 use crate::run::{BossRound, KeptBoss, Made, Placed, Voids, WrittenPart};
 use crate::verify::{PartEvidence, assembly_moments};
 
@@ -49,6 +49,7 @@ pub fn make<'a>(
     let Voids {
         solution,
         hollowed,
+        inner,
         refused_mm3,
         rounds,
         ..
@@ -60,6 +61,7 @@ pub fn make<'a>(
         course: resolver.course().clone(),
         solution,
         hollowed,
+        inner,
         refused_mm3,
         plan,
         remarks: opened.remarks,
@@ -130,10 +132,10 @@ impl Corrector<'_, '_> {
         let evidence: Vec<PartEvidence> = parts.iter().map(WrittenPart::evidence).collect();
         let whole = assembly_moments(&evidence) + self.placed.joining_moments(&plan);
         let load = &self.resolver.solved().load;
-        let inside = self.placed.moments_inside(load, &voids.hollowed);
+        let inside = (self.placed).moments_inside(load, &voids.hollowed, &voids.inner);
         let reached = (whole + inside).in_frame(&goal.frame);
         Ok(Attempt {
-            defect_ratio: defect_ratio(goal, &voids.solution.moments, &reached),
+            defect_ratio: shortfall_ratio(self.placed, &voids.solution.moments, &reached),
             more: whole - moments_of_mesh(&voids.hollowed.to_mesh()),
             voids,
             plan,

@@ -1,4 +1,4 @@
-//! Writing the region of sparse infill: its STL file in memory, read back.
+//! Writing the regions of sparse infill: their STL files in memory, read back.
 
 use super::write::write_free_of_folds;
 use crate::base::watch::Watch;
@@ -6,43 +6,69 @@ use crate::error::Error;
 use crate::geom::Vector;
 use crate::io::stl;
 use crate::mesh::TriMesh;
-use crate::run::{Placed, Voids, WrittenPart, WrittenSparse};
-use crate::verify::SPARSE_FOLDER;
+use crate::run::{Level, Placed, Voids, WrittenPart, WrittenRegion, WrittenSparse};
+use crate::verify::{Pose, SPARSE_FOLDER};
 
-/// Adds the region of sparse infill to a part that is printed in one piece, as it lies in the
+/// Adds the regions of sparse infill to a part that is printed in one piece, as they lie in the
 /// part's file. Parts of hollow prints stay as they are.
 ///
 /// # Errors
-/// The file does not read back, or the watch was stopped.
+/// A file does not read back, or the watch was stopped.
 pub fn with_sparse(
     placed: &Placed,
     voids: &Voids,
     part: WrittenPart,
     watch: &Watch,
 ) -> Result<WrittenPart, Error> {
-    let Some(sparse) = &placed.sparse else {
+    let Some(nested) = &placed.sparse else {
         return Ok(part);
     };
     let bodies = voids.hollowed.voids.iter();
-    let region = bodies.fold(TriMesh::default(), |all, void| all.joined(void.mesh()));
-    if region.is_empty() {
+    let outermost = bodies.fold(TriMesh::default(), |all, void| all.joined(void.mesh()));
+    let meshes = std::iter::once(&outermost).chain(&voids.inner);
+    let levels = nested.levels.iter().zip(meshes);
+    let levels = levels.filter(|(_, mesh)| !mesh.is_empty());
+    let writer = RegionWriter {
+        placed,
+        pose: part.evidence().pose,
+        watch,
+    };
+    let regions = levels.map(|(level, mesh)| writer.write(level, mesh));
+    let regions: Vec<WrittenRegion> = regions.collect::<Result<_, Error>>()?;
+    let Some(first) = regions.first() else {
         return Ok(part);
-    }
-    let scale = Vector::from(placed.shop.printer.print_scale_ratio());
-    let pose = part.evidence().pose;
-    let laid = region.map_vertices(|p| pose.to_print(p).coords.component_mul(&scale).into());
-    let percent = sparse.nominal_percent();
-    let name = format!("{}_{percent}percent", placed.name());
-    let bytes = write_free_of_folds(&laid, &name, watch)?;
-    let written = stl::decode(&bytes)?;
-    let mesh = written.map_vertices(|p| p.coords.component_div(&scale).into());
+    };
     Ok(WrittenPart {
-        read_back: part.read_back.clone().joined(&mesh.reversed()),
+        read_back: part.read_back.clone().joined(&first.mesh.reversed()),
         sparse: Some(WrittenSparse {
-            file: Some((format!("{SPARSE_FOLDER}{name}.stl"), bytes)),
             outside: part.read_back,
-            region: mesh,
+            regions,
         }),
         ..part
     })
+}
+
+/// Writes the regions of one part.
+struct RegionWriter<'a> {
+    placed: &'a Placed,
+    /// The pose of the part's file.
+    pose: Pose,
+    watch: &'a Watch,
+}
+
+impl RegionWriter<'_> {
+    /// Writes a region that is given in the model frame.
+    fn write(&self, level: &Level, mesh: &TriMesh) -> Result<WrittenRegion, Error> {
+        let scale = Vector::from(self.placed.shop.printer.print_scale_ratio());
+        let laid = mesh.map_vertices(|p| self.pose.to_print(p).coords.component_mul(&scale).into());
+        let percent = level.nominal_percent();
+        let name = format!("{}_{percent}percent", self.placed.name());
+        let bytes = write_free_of_folds(&laid, &name, self.watch)?;
+        let written = stl::decode(&bytes)?;
+        Ok(WrittenRegion {
+            level: *level,
+            file: Some((format!("{SPARSE_FOLDER}{name}.stl"), bytes)),
+            mesh: written.map_vertices(|p| p.coords.component_div(&scale).into()),
+        })
+    }
 }

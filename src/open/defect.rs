@@ -1,7 +1,9 @@
 //! Distance of a body from its goal's constraints: whether it must be solved for again.
 
-use crate::goal::{Goal, GoalKind, Objective};
+use crate::goal::{Goal, GoalKind, Objective, compute_figures};
+use crate::hollow::TILT_MARGIN_RAD;
 use crate::mass::{Body, Moments};
+use crate::run::Placed;
 
 /// Tolerance of the centre of mass, mm: a tenth of what a kit promises.
 const CENTER_TOLERANCE_MM: f64 = 0.0005;
@@ -11,6 +13,28 @@ const TILT_TOLERANCE_RAD: f64 = 8.7e-5;
 const MASS_TOLERANCE_RATIO: f64 = 1e-5;
 /// Share of a rotor's permissible unbalance that may be left in the written parts.
 const GRADE_SHARE_RATIO: f64 = 0.1;
+
+/// Tolerance of the tilt that an object near a wished infill must bear, rad: half of the margin
+/// that it is solved with.
+const BEARING_TOLERANCE_RAD: f64 = 0.5 * TILT_MARGIN_RAD;
+
+/// Returns the distance of a body from all that it was solved for, in the tolerances of a written
+/// kit. That is [`defect_ratio`], and the tilt that an object near a wished infill must bear.
+pub fn shortfall_ratio(placed: &Placed, solved: &Moments, moments: &Moments) -> f64 {
+    let goal = placed.goal();
+    let own = defect_ratio(goal, solved, moments);
+    let near = placed
+        .sparse
+        .as_ref()
+        .and_then(|nested| nested.near.as_ref());
+    let reached_rad = compute_figures(goal, moments).toppling_angle_rad;
+    match near.zip(reached_rad) {
+        Some((near, reached_rad)) if goal.kind == GoalKind::Stand => {
+            own.max((near.least_angle_rad - reached_rad) / BEARING_TOLERANCE_RAD)
+        }
+        _ => own,
+    }
+}
 
 /// Returns the distance of a body from the goal's constraints, in the tolerances of a written kit.
 ///

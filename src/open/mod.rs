@@ -12,6 +12,7 @@ mod build;
 mod clean;
 mod defect;
 mod drain;
+mod draw;
 mod failed;
 mod ground;
 mod ladder;
@@ -30,10 +31,11 @@ mod way;
 #[cfg(test)]
 mod scenes;
 
-pub use defect::defect_ratio;
+pub use defect::shortfall_ratio;
+pub use draw::finish;
 pub use one_piece::one_piece;
 pub use plan::Planner;
 pub use plans::{Leaning, climb_by_tendency};
-pub use resolve::{Resolver, finish};
+pub use resolve::Resolver;
 pub use search::{Candidates, climb};
 pub use way::Candidate;

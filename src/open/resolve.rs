@@ -3,21 +3,19 @@
 
 use std::sync::Arc;
 
-use rayon::prelude::*;
-
 use super::budget::{Budget, Work};
-use super::defect::defect_ratio;
+use super::defect::shortfall_ratio;
+use super::draw::{draw_inner, outermost, pockets};
 use super::plan::Planner;
-use crate::ballast::{Load, PlacedPart, Pocket};
 use crate::base::watch::Watch;
-use crate::cut::{CutOrder, Hollowed, Seat, SolidEnd, Void};
+use crate::cut::{CutOrder, Hollowed, SolidEnd};
 use crate::error::Error;
 use crate::geom::{Aabb, Point};
 use crate::hollow::{Solution, TopCourse};
 use crate::mass::{Moments, moments_of_mesh};
-use crate::mesh::{Csg, Solid, TriMesh};
+use crate::mesh::{Csg, TriMesh};
 use crate::run::{HeightProof, Placed, Solved, Voids};
-use crate::voids::{Cavity, CavitySpec, VoidError, grow_bodies, without_slivers};
+use crate::voids::{Cavity, CavitySpec, VoidError, grow_bodies};
 
 /// Draws voids, measures them and solves again. What it keeps solid stays so.
 #[derive(Clone)]
@@ -201,9 +199,9 @@ impl<'a> Resolver<'a> {
     /// nearly equal, its principal axis wanders between rounds by more than the tolerance. A goal
     /// that cannot be met any more is not solved for again.
     pub fn correct(&mut self, mut voids: Voids, more: Moments) -> Result<Voids, Error> {
-        let goal = self.placed.goal();
+        let placed = self.placed;
         let mut measured = self.measure(&voids, more);
-        let mut least = defect_ratio(goal, &voids.solution.moments, &measured);
+        let mut least = shortfall_ratio(placed, &voids.solution.moments, &measured);
         let mut best = voids.clone();
         for _ in 0..self.placed.policy.correction_rounds {
             if least <= 1.0 || !voids.solution.is_usable() {
@@ -211,7 +209,7 @@ impl<'a> Resolver<'a> {
             }
             voids = self.solve_again(&voids, measured)?;
             measured = self.measure(&voids, more);
-            let defect = defect_ratio(goal, &voids.solution.moments, &measured);
+            let defect = shortfall_ratio(placed, &voids.solution.moments, &measured);
             if defect < least {
                 (least, best) = (defect, voids.clone());
             }
@@ -223,9 +221,8 @@ impl<'a> Resolver<'a> {
     /// frame).
     fn measure(&self, voids: &Voids, more: Moments) -> Moments {
         let printed = moments_of_mesh(&voids.hollowed.to_mesh()) + more;
-        let inside = self
-            .placed
-            .moments_inside(&self.solved.load, &voids.hollowed);
+        let load = &self.solved.load;
+        let inside = (self.placed).moments_inside(load, &voids.hollowed, &voids.inner);
         (printed + inside).in_frame(&self.placed.goal().frame)
     }
 
@@ -284,8 +281,8 @@ impl<'a> Resolver<'a> {
     fn solve_again(&mut self, voids: &Voids, measured: Moments) -> Result<Voids, Error> {
         self.watch.check()?;
         // The columns know by now what was refused since the voids were solved for.
-        let (fill, columns) = (self.placed.fill, &self.solved.columns);
-        let planned = fill.filled(voids.fixed, columns, &voids.solution.quadric);
+        let columns = &self.solved.columns;
+        let planned = self.placed.filled(voids.fixed, columns, &voids.solution);
         let fixed = voids.fixed + (measured - planned);
         let again = self.solve_undrawn(voids, fixed)?;
         self.voids(again.solution, fixed, again.rounds)
@@ -301,6 +298,7 @@ impl<'a> Resolver<'a> {
             solution: self.solved.solution.clone(),
             fixed,
             hollowed: voids.hollowed.clone(),
+            inner: voids.inner.clone(),
             refused_mm3: self.refused_mm3,
             rounds: voids.rounds + 1,
         })
@@ -313,9 +311,10 @@ impl<'a> Resolver<'a> {
         let triangles = self.cavity.mesh().triangles().len();
         self.budget.spend(Work::Draw(triangles));
         let goal = self.placed.goal();
+        let outermost = outermost(self.placed, &solution);
         let bodies = self
             .cavity
-            .void_bodies(&solution.quadric, &goal.frame, &self.watch)?;
+            .void_bodies(&outermost, &goal.frame, &self.watch)?;
         let refused_mm3 = self.refused_mm3 + bodies.too_small_mm3();
         let policy = &self.placed.policy;
         let least_mm3 = policy.significant_void_ratio * goal.solid.volume();
@@ -326,10 +325,12 @@ impl<'a> Resolver<'a> {
         let mut hollowed = Hollowed::new(self.given.outer.clone(), bodies.bodies);
         hollowed.voids.extend(self.given.voids.iter().cloned());
         hollowed.voids.extend(pockets(&self.solved.load)?);
+        let inner = draw_inner(&self.cavity, self.placed, &solution, &self.watch)?;
         Ok(Voids {
             solution,
             fixed,
             hollowed,
+            inner,
             refused_mm3,
             rounds,
         })
@@ -362,35 +363,6 @@ impl<'a> Resolver<'a> {
         self.kept.push(Arc::new(solid.clone()));
         Ok(())
     }
-}
-
-/// Returns the pockets of ballast, each with the seat of its part.
-fn pockets(load: &Load) -> Result<Vec<Void>, Error> {
-    let pocket = |(placed, pocket): (&PlacedPart, Pocket)| {
-        let seat = Seat {
-            center: pocket.center,
-            axis: pocket.half_height_mm.map(|half| (pocket.axis, half)),
-            radius_mm: pocket.radius_mm,
-            opening_mm: 2.0 * placed.lump.shape.radius_mm(),
-        };
-        Ok(Void {
-            body: Solid::new(pocket.mesh()).map_err(VoidError::from)?,
-            holds: Some(seat),
-        })
-    };
-    load.parts.iter().zip(load.pockets()).map(pocket).collect()
-}
-
-/// Returns the voids without the slivers that the rounding of a file would fold.
-pub fn finish(mut voids: Voids, watch: &Watch) -> Result<Voids, Error> {
-    let bodies = std::mem::take(&mut voids.hollowed.voids);
-    let finish = |void: Void| {
-        let body = without_slivers(&void.body, watch)?;
-        Ok::<_, Error>(Void { body, ..void })
-    };
-    let finished = bodies.into_par_iter().map(finish);
-    voids.hollowed.voids = finished.collect::<Result<_, _>>()?;
-    Ok(voids)
 }
 
 #[cfg(test)]

@@ -78,12 +78,12 @@ pub fn render_pictures(subject: &Subject, watch: &Watch) -> Result<Vec<Picture>,
     let mut whole = model(&outer, &view, upright_caption(subject.aim.kind));
     whole.shot.scene.items.extend(inserts.rods());
     let mut cut_away = cut_away([&outer, &voids], &view, subject);
-    let region = subject.infill.map(|_| inset(&voids.reversed()));
+    let regions = infilled_regions(subject, &voids);
     cut_away
         .shot
         .scene
         .items
-        .extend(region.iter().map(infilled));
+        .extend(regions.iter().map(Region::item));
     cut_away.shot.scene.items.extend(inserts.rods());
     cut_away.shot.scene.items.extend(inserts.lumps());
     let apart = Apart::of(&in_place, &partings);
@@ -194,7 +194,7 @@ fn cut_away<'a>(
 ) -> Draft<'a> {
     let is_infilled = subject.infill.is_some();
     let inside = if is_infilled {
-        "Sparse infill is pale blue, with crossed stripes."
+        "Sparse infill is pale blue, with crossed stripes; of several densities the denser is darker."
     } else {
         "The surfaces of the voids inside are blue."
     };
@@ -237,9 +237,55 @@ fn cut_away<'a>(
     }
 }
 
-/// Returns a region a little smaller than it is. Its walls would else lie in those of its cavity,
-/// and either would be drawn by chance.
-fn inset(region: &TriMesh) -> TriMesh {
+/// A region of infill as it is drawn.
+struct Region {
+    mesh: TriMesh,
+    hatch: Hatch,
+}
+
+impl Region {
+    fn item(&self) -> Item<'_> {
+        Item {
+            hatch: self.hatch,
+            ..Item::new(&self.mesh, VOID)
+        }
+    }
+}
+
+/// Returns the regions of infill: each with the regions in it as cavities.
+///
+/// Where surfaces touch, either would be drawn by chance. So each lies a little inside of the one
+/// around it.
+fn infilled_regions(subject: &Subject, voids: &TriMesh) -> Vec<Region> {
+    if subject.infill.is_none() {
+        return Vec::new();
+    }
+    let inner = subject.parts.iter().flat_map(|part| {
+        let place = |region: &TriMesh| region.map_vertices(|p| part.pose.to_model(p));
+        part.inner.iter().map(place).collect::<Vec<_>>()
+    });
+    let meshes: Vec<TriMesh> = std::iter::once(voids.reversed()).chain(inner).collect();
+    let last = meshes.len() - 1;
+    let region = |(index, mesh): (usize, &TriMesh)| {
+        let steps = 2 * index + 1;
+        let own = inset(mesh, steps);
+        let within = meshes.get(index + 1);
+        Region {
+            mesh: match within {
+                Some(within) => own.joined(&inset(within, steps + 1).reversed()),
+                None => own,
+            },
+            hatch: match last {
+                0 => Hatch::SPARSE,
+                _ => Hatch::infill((last - index) as f64 / last as f64),
+            },
+        }
+    };
+    meshes.iter().enumerate().map(region).collect()
+}
+
+/// Returns a region smaller than it is by some steps.
+fn inset(region: &TriMesh, steps: usize) -> TriMesh {
     let mut normals = vec![Vector::zeros(); region.vertices().len()];
     for (triangle, [a, b, c]) in region.triangles().iter().zip(region.iter_corners()) {
         let normal = (b - a).cross(&(c - a));
@@ -247,20 +293,13 @@ fn inset(region: &TriMesh) -> TriMesh {
             normals[*corner as usize] += normal;
         }
     }
+    let by_mm = INSET_MM * steps as f64;
     let moved = region.vertices().iter().zip(normals);
     let moved = moved.map(|(p, normal)| match normal.try_normalize(0.0) {
-        Some(normal) => p - normal * INSET_MM,
+        Some(normal) => p - normal * by_mm,
         None => *p,
     });
     TriMesh::new(moved.collect(), region.triangles().to_vec()).unwrap_or_default()
-}
-
-/// Returns a region of sparse infill as it is drawn.
-fn infilled(region: &TriMesh) -> Item<'_> {
-    Item {
-        hatch: Hatch::SPARSE,
-        ..Item::new(region, VOID)
-    }
 }
 
 /// Returns the names of the hardware and the ballast that the cut-away passes through.

@@ -130,6 +130,7 @@ mod tests {
         let part = PartEvidence {
             id: "P01".to_owned(),
             mesh: floor.joined(&lifted),
+            inner: Vec::new(),
             pose: Pose::identity(),
         };
         let rule = SupportRule {

@@ -70,8 +70,9 @@ fn shortfall(sheet: &Checklist) -> Markup {
 
 /// Words the infill.
 fn infill(sheet: &Checklist) -> &'static str {
-    match sheet.infill {
-        Some(_) => "solid, with a region of sparse infill",
+    match &sheet.infill {
+        Some(infill) if infill.inner.is_empty() => "solid, with a region of sparse infill",
+        Some(_) => "solid walls, with regions of sparse infill",
         None => "solid (100 % infill)",
     }
 }

@@ -6,26 +6,36 @@ use super::fields::file_name;
 use crate::base::numbers::{measured, quantity};
 use crate::base::units::MM3_PER_CM3;
 use crate::sheet::Checklist;
-use crate::verify::InfillOrder;
+use crate::verify::{InfillLevel, InfillOrder};
 
 /// Returns the orders for the infill, in place of those for solid print.
 pub(super) fn orders(sheet: &Checklist, infill: &InfillOrder) -> Markup {
     let printer = &sheet.printer;
-    let percent = percent(infill.nominal_ratio);
+    let regions = infill.levels();
+    let (count, region) = match regions.as_slice() {
+        [_] => ("two", "the region inside it is "),
+        _ => ("several", "the regions inside it, one in the other, are "),
+    };
+    let percents: Vec<String> = regions.iter().map(|it| percent(it.nominal_ratio)).collect();
     html! {
         li {
-            strong { "One piece, two infills: " }
-            "the object is 100 % rectilinear infill; the region inside it is " (percent) " "
-            (infill.pattern) ". The plate sets both. Line width "
+            strong { "One piece, " (count) " infills: " }
+            "the object is 100 % rectilinear infill; " (region) (percents.join(", then ")) " "
+            (infill.pattern) ". The plate sets all. Line width "
             (quantity(printer.pixel_mm[0], "mm")) ", layers of " (quantity(printer.layer_mm, "mm"))
             ". Do not change them: the balance depends on them."
         }
         li {
             strong { "PrusaSlicer only: " }
             "other slicers do not read the region. "
-            @if let Some(file) = &infill.file {
-                "Not tried: load the part file, add " (file_name(file))
-                " to it as a modifier without moving it, and set the infills by hand."
+            @if infill.file.is_some() {
+                "Not tried: load the part file, add "
+                @for (index, file) in regions.iter().filter_map(|it| it.file.as_ref()).enumerate() {
+                    @if index > 0 { ", then " }
+                    (file_name(file))
+                }
+                @if regions.len() > 1 { " to it as modifiers" } @else { " to it as a modifier" }
+                " without moving, and set the infills by hand."
             }
         }
     }
@@ -35,15 +45,15 @@ pub(super) fn orders(sheet: &Checklist, infill: &InfillOrder) -> Markup {
 pub(super) fn levels(sheet: &Checklist, infill: &InfillOrder) -> Markup {
     let all_mm3 = sheet.parts.iter().map(|part| part.volume_mm3).sum::<f64>();
     let all_g = sheet.parts.iter().map(|part| part.mass_g).sum::<f64>();
-    let rows = [
-        ("solid", [1.0, 1.0], all_mm3, all_g - infill.mass_g),
-        (
-            "sparse",
-            [infill.nominal_ratio, infill.laid_ratio],
-            infill.volume_mm3,
-            infill.mass_g,
-        ),
-    ];
+    let levels = infill.levels();
+    let row = |(index, level): (usize, &InfillLevel)| {
+        let within_mm3 = levels.get(index + 1).map_or(0.0, |next| next.volume_mm3);
+        let volume_mm3 = level.volume_mm3 - within_mm3;
+        let set = [level.nominal_ratio, level.laid_ratio];
+        ("sparse", set, volume_mm3, level.mass_g)
+    };
+    let solid = ("solid", [1.0, 1.0], all_mm3, all_g - infill.infill_g());
+    let rows = std::iter::once(solid).chain(levels.iter().enumerate().map(row));
     html! {
         table class="stack" {
             thead {
@@ -93,6 +103,7 @@ mod tests {
             beyond: None,
             misses_mm: Vec::new(),
             file: Some("modifiers/bunny_15percent.stl".to_owned()),
+            inner: Vec::new(),
         };
         let sheet = Checklist {
             infill: Some(infill.clone()),
@@ -114,6 +125,25 @@ mod tests {
         ] {
             assert!(words.contains(said), "{said}: {words}");
         }
+    }
+
+    #[test]
+    fn regions_in_regions_are_named_in_their_order_and_weighed_without_each_other() {
+        let (sheet, mut infill) = graded();
+        infill.inner = vec![InfillLevel {
+            nominal_ratio: 0.1,
+            laid_ratio: 0.093,
+            regions: 1,
+            volume_mm3: 500.0,
+            mass_g: 0.05,
+            file: Some("modifiers/bunny_10percent.stl".to_owned()),
+        }];
+        let words = orders(&sheet, &infill).into_string().replace("<wbr>", "");
+        let [outer, inner] = ["15percent.stl", "10percent.stl"].map(|file| words.find(file));
+        assert!(outer.is_some() && outer < inner, "{words}");
+        // 2000 mm³ less the 500 mm³ inside.
+        let table = levels(&sheet, &infill).into_string();
+        assert!(table.contains("1.5") && table.contains("9.3"), "{table}");
     }
 
     #[test]

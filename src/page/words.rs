@@ -8,7 +8,7 @@ use crate::sheet::{
     Certificate, Checklist, GoalRow, ObjectiveName, Process, Taken, Taker, WallRow,
 };
 use crate::verify::{
-    CONTACT_LIMIT_MM, Check, Comparison, Figures, Hardware, HardwareKind, SpinFacts,
+    CONTACT_LIMIT_MM, Check, Comparison, FigureName, Figures, Hardware, HardwareKind, SpinFacts,
 };
 
 /// Relative difference up to which the ordered and the printed wall count as equal.
@@ -243,15 +243,21 @@ fn runs_true(sheet: &Checklist) -> String {
 /// Words the certificate, a sentence each.
 pub fn certificate(sheet: &Checklist) -> Vec<String> {
     let (proof, unit) = (&sheet.certificate, sheet.certificate.figure.unit());
-    let is_top = sheet.goal.aim.kind == GoalKind::Top;
+    let is_change = proof.figure == FigureName::InfillChangeRatio;
+    let is_top = sheet.goal.aim.kind == GoalKind::Top && !is_change;
     let better = if proof.figure.more_is_better() {
         "higher"
     } else {
         "lower"
     };
+    let what = if is_change {
+        "infill of these densities"
+    } else {
+        "hollowing"
+    };
     let mut words = vec![
         format!(
-            "It is proved that no hollowing of this model with a wall of {}{}{} has a {} {better} than {}.",
+            "It is proved that no {what} of this model with a wall of {}{}{} has a {} {better} than {}.",
             quantity(sheet.wall.required_mm, "mm"),
             solid_places(sheet),
             if is_top {
@@ -277,7 +283,7 @@ pub fn certificate(sheet: &Checklist) -> Vec<String> {
         )
     }));
     words.extend(proof.written_value.map(|written| {
-        let share = share_of_best(proof, written);
+        let share = proof.share_of_bound(written);
         format!(
             "The files of this kit, with pins, sockets and rounding, reach {}: {:.2} % of the best possible.",
             quantity(written, unit),
@@ -385,15 +391,6 @@ fn gap(ratio: f64) -> String {
         format!("less than {} of it", number(NO_GAP_RATIO))
     } else {
         format!("{} of it", number(ratio))
-    }
-}
-
-/// Returns the written value as a share of the best possible, 1 at the bound.
-fn share_of_best(proof: &Certificate, written: f64) -> f64 {
-    if proof.figure.more_is_better() {
-        written / proof.bound
-    } else {
-        proof.bound / written
     }
 }
 

@@ -3,6 +3,7 @@
 use super::graded::hollow_hint;
 use super::outcome::Impossible;
 use super::solve::workshop;
+use super::thresholds::density_hints;
 use crate::advice::{self, Case, Kind, Remedy};
 use crate::ballast::{Found, Load, Order, Search};
 use crate::base::numbers::quantity;
@@ -44,6 +45,7 @@ pub fn remedies(
         let hints = impossible
             .hints
             .into_iter()
+            .chain(density_hints(placed, watch)?)
             .chain(hollow_hint(placed, watch)?);
         return Ok(Impossible {
             hints: hints.collect(),

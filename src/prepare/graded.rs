@@ -9,19 +9,21 @@ use crate::hollow::Fill;
 use crate::job::{Interior, Job, PartFormat, SlicedRound};
 use crate::mass::moments_of_mesh;
 use crate::mesh::{TriMesh, shells};
-use crate::printer::{Printer, SparsePrint};
-use crate::run::Placed;
+use crate::printer::Printer;
+use crate::run::{Nested, Placed};
 use crate::verify::beyond_ratio;
 
+use super::densities::nested;
 use super::levels::with_load;
 
 /// Returns the sparse print that a job orders; `None` for a hollow one.
 ///
 /// # Errors
 /// The printer has no infill, or the job orders what one closed piece cannot have.
-pub fn sparse_print(job: &Job, printer: &Printer) -> Result<Option<SparsePrint>, GradedError> {
+pub fn sparse_print(job: &Job, printer: &Printer) -> Result<Option<Nested>, GradedError> {
     if job.interior.is_hollow() {
-        return Ok(None);
+        return ordered_density(job)
+            .map_or(Ok(None), |order| Err(GradedError::NotGraded { order }));
     }
     if job.plan.is_some() {
         return Err(GradedError::Cuts);
@@ -36,10 +38,15 @@ pub fn sparse_print(job: &Job, printer: &Printer) -> Result<Option<SparsePrint>,
     if job.format == PartFormat::Stl {
         return Err(GradedError::OnlyStl);
     }
-    let no_infill = || GradedError::NoInfill {
-        printer: printer.name.clone(),
-    };
-    printer.sparsest_print().map(Some).ok_or_else(no_infill)
+    nested(job, printer).map(Some)
+}
+
+/// Returns the first order of densities in a job; `None` without any.
+fn ordered_density(job: &Job) -> Option<Setting> {
+    let density = job.density.map(|order| Setting::new(Key::Density, order));
+    let infill = job.infill.map(|wished| Setting::new(Key::Infill, wished));
+    let levels = job.levels.map(|count| Setting::new(Key::Levels, count));
+    density.or(infill).or(levels)
 }
 
 /// Refuses a placed goal that one closed piece cannot meet.

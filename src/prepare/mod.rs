@@ -1,6 +1,7 @@
 //! The line from a job to a kit: load, place, solve, open, make, judge, kit.
 
 mod advise;
+mod densities;
 mod drafts;
 mod failure;
 mod graded;
@@ -18,6 +19,7 @@ mod rotor;
 mod rounds;
 mod slice;
 mod solve;
+mod thresholds;
 mod upright;
 mod waterline;
 mod weighed;

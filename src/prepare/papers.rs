@@ -78,8 +78,8 @@ fn files(placed: &Placed, draft: &Draft, slicer: Option<&Slicer>) -> Result<Kit,
     kit.add(HOLLOWED_FILE, draft.hollowed.clone());
     for part in &draft.made.parts {
         kit.add(&part.file, part.bytes.clone());
-        let sparse = part.sparse.iter();
-        for (file, bytes) in sparse.filter_map(|sparse| sparse.file.as_ref()) {
+        let regions = part.sparse.iter().flat_map(|sparse| &sparse.regions);
+        for (file, bytes) in regions.filter_map(|region| region.file.as_ref()) {
             kit.add(file, bytes.clone());
         }
     }

@@ -1,6 +1,6 @@
 //! Place: the goal in the model, with its axis, its waterline and its hardware.
 
-use super::{advise, graded, hardware, rotor, upright, waterline};
+use super::{advise, densities, graded, hardware, rotor, upright, waterline};
 use crate::advice::{Case, best_orientation, is_possible};
 use crate::base::watch::Watch;
 use crate::error::Error;
@@ -46,9 +46,7 @@ pub fn goal(job: &Job, model: Model, shop: Shop, watch: &Watch) -> Result<Placed
     let mut bound = job.clone();
     bound.model.sha256 = Some(model.sha256.clone());
     let sparse = graded::sparse_print(job, &shop.printer)?;
-    let laid = sparse
-        .as_ref()
-        .and_then(|sparse| Fill::new(sparse.laid_ratio));
+    let laid = sparse.as_ref().and_then(densities::fill);
     let placed = Placed {
         fill: match laid {
             Some(laid) => laid,

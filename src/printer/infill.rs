@@ -1,4 +1,4 @@
-//! Sparse infill: the least that prints, and how much of it a slicer really lays.
+//! Sparse infill: how much of it a slicer really lays.
 
 use serde::Serialize;
 
@@ -37,28 +37,10 @@ impl InfillPattern {
     }
 }
 
-/// The sparsest print of a printer.
-#[derive(Debug, Clone, PartialEq)]
-pub struct SparsePrint {
-    /// The pattern of its infill, in the words of slicers.
-    pub pattern: String,
-    /// The density to set in the slicer, over that of solid print.
-    pub nominal_ratio: f64,
-    /// The density that is laid, over that of solid print.
-    pub laid_ratio: f64,
-}
-
-impl SparsePrint {
-    /// Returns the density to set in the slicer, per cent of that of solid print.
-    pub fn nominal_percent(&self) -> f64 {
-        (self.nominal_ratio * 1e8).round() / 1e6
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::printer::{Printer, Sure};
+    use crate::printer::{Printer, Quantity, Sure};
 
     fn table(rows: &[[f64; 2]]) -> InfillPattern {
         InfillPattern {
@@ -101,10 +83,11 @@ mod tests {
     fn filament_printers_have_infill_and_the_others_have_none() {
         for printer in Printer::all().unwrap() {
             let is_filament = printer.process.as_deref() == Some("fdm");
-            let sparse = printer.sparsest_print();
+            let least = printer.number(Quantity::LeastInfillRatio);
+            let sparse = printer.infill.as_ref().zip(least);
             assert_eq!(sparse.is_some(), is_filament, "{}", printer.id);
-            if let Some(sparse) = sparse {
-                assert_eq!((sparse.nominal_ratio, sparse.laid_ratio), (0.15, 0.142));
+            if let Some((infill, least)) = sparse {
+                assert_eq!((least.value, infill.laid_ratio(least.value)), (0.15, 0.142));
             }
         }
     }

@@ -5,8 +5,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use super::{
-    ExcludedCorner, InfillPattern, Material, MaterialError, Quantity, Sourced, SparsePrint,
-    error::suggest,
+    ExcludedCorner, InfillPattern, Material, MaterialError, Quantity, Sourced, error::suggest,
 };
 
 /// The steps of a printer's grid in x and y.
@@ -269,17 +268,6 @@ impl Printer {
     pub fn slide_clearance<'a>(&'a self, material: &'a Material) -> Option<&'a Sourced<f64>> {
         let own = material.clearance_slide_per_side_mm.as_ref();
         own.or_else(|| self.number(Quantity::ClearanceSlidePerSideMm))
-    }
-
-    /// Returns the sparsest print with infill; `None` for a printer without infill.
-    pub fn sparsest_print(&self) -> Option<SparsePrint> {
-        let infill = self.infill.as_ref()?;
-        let nominal_ratio = self.number(Quantity::LeastInfillRatio)?.value;
-        Some(SparsePrint {
-            pattern: infill.pattern.clone(),
-            nominal_ratio,
-            laid_ratio: infill.laid_ratio(nominal_ratio),
-        })
     }
 }
 

@@ -57,7 +57,7 @@ pub use calibrate::{CalibrateError, Measured, calibrate};
 pub use cleaning::{Cleaning, CleaningRule};
 pub use corner::{Corner, ExcludedCorner};
 pub use error::{Fault, Faults, Problem, ProfileError};
-pub use infill::{InfillPattern, SparsePrint};
+pub use infill::InfillPattern;
 pub use layout::LaidPlate;
 pub use machine::{Grid, PrintPose, Printer, SizedWall, Support, Tolerance, Unknown};
 pub use material::{Material, MaterialError};

@@ -1,6 +1,6 @@
 //! The brief of a run: the model, the shop that prints it, and the goal placed in the model.
 
-use super::{AxisChoice, Policy};
+use super::{AxisChoice, Nested, Policy};
 use crate::ballast::Load;
 use crate::cut::{Hollowed, Rod};
 use crate::goal::{Footing, Goal, Hardware, Placement, Request};
@@ -8,8 +8,8 @@ use crate::hardware::Fitted;
 use crate::hollow::Fill;
 use crate::job::Job;
 use crate::mass::{Moments, moments_of_mesh};
-use crate::mesh::Solid;
-use crate::printer::{Material, Printer, Quantity, SparsePrint, WallChoice};
+use crate::mesh::{Solid, TriMesh};
+use crate::printer::{Material, Printer, Quantity, WallChoice};
 use crate::repair::Repairs;
 use crate::thin::Thickened;
 
@@ -62,8 +62,8 @@ pub struct Placed {
     pub fitted: Option<Fitted>,
     /// The filling of the voids.
     pub fill: Fill,
-    /// The print with infill that takes the place of voids; `None` for a hollow print.
-    pub sparse: Option<SparsePrint>,
+    /// The infill that takes the place of voids; `None` for a hollow print.
+    pub sparse: Option<Nested>,
     /// The limits of the search for cuts and pins.
     pub policy: Policy,
 }
@@ -120,12 +120,19 @@ impl Placed {
     }
 
     /// Returns the moments of what is put into the print, model frame: ballast, hardware and the
-    /// filling of the voids. With them goes what a slicer lays beyond the written parts.
-    pub fn moments_inside(&self, load: &Load, hollowed: &Hollowed) -> Moments {
+    /// filling of the voids. With them goes what a slicer lays beyond the written parts. The
+    /// regions of infill inside of the voids are `inner`, as [`Voids::inner`](super::Voids::inner).
+    pub fn moments_inside(&self, load: &Load, hollowed: &Hollowed, inner: &[TriMesh]) -> Moments {
         let voids = hollowed.voids.iter();
         let voids = voids.map(|void| moments_of_mesh(void.mesh()));
         let volume = voids.fold(Moments::default(), |sum, void| sum + void);
-        let filled = volume * self.fill.density_ratio();
+        let filled = match &self.sparse {
+            Some(nested) => {
+                let inner = inner.iter().map(moments_of_mesh);
+                nested.laid(std::iter::once(volume).chain(inner))
+            }
+            None => volume * self.fill.density_ratio(),
+        };
         load.moments() + self.hardware_moments() + filled + self.laid_beyond()
     }
 

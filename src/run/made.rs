@@ -1,6 +1,6 @@
 //! The parts of a kit as they are written and read back.
 
-use super::{BossRound, CleaningRound, HeightProof, Remark};
+use super::{BossRound, CleaningRound, HeightProof, Level, Remark};
 use crate::ballast::Load;
 use crate::cut::{CutPlan, Hollowed, Jig, JointId, Part};
 use crate::hollow::{Proof, Solution, TopCourse};
@@ -24,6 +24,8 @@ pub struct Made {
     pub course: TopCourse,
     /// The uncut body.
     pub hollowed: Hollowed,
+    /// The regions of infill inside of its voids, as [`Voids::inner`](super::Voids::inner).
+    pub inner: Vec<TriMesh>,
     /// Volume of voids that stay solid for cleaning or for pins, mm³.
     pub refused_mm3: f64,
     /// The cuts and pins.
@@ -86,6 +88,7 @@ impl WrittenJig {
         PartEvidence {
             id: self.id(),
             mesh: self.read_back.clone(),
+            inner: Vec::new(),
             pose: Pose {
                 rows: self.jig.print_from_model,
             },
@@ -102,22 +105,31 @@ pub struct WrittenPart {
     pub file: String,
     /// The bytes of its file.
     pub bytes: Vec<u8>,
-    /// The triangles read back from its files, print pose, in the part's own size. A region of
-    /// sparse infill is a cavity of them.
+    /// The triangles read back from its files, print pose, in the part's own size. The outermost
+    /// region of sparse infill is a cavity of them.
     pub read_back: TriMesh,
-    /// The region of sparse infill in it; `None` if it has none.
+    /// The regions of sparse infill in it; `None` if it has none.
     pub sparse: Option<WrittenSparse>,
+}
+
+/// The sparse infill of a part as it is written.
+#[derive(Debug, Clone)]
+pub struct WrittenSparse {
+    /// The outside of the part, print pose, in the part's own size.
+    pub outside: TriMesh,
+    /// The regions, the outermost first; at least one.
+    pub regions: Vec<WrittenRegion>,
 }
 
 /// A region of sparse infill as it is written.
 #[derive(Debug, Clone)]
-pub struct WrittenSparse {
+pub struct WrittenRegion {
+    /// Its density.
+    pub level: Level,
     /// Its own file, relative to the kit, and the bytes of it; `None` if it is in the part's file.
     pub file: Option<(String, Vec<u8>)>,
-    /// The outside of the part, print pose, in the part's own size.
-    pub outside: TriMesh,
-    /// The region, print pose, in the part's own size.
-    pub region: TriMesh,
+    /// Its surface, print pose, in the part's own size; outward.
+    pub mesh: TriMesh,
 }
 
 impl WrittenPart {
@@ -125,6 +137,13 @@ impl WrittenPart {
     pub fn surface(&self) -> &TriMesh {
         let sparse = self.sparse.as_ref();
         sparse.map_or(&self.read_back, |sparse| &sparse.outside)
+    }
+
+    /// Returns the regions of sparse infill inside of the outermost one, print pose.
+    pub fn inner_regions(&self) -> impl Iterator<Item = &TriMesh> {
+        let sparse = self.sparse.iter();
+        let inner = sparse.flat_map(|sparse| sparse.regions.iter().skip(1));
+        inner.map(|region| &region.mesh)
     }
 
     /// Returns the part as the judge reads it.
@@ -135,6 +154,7 @@ impl WrittenPart {
         PartEvidence {
             id: self.part.id.to_string(),
             mesh: self.read_back.clone(),
+            inner: self.inner_regions().cloned().collect(),
             pose,
         }
     }

@@ -14,6 +14,7 @@ mod brief;
 mod glue;
 mod made;
 mod natural;
+mod nested;
 mod opened;
 mod policy;
 mod remark;
@@ -21,8 +22,9 @@ mod solved;
 mod tendency;
 
 pub use brief::{Model, Placed, Shop};
-pub use made::{Made, WrittenJig, WrittenPart, WrittenSparse};
+pub use made::{Made, WrittenJig, WrittenPart, WrittenRegion, WrittenSparse};
 pub use natural::{NaturalUp, short_reason};
+pub use nested::{Extent, Level, Nested};
 pub use opened::{Achieved, BossRound, CleaningRound, KeptBoss, KeptSolid, Opened, Voids};
 pub use policy::{Policy, Rung};
 pub use remark::{AxisChoice, FewerFault, KeptCause, Refusal, Remark, Untried};

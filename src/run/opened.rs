@@ -4,6 +4,7 @@ use super::{KeptCause, Remark, Rung};
 use crate::cut::{CutPlan, Hollowed, PartId, PinSite, PlanRequest, VoidId};
 use crate::hollow::{Certificate, Figure, Solution};
 use crate::mass::Moments;
+use crate::mesh::TriMesh;
 
 /// The voids of a solution.
 #[derive(Debug, Clone)]
@@ -14,6 +15,9 @@ pub struct Voids {
     pub fixed: Moments,
     /// The body with its voids.
     pub hollowed: Hollowed,
+    /// The regions of infill inside of the voids of a print in one piece, the outermost first;
+    /// model frame. Those of other prints have none.
+    pub inner: Vec<TriMesh>,
     /// Volume of voids that cannot be cleaned and stay solid, mm³.
     pub refused_mm3: f64,
     /// Number of times that it was solved again.

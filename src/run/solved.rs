@@ -58,7 +58,20 @@ impl Placed {
             fixed,
             columns,
         };
-        self.fill.solve(&problem, known, &watch.muted())
+        let near = self.sparse.as_ref().and_then(|nested| nested.near.as_ref());
+        match near {
+            Some(near) => near.solve(&problem),
+            None => self.fill.solve(&problem, known, &watch.muted()),
+        }
+    }
+
+    /// Returns the moments of the body with what a solution empties or fills; `fixed` are those of
+    /// the solid without any void (goal frame).
+    pub fn filled(&self, fixed: Moments, columns: &Columns, solution: &Solution) -> Moments {
+        match &self.sparse {
+            Some(nested) => nested.filled(fixed, columns, &solution.quadric),
+            None => self.fill.filled(fixed, columns, &solution.quadric),
+        }
     }
 }
 

@@ -42,6 +42,14 @@ pub struct Certificate {
 }
 
 impl Certificate {
+    /// Returns a value as a share of the best possible, 1 at the bound.
+    pub fn share_of_bound(&self, value: f64) -> f64 {
+        match self.figure.more_is_better() {
+            true => value / self.bound,
+            false => self.bound / value,
+        }
+    }
+
     /// Returns the best figure that is known to be possible with the wall: the bound, or the value
     /// before cleaning if that is better. Ends that cannot be cleaned are kept solid after it.
     pub fn possible(&self) -> f64 {

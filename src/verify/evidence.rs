@@ -24,8 +24,11 @@ pub struct Evidence {
 pub struct PartEvidence {
     /// The name on the sheet, such as `P01`.
     pub id: String,
-    /// The triangles of its file, print frame, mm.
+    /// The triangles of its file, print frame, mm. The outermost region of infill is a cavity.
     pub mesh: TriMesh,
+    /// The regions of infill inside of that one, each in the one before; outward. Most parts have
+    /// none.
+    pub inner: Vec<TriMesh>,
     /// Model coordinates to print coordinates.
     pub pose: Pose,
 }
@@ -37,6 +40,15 @@ impl Evidence {
         parts.map(|part| Fingerprint::of(&part.mesh)).collect()
     }
 
+    /// Returns the regions of infill inside of the outermost one, model frame.
+    pub(super) fn inner_in_model(&self) -> Vec<TriMesh> {
+        let of_part = |part: &PartEvidence| {
+            let place = |region: &TriMesh| region.map_vertices(|p| part.pose.to_model(p));
+            part.inner.iter().map(place).collect::<Vec<_>>()
+        };
+        self.parts.iter().flat_map(of_part).collect()
+    }
+
     /// Returns true if a part with the fingerprint `found` has the triangles of its promised one.
     /// Parts of kits without fingerprints are taken as they are.
     pub(super) fn is_part_as_made(&self, part: usize, found: &Fingerprint) -> bool {
@@ -46,7 +58,13 @@ impl Evidence {
 }
 
 impl PartEvidence {
-    /// Returns the moments of the part in its place in the model.
+    /// Returns the triangles of its file and those of all regions in it, turned inward.
+    pub(super) fn whole(&self) -> TriMesh {
+        let join = |all: TriMesh, region: &TriMesh| all.joined(&region.reversed());
+        self.inner.iter().fold(self.mesh.clone(), join)
+    }
+
+    /// Returns the moments of the part in its place in the model, with its regions empty.
     pub fn moments(&self) -> Moments {
         self.pose.moments_to_model(&moments_of_mesh(&self.mesh))
     }

@@ -134,6 +134,8 @@ impl Figures {
             }
             FigureName::MassG => Some(self.mass_g),
             FigureName::BalanceGradeMmS => self.unbalance.map(|unbalance| unbalance.grade_mm_s),
+            // What was wished does not show in what was made.
+            FigureName::InfillChangeRatio => None,
         }
     }
 

@@ -14,11 +14,12 @@ use super::loads::Loads;
 use super::part_probe::PartProbe;
 use super::pegs::{count_overlaps, measure_pegs};
 use super::play::measure_joints;
+use super::regions::measure_inner_regions;
 use super::shape::measure_shapes;
 use super::slack::Slack;
 use super::{
-    Evidence, Figures, Fit, JigFacts, Judgement, PartFacts, PegFacts, Setting, ShapeFacts,
-    SpinFacts, SurfaceFacts, VoidFacts, assembly_moments,
+    Evidence, Figures, Fit, JigFacts, Judgement, PartFacts, PegFacts, RegionFacts, Setting,
+    ShapeFacts, SpinFacts, SurfaceFacts, VoidFacts, assembly_moments,
 };
 use crate::base::watch::{Cancelled, Watch};
 use crate::mass::{Moments, moments_of_mesh};
@@ -112,6 +113,7 @@ fn judge_beside(
         overlaps: inside.overlaps,
         voids: inside.voids,
         beyond_ratio: figures.beyond_ratio,
+        inner_regions: inside.inner_regions,
         film_error: film_error(promise, &evidence.parts),
         lost_strokes: inside.lost_strokes,
         checks: Vec::new(),
@@ -155,7 +157,7 @@ impl AllFigures {
             joined,
             sparse,
             beyond,
-        } = Loads::of(promise, body, &setting);
+        } = Loads::of(evidence, body, &setting);
         let written = moments_of_mesh(&body.welded) + sparse;
         let sparse = sparse + beyond;
         let assembled = assembly_moments(&evidence.parts) + sparse;
@@ -209,6 +211,7 @@ struct Inside {
     overlaps: usize,
     voids: Vec<VoidFacts>,
     lost_strokes: Option<usize>,
+    inner_regions: Vec<RegionFacts>,
 }
 
 impl Inside {
@@ -228,6 +231,7 @@ impl Inside {
             overlaps,
             voids,
             lost_strokes: count_lost_strokes(promise, &probes),
+            inner_regions: measure_inner_regions(evidence),
         })
     }
 }

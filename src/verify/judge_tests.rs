@@ -32,6 +32,7 @@ pub(crate) fn sound_kit() -> Evidence {
     let part = |i: usize| PartEvidence {
         id: format!("P0{}", i + 1),
         mesh: tray(half, WALL),
+        inner: Vec::new(),
         pose: poses[i],
     };
     let cavity = block(Point::new(-27.0, -17.0, 13.0), [54.0, 34.0, 6.0]);
@@ -199,6 +200,7 @@ fn an_uncut_body_is_a_closed_cavity() {
     evidence.parts = vec![PartEvidence {
         id: "P01".into(),
         mesh,
+        inner: Vec::new(),
         pose: Pose::new(&Matrix::identity(), &shift),
     }];
     evidence.promise.printer.build_volume_mm = None;

@@ -3,7 +3,7 @@
 use super::joints::FilmError;
 use super::{
     Check, CupFacts, Figures, FileChange, Fit, JigFacts, JointFacts, PartFacts, PegFacts,
-    ShapeFacts, SpinFacts, SurfaceFacts, VoidFacts,
+    RegionFacts, ShapeFacts, SpinFacts, SurfaceFacts, VoidFacts,
 };
 use crate::thin::ThinFeatures;
 
@@ -26,6 +26,8 @@ pub struct Judgement {
     /// What is laid beyond the written print, over the most that slicers lay; `None` if the kit
     /// says nothing of it.
     pub beyond_ratio: Option<f64>,
+    /// Facts about the regions of infill inside of the outermost one, as in the promise.
+    pub inner_regions: Vec<RegionFacts>,
     /// The surfaces of the parts against what they should be.
     pub shape: ShapeFacts,
     /// The fit of the hardware in the outer surface; `None` without hardware.

@@ -4,7 +4,7 @@ use super::ballast::{ballast_moments, fill_moments};
 use super::hardware::mass_moments;
 use super::joints::film_moments;
 use super::sparse::sparse_moments;
-use super::{Body, Promise, Setting};
+use super::{Body, Evidence, Setting};
 use crate::mass::Moments;
 
 /// Moments of what a kit promises besides its printed parts, as moments of the print's density in
@@ -21,8 +21,9 @@ pub(super) struct Loads {
 }
 
 impl Loads {
-    /// Returns the weights that a promise orders for this body.
-    pub(super) fn of(promise: &Promise, body: &Body, setting: &Setting) -> Self {
+    /// Returns the weights that the promise of a kit orders for its body.
+    pub(super) fn of(evidence: &Evidence, body: &Body, setting: &Setting) -> Self {
+        let promise = &evidence.promise;
         let density_g_mm3 = setting.density_g_mm3();
         let voids = body.shells.inner_mesh();
         let infill = promise.infill.as_ref();
@@ -30,7 +31,9 @@ impl Loads {
         Self {
             inside: ballast_moments(&promise.ballast, density_g_mm3)
                 + fill_moments(promise.fill, &voids, setting.density_g_cm3),
-            sparse: sparse_moments(infill, &voids),
+            sparse: infill.map_or(Moments::default(), |infill| {
+                sparse_moments(infill, &voids, &evidence.inner_in_model())
+            }),
             beyond: promise.laid_beyond().unwrap_or_default(),
             joined: joined_g * density_g_mm3.recip(),
         }

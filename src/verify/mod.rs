@@ -42,6 +42,7 @@ mod peg_shape;
 mod pegs;
 mod plates;
 mod play;
+mod regions;
 mod rim;
 mod rooms;
 mod shape;
@@ -116,7 +117,7 @@ pub use promise::{
     PromisedFigure, PromisedJig, PromisedJoint, PromisedPart, PromisedVoid, SCHEMA, WallOrder,
 };
 pub use rotor::RotorOrder;
-pub use sparse::{InfillOrder, beyond_ratio};
+pub use sparse::{InfillLevel, InfillOrder, beyond_ratio};
 pub use water::WaterOrder;
 
 // The facts.
@@ -130,6 +131,7 @@ pub use joints::FilmError;
 pub use measure::{PartFacts, SurfaceFacts};
 pub use pegs::PegFacts;
 pub use play::JointFacts;
+pub use regions::RegionFacts;
 pub use rotor::Unbalance;
 pub use shape::{ShapeFacts, Stray};
 pub use shells::Shells;

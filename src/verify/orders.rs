@@ -6,7 +6,7 @@ mod tests;
 
 use std::ops::Range;
 
-use super::{InfillOrder, PrinterLimits, Promise};
+use super::{InfillLevel, InfillOrder, PrinterLimits, Promise};
 use crate::io::threemf::{ObjectOrders, Orders, PlacedObject, SlicerOrders, VolumeOrders};
 use crate::mesh::TriMesh;
 
@@ -116,15 +116,23 @@ impl<'a> Wanted<'a> {
         };
         faults.extend(body.and_then(body_fault));
         let infill = self.infill.filter(|(_, id)| *id == object.name);
-        match (infill, regions) {
-            (None, []) => {}
-            (None, _) => faults.push("has regions of infill that the sheet does not".to_owned()),
-            (Some((infill, _)), [region]) => {
-                faults.extend(self.region_faults(infill, region, object));
+        let levels = infill.map_or_else(Vec::new, |(infill, _)| infill.levels());
+        match regions.len() {
+            0 if infill.is_none() => {}
+            _ if infill.is_none() => {
+                faults.push("has regions of infill that the sheet does not".to_owned());
             }
-            (Some(_), _) => {
-                let count = regions.len();
-                faults.push(format!("has {count} volumes of sparse infill, not 1"));
+            count if count == levels.len() => {
+                let pairs = levels.iter().zip(regions);
+                let own =
+                    pairs.flat_map(|(level, region)| self.region_faults(level, region, object));
+                faults.extend(own);
+            }
+            count => {
+                let wanted = levels.len();
+                faults.push(format!(
+                    "has {count} volumes of sparse infill, not {wanted}"
+                ));
             }
         }
         faults
@@ -133,18 +141,19 @@ impl<'a> Wanted<'a> {
     /// Returns what is wrong with a region of sparse infill.
     fn region_faults(
         &self,
-        infill: &InfillOrder,
+        level: &InfillLevel,
         region: &VolumeOrders,
         object: &PlacedObject,
     ) -> Vec<String> {
         let settings = &region.settings;
-        let wanted = infill.nominal_ratio * SOLID_PERCENT;
+        let own_pattern = self.infill.map_or("none", |(infill, _)| &infill.pattern);
+        let wanted = level.nominal_ratio * SOLID_PERCENT;
         let scale: f64 = self
             .printer
             .print_scale_ratio
             .map_or(1.0, |s| s.iter().product());
         let volume_mm3 = -volume_mm3(&object.mesh, &region.triangles) / scale;
-        let is_own = (volume_mm3 / infill.volume_mm3 - 1.0).abs() <= SAME_VOLUME_RATIO;
+        let is_own = (volume_mm3 / level.volume_mm3 - 1.0).abs() <= SAME_VOLUME_RATIO;
         let kind = stated(settings, KIND);
         let [density, pattern] = [DENSITY, PATTERN].map(|key| stated(settings, key));
         let walls = WALLS.into_iter().filter(|key| settings.contains_key(*key));
@@ -152,10 +161,10 @@ impl<'a> Wanted<'a> {
             (kind != MODIFIER).then(|| format!("has a region that is a {kind}, not a {MODIFIER}")),
             (!percent(settings).is_some_and(|found| is_same_percent(found, wanted)))
                 .then(|| format!("has a region with an infill of {density}, not {wanted}%")),
-            (pattern != infill.pattern)
-                .then(|| format!("has a region filled with {pattern}, not {}", infill.pattern)),
+            (pattern != own_pattern)
+                .then(|| format!("has a region filled with {pattern}, not {own_pattern}")),
             (!is_own).then(|| {
-                let wanted_mm3 = infill.volume_mm3;
+                let wanted_mm3 = level.volume_mm3;
                 format!("has a region of {volume_mm3:.1} mm³, not {wanted_mm3:.1}")
             }),
         ];

@@ -254,7 +254,11 @@ fn is_right(kind: Kind, object: &PlacedObject, parts: &Parts, part: usize) -> bo
     let Parts { evidence, prints } = parts;
     let (found, read) = (Fingerprint::of(&object.mesh), &evidence.parts[part]);
     let promised = evidence.promise.parts[part].fingerprint.as_ref();
-    let printed = || promised.unwrap_or(&prints[part]).likeness(&found);
+    let printed = || match read.inner.is_empty() {
+        true => promised.unwrap_or(&prints[part]).likeness(&found),
+        // The fingerprint of a part knows its outermost region only.
+        false => Fingerprint::of(&read.whole()).likeness(&found),
+    };
     match kind {
         // Only the part as made shows the place in the assembly.
         Kind::Assembly if !evidence.is_part_as_made(part, &prints[part]) => true,

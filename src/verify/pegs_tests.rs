@@ -273,6 +273,7 @@ fn slab(id: &str, [low, high]: [f64; 2]) -> PartEvidence {
     PartEvidence {
         id: id.to_owned(),
         mesh: block(Point::new(0.0, 0.0, low), [10.0, 10.0, high - low]),
+        inner: Vec::new(),
         pose: Pose::identity(),
     }
 }

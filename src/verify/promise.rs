@@ -167,6 +167,9 @@ pub enum FigureName {
     MassG,
     /// A rotor's balance quality grade at its speed, mm/s (ISO 21940-11); less is better.
     BalanceGradeMmS,
+    /// The root mean square of what is changed of a wished infill, over solid print; less is
+    /// better.
+    InfillChangeRatio,
 }
 
 impl FigureName {
@@ -181,6 +184,7 @@ impl FigureName {
             Self::MetacentricHeightMm => "metacentric height",
             Self::MassG => "mass that stays",
             Self::BalanceGradeMmS => "balance grade",
+            Self::InfillChangeRatio => "mean change of infill",
         }
     }
 
@@ -195,6 +199,7 @@ impl FigureName {
             Self::MetacentricHeightMm => "it floats upright with a metacentric height of",
             Self::MassG => "it is balanced with a mass of",
             Self::BalanceGradeMmS => "it runs true to a balance grade of",
+            Self::InfillChangeRatio => "its infill differs from the wished one by",
         }
     }
 
@@ -210,7 +215,7 @@ impl FigureName {
     pub fn unit(self) -> &'static str {
         match self {
             Self::CriticalSpeedRpm => "rpm",
-            Self::DominanceRatio | Self::SpinItRatio => "",
+            Self::DominanceRatio | Self::SpinItRatio | Self::InfillChangeRatio => "",
             Self::TopplesDeg => "°",
             Self::CenterHeightMm | Self::MetacentricHeightMm => "mm",
             Self::MassG => "g",

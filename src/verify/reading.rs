@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use serde_json::Value;
 
 use super::files::{CHECKLIST_FILE, HOLLOWED_FILE, MODEL_FOLDER, is_inside_kit};
-use super::{Evidence, PartEvidence, Pose, Promise, SCHEMA, VerifyError};
+use super::{Evidence, InfillOrder, PartEvidence, Pose, Promise, SCHEMA, VerifyError};
 use crate::geom::Vector;
 use crate::io::read_model;
 use crate::mesh::TriMesh;
@@ -38,21 +38,27 @@ pub(super) fn read_evidence(folder: &Path, promise: Promise) -> Result<Evidence,
         Ok(PartEvidence {
             id: id.to_owned(),
             mesh: undo_print_scale(mesh, promise.printer.print_scale_ratio),
+            inner: Vec::new(),
             pose,
         })
     };
-    let region = promise
-        .infill
-        .as_ref()
-        .and_then(|infill| infill.file.as_ref());
+    let regions = promise.infill.iter().flat_map(InfillOrder::files);
+    let regions: Vec<&String> = regions.collect();
     let parts = promise.parts.par_iter();
     let parts = parts.map(|part| {
         let whole = read(&part.id, &part.file, part.print_from_model)?;
-        // The one part that is printed with sparse infill has its regions as cavities.
-        let Some(file) = region else { return Ok(whole) };
-        let region = read(&part.id, file, part.print_from_model)?.mesh.reversed();
+        // The one part that is printed with sparse infill has its outermost regions as cavities.
+        let read = |file: &&String| Ok(read(&part.id, file, part.print_from_model)?.mesh);
+        let regions = regions.iter().map(read);
+        let mut regions = regions
+            .collect::<Result<Vec<_>, VerifyError>>()?
+            .into_iter();
+        let Some(outermost) = regions.next() else {
+            return Ok(whole);
+        };
         Ok(PartEvidence {
-            mesh: whole.mesh.joined(&region),
+            mesh: whole.mesh.joined(&outermost.reversed()),
+            inner: regions.collect(),
             ..whole
         })
     });
@@ -99,8 +105,7 @@ pub(super) fn read_checklist(folder: &Path) -> Result<(Promise, Value), VerifyEr
 fn check_files(folder: &Path, promise: &Promise) -> Result<(), VerifyError> {
     let parts = || {
         let jigs = promise.jigs.iter().map(|jig| &jig.file);
-        let infill = promise.infill.iter();
-        let regions = infill.filter_map(|infill| infill.file.as_ref());
+        let regions = promise.infill.iter().flat_map(InfillOrder::files);
         let parts = promise.parts.iter().map(|part| &part.file);
         parts.chain(jigs).chain(regions)
     };

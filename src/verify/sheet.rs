@@ -8,8 +8,8 @@ use super::limits::SHEET_LIMIT_RATIO;
 use super::machine::find_false_numbers;
 use super::rows::find_false_rows;
 use super::{
-    Check, CheckKind, Evidence, FigureName, Fingerprint, JointFacts, Judgement, Limit, PartFacts,
-    Promise, PromisedJoint, PromisedVoid, Shells,
+    Check, CheckKind, Evidence, FigureName, Fingerprint, InfillLevel, InfillOrder, JointFacts,
+    Judgement, Limit, PartFacts, Promise, PromisedJoint, PromisedVoid, Shells,
 };
 use crate::base::units::MM3_PER_CM3;
 use crate::mass::moments_of_mesh;
@@ -233,12 +233,7 @@ pub(super) fn restate_before_rounding(findings: &Findings) -> Value {
     };
     let mut rows = json!({ "voids": voids.map(void_row).collect::<Vec<_>>() });
     if let Some(infill) = &evidence.promise.infill {
-        let volume_mm3 = moments_of_mesh(&shells.inner_mesh()).volume().abs();
-        let density = evidence.promise.material.density_g_cm3;
-        rows["infill"] = json!({
-            "volume_mm3": volume_mm3,
-            "mass_g": infill.laid_ratio * volume_mm3 * density / MM3_PER_CM3,
-        });
+        rows["infill"] = infill_rows(evidence, infill, shells);
     }
     // The file has sockets and tips of the hardware, which the model of the job has not.
     if evidence.promise.hardware.is_empty() {
@@ -247,6 +242,29 @@ pub(super) fn restate_before_rounding(findings: &Findings) -> Value {
         rows["model"] = json!({ "size_mm": size, "volume_mm3": moments_of_mesh(&outer).volume() });
     }
     rows
+}
+
+/// Returns the volume and the mass of the regions of each density of infill.
+fn infill_rows(evidence: &Evidence, infill: &InfillOrder, shells: &Shells) -> Value {
+    let density = evidence.promise.material.density_g_cm3;
+    let inner = evidence.inner_in_model();
+    let inner = inner.iter().map(|region| moments_of_mesh(region).volume());
+    let outermost_mm3 = moments_of_mesh(&shells.inner_mesh()).volume().abs();
+    let volumes: Vec<f64> = std::iter::once(outermost_mm3).chain(inner).collect();
+    let row = |(index, level): (usize, &InfillLevel)| {
+        let volume_mm3 = volumes.get(index).copied().unwrap_or_default();
+        let within_mm3 = volumes.get(index + 1).copied().unwrap_or_default();
+        let laid_mm3 = level.laid_ratio * (volume_mm3 - within_mm3);
+        json!({ "volume_mm3": volume_mm3, "mass_g": laid_mm3 * density / MM3_PER_CM3 })
+    };
+    let levels = infill.levels();
+    let mut rows: Vec<Value> = levels.iter().enumerate().map(row).collect();
+    let inner = rows.split_off(1);
+    let mut outermost = rows.pop().unwrap_or_default();
+    if !inner.is_empty() {
+        outermost["inner"] = json!(inner);
+    }
+    outermost
 }
 
 fn part_row(findings: &Findings, part: usize, facts: &PartFacts) -> Value {

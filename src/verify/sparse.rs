@@ -14,15 +14,15 @@ use super::PRINTED_CENTER_LIMIT_MM;
 pub struct InfillOrder {
     /// The pattern of the infill, in the words of slicers.
     pub pattern: String,
-    /// The density to set in the slicer, over that of solid print.
+    /// The density to set in the slicer for the outermost regions, over that of solid print.
     pub nominal_ratio: f64,
-    /// The density that is laid, over that of solid print.
+    /// The density that is laid there, over that of solid print.
     pub laid_ratio: f64,
-    /// Number of the regions: the closed cavities of the part.
+    /// Number of the outermost regions: the closed cavities of the part.
     pub regions: usize,
-    /// Their volume, mm³.
+    /// Their volume with all that lies in them, mm³.
     pub volume_mm3: f64,
-    /// Their mass as laid, g.
+    /// The mass laid at their density, g; without that of the regions in them.
     pub mass_g: f64,
     /// The moments of what a slicer lays beyond this, in the model frame, mm³ to mm⁵. They are
     /// those of 1, x, y, z, xy, yz, xz, x², y² and z². `None` if it was not asked.
@@ -34,6 +34,27 @@ pub struct InfillOrder {
     /// The file that bounds them, relative to the kit; `None` if they are in the part's file.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub file: Option<String>,
+    /// The regions in them, each in the one before.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub inner: Vec<InfillLevel>,
+}
+
+/// The regions of one density inside of regions of another.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct InfillLevel {
+    /// The density to set in the slicer, over that of solid print.
+    pub nominal_ratio: f64,
+    /// The density that is laid, over that of solid print.
+    pub laid_ratio: f64,
+    /// Number of the regions.
+    pub regions: usize,
+    /// Their volume with all that lies in them, mm³.
+    pub volume_mm3: f64,
+    /// The mass laid at their density, g; without that of the regions in them.
+    pub mass_g: f64,
+    /// The file that bounds them, relative to the kit; `None` if they are in the part's file.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub file: Option<String>,
 }
 
 impl InfillOrder {
@@ -42,9 +63,35 @@ impl InfillOrder {
         self.beyond.map_or(Moments::default(), Moments)
     }
 
+    /// Returns the regions of every density, the outermost first.
+    pub fn levels(&self) -> Vec<InfillLevel> {
+        let outermost = InfillLevel {
+            nominal_ratio: self.nominal_ratio,
+            laid_ratio: self.laid_ratio,
+            regions: self.regions,
+            volume_mm3: self.volume_mm3,
+            mass_g: self.mass_g,
+            file: self.file.clone(),
+        };
+        std::iter::once(outermost)
+            .chain(self.inner.iter().cloned())
+            .collect()
+    }
+
+    /// Returns the files that bound the regions, the outermost first.
+    pub(super) fn files(&self) -> impl Iterator<Item = &String> {
+        let inner = self.inner.iter().filter_map(|level| level.file.as_ref());
+        self.file.iter().chain(inner)
+    }
+
+    /// Returns the mass laid at all densities of infill, g.
+    pub fn infill_g(&self) -> f64 {
+        self.mass_g + self.inner.iter().map(|level| level.mass_g).sum::<f64>()
+    }
+
     /// Returns the mass that is laid besides solid print, g.
     pub fn extra_g(&self, density_g_cm3: f64) -> f64 {
-        self.mass_g + self.beyond().volume() * density_g_cm3 / MM3_PER_CM3
+        self.infill_g() + self.beyond().volume() * density_g_cm3 / MM3_PER_CM3
     }
 }
 
@@ -85,10 +132,20 @@ pub fn beyond_ratio(beyond: &[f64; 10], written: &Moments) -> f64 {
 }
 
 /// Returns the moments of what is laid in the cavities of a surface, in volumes of solid print.
-/// Cavities are turned inward.
-pub(super) fn sparse_moments(infill: Option<&InfillOrder>, cavities: &TriMesh) -> Moments {
-    infill.map_or(Moments::default(), |infill| {
-        moments_of_mesh(cavities) * -infill.laid_ratio
+/// Cavities are turned inward, the regions in them are not. Each region takes the place of what is
+/// laid around it.
+pub(super) fn sparse_moments<'a>(
+    infill: &InfillOrder,
+    cavities: &TriMesh,
+    inner: impl IntoIterator<Item = &'a TriMesh>,
+) -> Moments {
+    let mut around = infill.laid_ratio;
+    let laid = moments_of_mesh(cavities) * -around;
+    let levels = infill.inner.iter().zip(inner);
+    levels.fold(laid, |sum, (level, region)| {
+        let step = level.laid_ratio - around;
+        around = level.laid_ratio;
+        sum + moments_of_mesh(region) * step
     })
 }
 
@@ -134,10 +191,40 @@ mod tests {
             beyond: None,
             misses_mm: Vec::new(),
             file: None,
+            inner: Vec::new(),
         };
-        let laid = sparse_moments(Some(&order), &region.reversed());
+        let laid = sparse_moments(&order, &region.reversed(), []);
         assert!((laid.volume() - 0.142 * 64.0).abs() < 1e-12);
         assert!((laid.centroid() - Point::new(2.0, 4.0, 7.0)).norm() < 1e-12);
-        assert_eq!(sparse_moments(None, &region), Moments::default());
+    }
+
+    #[test]
+    fn a_region_in_a_region_takes_the_place_of_what_is_around_it() {
+        let outer = cuboid(&Point::new(0.0, 0.0, 0.0), &Point::new(10.0, 10.0, 10.0));
+        let half = cuboid(&Point::new(0.0, 0.0, 0.0), &Point::new(5.0, 10.0, 10.0));
+        let level = InfillLevel {
+            nominal_ratio: 0.15,
+            laid_ratio: 0.14,
+            regions: 1,
+            volume_mm3: 500.0,
+            mass_g: 0.0,
+            file: None,
+        };
+        let order = InfillOrder {
+            pattern: "gyroid".to_owned(),
+            nominal_ratio: 0.5,
+            laid_ratio: 0.46,
+            regions: 1,
+            volume_mm3: 1000.0,
+            mass_g: 0.0,
+            beyond: None,
+            misses_mm: Vec::new(),
+            file: None,
+            inner: vec![level],
+        };
+        let laid = sparse_moments(&order, &outer.reversed(), [&half]);
+        assert!((laid.volume() - (0.46 + 0.14) * 500.0).abs() < 1e-9);
+        let x_mm = (0.46 * 7.5 + 0.14 * 2.5) / 0.6;
+        assert!((laid.centroid().x - x_mm).abs() < 1e-9);
     }
 }

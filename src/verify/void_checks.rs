@@ -1,7 +1,40 @@
 //! The checks of the voids: every one open and clean by the printer's rule.
 
 use super::limits::{OPENING_SLACK_RATIO, SIGHT_TOLERANCE_RATIO};
-use super::{Check, CheckKind, CleaningRule, Limit, Promise, PromisedVoid, VoidFacts};
+use super::{
+    Check, CheckKind, CleaningRule, InfillOrder, Judgement, Limit, Promise, PromisedVoid, VoidFacts,
+};
+
+/// The most by which a region may stick out of the one around it, mm: the rounding of files, and
+/// what is smoothed of slivers.
+const NESTED_MM: f64 = 1e-3;
+
+/// Checks that a print of one piece has its regions of sparse infill, and no other cavity.
+///
+/// An STL cannot say that its cavity is infill: there the region must have a file of its own.
+/// A region inside of another must be there, and nowhere stick out of that.
+pub(super) fn regions_check(promise: &Promise, found: &Judgement, infill: &InfillOrder) -> Check {
+    let parts = &found.parts;
+    let inner = infill.inner.iter().enumerate().filter(|(index, level)| {
+        let facts = found.inner_regions.get(*index);
+        facts.is_none_or(|facts| facts.count != level.regions || facts.outside_mm > NESTED_MM)
+    });
+    let inner_faults = inner.count() + found.inner_regions.len().abs_diff(infill.inner.len());
+
+    let found: usize = parts.iter().map(|part| part.cavities).sum();
+    let is_stl = |file: &str| file.ends_with(".stl");
+    let unsaid = infill.levels().iter().any(|level| level.file.is_none());
+    let unsaid = unsaid && promise.parts.iter().any(|part| is_stl(&part.file));
+    let wrong = found.abs_diff(infill.regions) + usize::from(unsaid) + inner_faults;
+    let promise = "every region of sparse infill is there, and there is no void besides";
+    let limit = Limit::at_most(0.0, "");
+    Check::new(
+        CheckKind::ClosedCavities,
+        promise,
+        Some(wrong as f64),
+        limit,
+    )
+}
 
 /// Checks that every void is open and clean by the printer's rule; empty if no cleaning was
 /// ordered.

@@ -210,8 +210,8 @@ const ARROWS: &[(&str, &[&str])] = &[
     (
         "run",
         &[
-            "advice", "ballast", "base", "cut", "goal", "hardware", "hollow", "interior", "job",
-            "mass", "mesh", "printer", "repair", "thin", "verify",
+            "advice", "ballast", "base", "cut", "geom", "goal", "hardware", "hollow", "interior",
+            "job", "mass", "mesh", "printer", "repair", "thin", "verify",
         ],
     ),
     (
@@ -232,10 +232,10 @@ const ARROWS: &[(&str, &[&str])] = &[
     (
         "prepare",
         &[
-            "advice", "ballast", "base", "cut", "error", "geom", "goal", "hardware", "hollow",
-            "interior", "io", "job", "kit", "make", "mass", "mend", "mesh", "open", "page",
-            "press", "printer", "repair", "run", "sheet", "shell", "slice", "slicer", "thin",
-            "verify",
+            "advice", "ballast", "base", "cut", "error", "field", "geom", "goal", "hardware",
+            "hollow", "interior", "io", "job", "kit", "make", "mass", "mend", "mesh", "open",
+            "page", "press", "printer", "repair", "run", "sheet", "shell", "slice", "slicer",
+            "thin", "verify",
         ],
     ),
     (

@@ -8,7 +8,10 @@ use clap::Args;
 
 use super::values::{share, words};
 use crate::cut::{CutOrder, KeepClear, LeastPart, SeamStyle};
-use crate::job::{CutMode, Effort, IdStyle, Interior, PinStyle, PlanError};
+use crate::job::{
+    CutMode, DensityOrder, Effort, IdStyle, InfillDensity, Interior, LevelCount, PinStyle,
+    PlanError,
+};
 
 /// The arguments for cutting the object and joining its parts.
 #[derive(Debug, Clone, Args)]
@@ -22,6 +25,17 @@ pub struct CutArgs {
     /// that helps (graded). Graded is for filament printers [default: hollow]
     #[arg(long, value_parser = words::<Interior>(Interior::WORDS))]
     pub interior: Option<Interior>,
+    /// The least and the greatest infill of a graded print, such as 15%..60%. Walls stay solid
+    /// [default: the least that prints, and 100%]
+    #[arg(long, value_name = "LO..HI", allow_hyphen_values = true)]
+    pub density: Option<DensityOrder>,
+    /// Keep the infill of a graded print near to this, such as 40%, and change it as little as the
+    /// goal allows
+    #[arg(long, value_name = "PERCENT", allow_hyphen_values = true)]
+    pub infill: Option<InfillDensity>,
+    /// The number of densities near the infill, 3 to 12 [default: 4]
+    #[arg(long, value_name = "N", allow_hyphen_values = true)]
+    pub levels: Option<LevelCount>,
     /// Put seams where they are seen least (hidden), make them short (short), or only level ones
     /// (level) [default: hidden]
     #[arg(long, value_parser = words::<SeamStyle>(SeamStyle::WORDS))]

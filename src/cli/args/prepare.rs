@@ -189,7 +189,7 @@ pub struct PrepareArgs {
 pub const DEFAULT_PLANS: u8 = 3;
 
 /// The arguments that a replayed job decides.
-const DECIDED_BY_JOB: [&str; 40] = [
+const DECIDED_BY_JOB: [&str; 43] = [
     "slicer",
     "printer",
     "material",
@@ -229,6 +229,9 @@ const DECIDED_BY_JOB: [&str; 40] = [
     "ballast",
     "fill",
     "interior",
+    "density",
+    "infill",
+    "levels",
     "repair",
 ];
 
@@ -322,6 +325,9 @@ impl PrepareArgs {
             cut,
             plan,
             interior: self.cutting.interior.unwrap_or(default.interior),
+            density: self.cutting.density,
+            infill: self.cutting.infill,
+            levels: self.cutting.levels,
             seam: self.cutting.seam.unwrap_or(default.seam),
             keep_clear,
             least_part: self.cutting.least_part.unwrap_or(default.least_part),

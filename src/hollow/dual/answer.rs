@@ -152,7 +152,7 @@ impl Conversion<'_, '_> {
                 to_rpm((STANDARD_GRAVITY_MM_S2 / -work.to_mm(ratio)).sqrt())
             }
             Figure::SpinIt => functional(work, self.objective, s, ratio),
-            Figure::DominanceRatio => ratio,
+            Figure::DominanceRatio | Figure::InfillChange => ratio,
             Figure::TopplingAngleRad => -ratio.atan(),
             Figure::CenterHeightMm => work.to_mm(ratio),
             Figure::MetacentricHeightMm => {

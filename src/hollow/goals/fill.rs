@@ -13,6 +13,7 @@
 //! equations.
 
 use crate::base::watch::Watch;
+use crate::field::DensityRange;
 use crate::geom::Quadric;
 use crate::goal::Goal;
 use crate::hollow::{Problem, Settings, Solution, refine, solve};
@@ -23,6 +24,8 @@ use crate::mass::Moments;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Fill {
     density_ratio: f64,
+    /// The density over that of the print of what is neither filled nor wall.
+    rest_ratio: f64,
 }
 
 /// Least difference of the densities, as a share of the print's. With a smaller one the effect
@@ -31,14 +34,28 @@ const LEAST_RELIEF: f64 = 0.02;
 
 impl Fill {
     /// Air.
-    pub const AIR: Self = Self { density_ratio: 0.0 };
+    pub const AIR: Self = Self {
+        density_ratio: 0.0,
+        rest_ratio: 1.0,
+    };
 
     /// Returns a filling `density_ratio` times as dense as the print. `None` if that is negative,
     /// not finite, or within two per cent of the print's own density.
     pub fn new(density_ratio: f64) -> Option<Self> {
         let is_filling = density_ratio.is_finite() && density_ratio >= 0.0;
-        (is_filling && (density_ratio - 1.0).abs() >= LEAST_RELIEF)
-            .then_some(Self { density_ratio })
+        (is_filling && (density_ratio - 1.0).abs() >= LEAST_RELIEF).then_some(Self {
+            density_ratio,
+            ..Self::AIR
+        })
+    }
+
+    /// Returns the filling of a print whose interior has the least density of a range in its voids,
+    /// and the greatest elsewhere.
+    pub fn between(range: DensityRange) -> Self {
+        Self {
+            density_ratio: range.low(),
+            rest_ratio: range.high(),
+        }
     }
 
     /// Returns the density over that of the print.
@@ -46,21 +63,26 @@ impl Fill {
         self.density_ratio
     }
 
-    /// Returns true if the filling is heavier than the print.
+    /// Returns true if the filling is heavier than what is around it.
     pub fn is_heavier(&self) -> bool {
-        self.density_ratio > 1.0
+        self.density_ratio > self.rest_ratio
     }
 
     /// Returns the weight saved by filling a grain, as a share of a printed one; negative for a
     /// heavier filling.
     fn relief(&self) -> f64 {
-        1.0 - self.density_ratio
+        self.rest_ratio - self.density_ratio
+    }
+
+    /// Returns the moments that the interior lacks where it is not filled.
+    fn lost(&self, columns: &Columns) -> Moments {
+        columns.moments() * (1.0 - self.rest_ratio)
     }
 
     /// Returns the moments of a body with the void { quadric > 0 } filled; `fixed` are its moments
     /// without a void.
     pub fn filled(&self, fixed: Moments, columns: &Columns, quadric: &Quadric) -> Moments {
-        fixed - moments_where_positive(columns, quadric) * self.relief()
+        fixed - self.lost(columns) - moments_where_positive(columns, quadric) * self.relief()
     }
 
     /// Finds the best filled void: by [`solve`], or by [`refine`] from a known solution.
@@ -76,7 +98,7 @@ impl Fill {
         } else {
             Moments::default()
         };
-        let fixed = (problem.fixed + whole) * (1.0 / weight);
+        let fixed = (problem.fixed - self.lost(problem.columns) + whole) * (1.0 / weight);
         let problem = Problem {
             goal: &goal,
             fixed,
@@ -173,6 +195,26 @@ mod tests {
                 best > least + 0.8 * (solution.certificate.value - least),
                 "{best} {least}"
             );
+        }
+    }
+
+    #[test]
+    fn between_two_densities_it_is_the_best_of_them() {
+        let world = worlds::blocks_on_a_slope();
+        for (low, high) in [(0.15, 1.0), (0.1, 0.7)] {
+            let range = DensityRange::new(low, high).unwrap();
+            let fill = Fill::between(range);
+            let solution = fill.solve(&world.problem(), None, &Watch::silent());
+            let best =
+                crate::hollow::best_densities(&world.problem(), range, None, &Watch::silent());
+            assert!((solution.certificate.value - best.certificate.value).abs() < 1e-12);
+            let moments = fill.filled(world.fixed, &world.columns, &solution.quadric);
+            for (got, want) in moments.0.iter().zip(solution.moments.0) {
+                assert!(
+                    (got - want).abs() <= 1e-9 * world.fixed.0[0],
+                    "{got} {want}"
+                );
+            }
         }
     }
 

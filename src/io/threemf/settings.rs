@@ -36,8 +36,8 @@ pub struct Subject<'a> {
     pub name: &'a str,
     /// Number of its triangles.
     pub triangles: usize,
-    /// The infill of its last triangles, which bound a region; `None` without a region.
-    pub infill: Option<&'a Infill>,
+    /// The infill of its last triangles, which bound regions; empty without regions.
+    pub infill: &'a [Infill],
     /// Area of its section just above the plate, mm².
     pub foot_mm2: f64,
 }
@@ -141,7 +141,10 @@ pub fn prusa_xml(objects: &[Subject], settings: &PrintSettings) -> String {
             "<object id=\"{id}\" instances_count=\"1\">\n\
              <metadata type=\"object\" key=\"name\" value=\"{name}\"/>\n"
         );
-        let around = subject.infill.map_or_else(Vec::new, |_| around_regions());
+        let around = subject
+            .infill
+            .first()
+            .map_or_else(Vec::new, |_| around_regions());
         let pairs = settings.for_prusa().into_iter().chain(subject.brim());
         for (key, value) in pairs.chain(around) {
             let _ = writeln!(
@@ -150,14 +153,14 @@ pub fn prusa_xml(objects: &[Subject], settings: &PrintSettings) -> String {
             );
         }
         let whole = subject.triangles;
-        let first = subject.infill.map_or(whole, |infill| infill.first);
+        let first = |index: usize| subject.infill.get(index).map_or(whole, |next| next.first);
         let usual = [
             ("name", name.into_owned()),
             ("volume_type", "ModelPart".to_owned()),
         ];
-        xml += &volume_xml(0..first, &usual);
-        if let Some(infill) = subject.infill {
-            xml += &volume_xml(first..whole, &infill.for_prusa());
+        xml += &volume_xml(0..first(0), &usual);
+        for (index, infill) in subject.infill.iter().enumerate() {
+            xml += &volume_xml(infill.first..first(index + 1), &infill.for_prusa());
         }
         xml += "</object>\n";
     }
@@ -207,7 +210,7 @@ mod tests {
             id,
             name,
             triangles: 12,
-            infill: None,
+            infill: &[],
             foot_mm2,
         };
         [subject(2, "box <&>", 400.0), subject(3, "lid", 0.7)]

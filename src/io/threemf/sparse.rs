@@ -16,10 +16,10 @@ pub struct SparseRegion {
     pub percent: f64,
 }
 
-/// The infill of a region that is bounded by the last triangles of an object.
+/// The infill of a region that is bounded by some of the last triangles of an object.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Infill {
-    /// The first of those triangles.
+    /// The first of those triangles; they end where the next region begins.
     pub first: usize,
     pattern: String,
     percent: f64,

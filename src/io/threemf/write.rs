@@ -56,8 +56,8 @@ pub struct Object {
     color: [u8; 3],
     mesh_xml: String,
     triangles: usize,
-    /// The infill of its last triangles, which bound a region inside; `None` without a region.
-    infill: Option<Infill>,
+    /// The infill of its last triangles, which bound regions inside; empty without regions.
+    infill: Vec<Infill>,
     /// Area of its section just above its lowest point, mm².
     foot_mm2: f64,
 }
@@ -117,23 +117,39 @@ impl Object {
             color,
             mesh_xml: mesh_xml(&mesh, &whole),
             triangles: whole.len(),
-            infill: None,
+            infill: Vec::new(),
             foot_mm2: foot_area_mm2(&mesh),
         }
     }
 
-    /// Makes an object as [`new`](Self::new), with a region inside that PrusaSlicer fills sparsely.
+    /// Makes an object as [`new`](Self::new), with regions inside that PrusaSlicer fills sparsely.
     ///
-    /// The region is turned inward: a program that knows of no regions finds a cavity in its place.
-    pub fn with_region(name: &str, color: [u8; 3], mesh: &TriMesh, region: &SparseRegion) -> Self {
+    /// Where regions overlap the later one holds, so the outermost comes first. All are turned
+    /// inward: a program that knows of no regions finds a cavity in place of one. Corners of
+    /// different regions stay apart, since the slicer takes those of a volume in one run.
+    pub fn with_regions(
+        name: &str,
+        color: [u8; 3],
+        mesh: &TriMesh,
+        regions: &[SparseRegion],
+    ) -> Self {
         let outside = weld(&mesh.map_vertices(round_to_single));
-        let of_outside = whole_facets(&outside, |_| false).len();
-        let joined = mesh.clone().joined(&region.mesh.reversed());
-        let object = Self::new(name, color, &joined);
+        let foot_mm2 = foot_area_mm2(&outside);
+        let mut facets = whole_facets(&outside, |_| false).len();
+        let (mut joined, mut infill) = (outside, Vec::new());
+        for region in regions {
+            infill.push(Infill::of(region, facets));
+            let inward = weld(&region.mesh.reversed().map_vertices(round_to_single));
+            facets += whole_facets(&inward, |_| false).len();
+            joined = joined.joined(&inward);
+        }
         Self {
-            infill: Some(Infill::of(region, of_outside)),
-            foot_mm2: foot_area_mm2(&outside),
-            ..object
+            name: name.to_owned(),
+            color,
+            mesh_xml: mesh_xml(&joined, &whole_facets(&joined, |_| false)),
+            triangles: facets,
+            infill,
+            foot_mm2,
         }
     }
 }
@@ -162,7 +178,7 @@ impl Object {
             id,
             name: &self.name,
             triangles: self.triangles,
-            infill: self.infill.as_ref(),
+            infill: &self.infill,
             foot_mm2: self.foot_mm2,
         }
     }
@@ -227,7 +243,7 @@ impl Package<'_> {
     /// Returns whether an object has a region of another infill.
     fn has_regions(&self) -> bool {
         let mut objects = self.placed_objects().into_iter();
-        objects.any(|(_, object)| object.infill.is_some())
+        objects.any(|(_, object)| !object.infill.is_empty())
     }
 
     fn metadata(&self) -> Vec<(&'static str, String)> {

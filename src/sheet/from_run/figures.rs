@@ -39,5 +39,6 @@ pub fn figure_name(figure: hollow::Figure) -> FigureName {
         Figure::MetacentricHeightMm => FigureName::MetacentricHeightMm,
         Figure::VolumeMm3 => FigureName::MassG,
         Figure::BalanceGradeMmS => FigureName::BalanceGradeMmS,
+        Figure::InfillChange => FigureName::InfillChangeRatio,
     }
 }

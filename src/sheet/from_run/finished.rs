@@ -24,7 +24,7 @@ pub fn turn_row(facts: &Facts, parts: &[PartRow]) -> Option<TurnRow> {
         .in_frame(frame);
     let whole = made.written_moments()
         + placed.joining_moments(&made.plan)
-        + placed.moments_inside(&made.load, &made.hollowed);
+        + placed.moments_inside(&made.load, &made.hollowed, &made.inner);
     turn_effect(&half, &whole.in_frame(frame))
 }
 

@@ -8,10 +8,12 @@ use crate::ballast::{Load, PlacedPart};
 use crate::base::digest::sha256_hex;
 use crate::cut::{CutPlan, Label, PinSite};
 use crate::goal::Rotor;
-use crate::run::{Made, Placed, WrittenPart};
+use crate::mesh::shells;
+use crate::repair::weld;
+use crate::run::{Made, Placed, WrittenPart, WrittenRegion};
 use crate::verify::{
-    Aim, BallastOrder, Density, FillOrder, InfillOrder, LaidOrder, Mark, Peg, PrinterLimits,
-    Promise, PromisedPart, RotorOrder, SCHEMA, WallOrder, WaterOrder,
+    Aim, BallastOrder, Density, FillOrder, InfillLevel, InfillOrder, LaidOrder, Mark, Peg,
+    PrinterLimits, Promise, PromisedPart, RotorOrder, SCHEMA, WallOrder, WaterOrder,
 };
 
 /// Returns the promise of the parts, without the figure that they reach.
@@ -162,15 +164,15 @@ pub fn fill_order(placed: &Placed) -> Option<FillOrder> {
 pub fn infill_order(placed: &Placed, made: &Made) -> Option<InfillOrder> {
     let sparse = placed.sparse.as_ref()?;
     let written = made.parts.iter().find_map(|part| part.sparse.as_ref())?;
-    let volume_mm3 = written.region.signed_volume_mm3();
-    let density_g_mm3 = placed.shop.material.density_g_mm3();
+    let rows = infill_levels(placed, &written.regions);
+    let (outermost, inner) = rows.split_first()?;
     Some(InfillOrder {
         pattern: sparse.pattern.clone(),
-        nominal_ratio: sparse.nominal_ratio,
-        laid_ratio: sparse.laid_ratio,
-        regions: made.hollowed.voids.len(),
-        volume_mm3,
-        mass_g: sparse.laid_ratio * volume_mm3 * density_g_mm3,
+        nominal_ratio: outermost.nominal_ratio,
+        laid_ratio: outermost.laid_ratio,
+        regions: outermost.regions,
+        volume_mm3: outermost.volume_mm3,
+        mass_g: outermost.mass_g,
         beyond: placed.job.sliced.last().map(|round| round.beyond),
         misses_mm: placed
             .job
@@ -178,7 +180,8 @@ pub fn infill_order(placed: &Placed, made: &Made) -> Option<InfillOrder> {
             .iter()
             .map(|round| round.miss_mm)
             .collect(),
-        file: written.file.as_ref().map(|(file, _)| file.clone()),
+        file: outermost.file.clone(),
+        inner: inner.to_vec(),
     })
 }
 
@@ -191,6 +194,25 @@ pub fn laid_order(placed: &Placed) -> Option<LaidOrder> {
         beyond: last.beyond,
         misses_mm: rounds.iter().map(|round| round.miss_mm).collect(),
     })
+}
+
+/// Returns a row for each region of infill, the outermost first.
+fn infill_levels(placed: &Placed, regions: &[WrittenRegion]) -> Vec<InfillLevel> {
+    let density_g_mm3 = placed.shop.material.density_g_mm3();
+    let volume_mm3 = |region: &WrittenRegion| region.mesh.signed_volume_mm3();
+    let row = |(index, region): (usize, &WrittenRegion)| {
+        let within_mm3 = regions.get(index + 1).map_or(0.0, volume_mm3);
+        let level = &region.level;
+        InfillLevel {
+            nominal_ratio: level.nominal_ratio,
+            laid_ratio: level.laid_ratio,
+            regions: shells(&weld(&region.mesh)).len(),
+            volume_mm3: volume_mm3(region),
+            mass_g: level.laid_ratio * (volume_mm3(region) - within_mm3) * density_g_mm3,
+            file: region.file.as_ref().map(|(file, _)| file.clone()),
+        }
+    };
+    regions.iter().enumerate().map(row).collect()
 }
 
 /// Returns a label as the judge reads it.

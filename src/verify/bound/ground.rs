@@ -108,6 +108,7 @@ impl Ground {
                 ..axis_form()
             }),
             FigureName::BalanceGradeMmS => Some(self.unbalance()),
+            FigureName::InfillChangeRatio => None,
         }
     }
 
@@ -125,6 +126,7 @@ impl Ground {
             // The larger of two planes' unbalances is at least their joint length over √2, and the
             // grade counts it twice.
             FigureName::BalanceGradeMmS => 2.0 * FRAC_1_SQRT_2 * ratio * self.omega_rad_s,
+            FigureName::InfillChangeRatio => return None,
         };
         value.is_finite().then_some(value)
     }

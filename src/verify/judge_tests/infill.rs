@@ -14,6 +14,7 @@ fn one_piece() -> Evidence {
     evidence.parts = vec![PartEvidence {
         id: "P01".into(),
         mesh: evidence.hollowed.map_vertices(|p| p + shift),
+        inner: Vec::new(),
         pose: Pose::new(&Matrix::identity(), &shift),
     }];
     evidence.promise.printer.build_volume_mm = None;
@@ -27,6 +28,7 @@ fn one_piece() -> Evidence {
         beyond: None,
         misses_mm: Vec::new(),
         file: Some("modifiers/region.stl".to_owned()),
+        inner: Vec::new(),
     });
     evidence
 }

@@ -23,7 +23,7 @@ fn read() -> Read {
         pattern: "gyroid".to_owned(),
         percent: 15.0,
     };
-    let objects = [Object::with_region("P01", [1, 2, 3], &body, &region)];
+    let objects = [Object::with_regions("P01", [1, 2, 3], &body, &[region])];
     let bytes = Package {
         title: "a box".to_owned(),
         description: "A box.".to_owned(),
@@ -56,6 +56,7 @@ fn read() -> Read {
             beyond: None,
             misses_mm: Vec::new(),
             file: Some("modifiers/region.stl".to_owned()),
+            inner: Vec::new(),
         },
     }
 }

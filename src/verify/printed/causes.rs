@@ -9,7 +9,7 @@ use super::limits::{
 };
 use super::part::PrintedPart;
 use super::source::Source;
-use crate::verify::Promise;
+use crate::verify::{InfillLevel, Promise};
 
 /// The process whose lines have a width.
 const FILAMENT: &str = "fdm";
@@ -131,12 +131,18 @@ impl Printed<'_> {
             "{} solid: the region of sparse infill is lost",
             are(&ids(&parts))
         );
-        let percent = 100.0 * infill.nominal_ratio;
+        let modifier = |level: &InfillLevel| {
+            let file = level.file.as_deref().unwrap_or("the region");
+            let percent = 100.0 * level.nominal_ratio;
+            format!(
+                "{file} to the part as a modifier with {percent:.1} % {} infill",
+                infill.pattern
+            )
+        };
+        let modifiers: Vec<String> = infill.levels().iter().map(modifier).collect();
         let remedy = format!(
-            "slice the kit's plate with PrusaSlicer, or add {} to the part as a modifier with \
-             {percent:.1} % {} infill",
-            infill.file.as_deref().unwrap_or("the region"),
-            infill.pattern
+            "slice the kit's plate with PrusaSlicer, or add {}",
+            modifiers.join(", then ")
         );
         self.cause(CauseKind::Infill, &parts, finding, remedy)
     }

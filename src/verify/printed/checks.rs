@@ -249,7 +249,7 @@ impl Whole<'_> {
                 let inertia_ratio = INERTIA_RATIO * (c + b) / (c - b);
                 0.5 * (PRINTED_CENTER_LIMIT_MM / height_mm + inertia_ratio) * value
             }
-            FigureName::BalanceGradeMmS => 0.0,
+            FigureName::BalanceGradeMmS | FigureName::InfillChangeRatio => 0.0,
         }
     }
 }

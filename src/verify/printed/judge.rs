@@ -115,7 +115,7 @@ struct Weighing {
 impl Weighing {
     fn new(evidence: &Evidence, body: &Body) -> Self {
         let setting = Setting::new(&evidence.promise, &body.outer);
-        let loads = Loads::of(&evidence.promise, body, &setting);
+        let loads = Loads::of(evidence, body, &setting);
         Self {
             written: assembly_moments(&evidence.parts) + loads.sparse + loads.beyond,
             loads,

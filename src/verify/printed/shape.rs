@@ -105,12 +105,13 @@ impl<'a> Thing<'a> {
     /// Returns the thing with sparse infill laid in its cavities. Lines end at their walls as at
     /// the outside, so that both count as its surface.
     pub(super) fn with_infill(self, read: &PartEvidence, infill: &InfillOrder) -> Self {
-        let file = read
-            .mesh
-            .map_vertices(|p| p.coords.component_mul(&self.scale_ratio).into());
-        let shells = Shells::of_mesh(&weld(&file));
+        let to_file = |mesh: &TriMesh| {
+            mesh.map_vertices(|p| p.coords.component_mul(&self.scale_ratio).into())
+        };
+        let shells = Shells::of_mesh(&weld(&to_file(&read.mesh)));
+        let inner: Vec<TriMesh> = read.inner.iter().map(to_file).collect();
         Self {
-            moments: self.moments + sparse_moments(Some(infill), &shells.inner_mesh()),
+            moments: self.moments + sparse_moments(infill, &shells.inner_mesh(), &inner),
             beyond: infill.beyond(),
             ..self
         }

@@ -8,13 +8,18 @@ use super::*;
 
 /// Packs a box of 30 mm with a region in it, on a plate.
 fn packed() -> Vec<u8> {
-    let body = cuboid(&Point::origin(), &Point::new(30.0, 30.0, 30.0));
     let region = SparseRegion {
         mesh: cuboid(&Point::new(15.0, 5.0, 5.0), &Point::new(25.0, 25.0, 25.0)),
         pattern: "gyroid".to_owned(),
         percent: 15.0,
     };
-    let objects = [Object::with_region("P01", [1, 2, 3], &body, &region)];
+    packed_with(&[region])
+}
+
+/// Packs a box of 30 mm with regions in it, on a plate.
+fn packed_with(regions: &[SparseRegion]) -> Vec<u8> {
+    let body = cuboid(&Point::origin(), &Point::new(30.0, 30.0, 30.0));
+    let objects = [Object::with_regions("P01", [1, 2, 3], &body, regions)];
     let shift = Vector::new(110.0, 90.0, 0.0);
     let place = Transform {
         linear: Matrix::identity(),
@@ -68,4 +73,31 @@ fn a_package_with_a_region_has_the_version_that_moves_all_volumes_to_their_place
     assert!(model.contains("<metadata name=\"slic3rpe:Version3mf\">1</metadata>"));
     // The other dialect would print the cavity.
     assert_eq!(part(&bytes, "Metadata/model_settings.config"), None);
+}
+
+#[test]
+fn of_regions_in_regions_the_outermost_comes_first_and_none_shares_corners_with_another() {
+    let region = |x_mm: f64, percent: f64| SparseRegion {
+        mesh: cuboid(&Point::new(5.0, 5.0, 5.0), &Point::new(x_mm, 25.0, 25.0)),
+        pattern: "gyroid".to_owned(),
+        percent,
+    };
+    // The regions touch in a face: later ones hold.
+    let bytes = packed_with(&[region(25.0, 60.0), region(15.0, 30.0), region(10.0, 15.0)]);
+    let settings = part(&bytes, "Metadata/Slic3r_PE_model.config").unwrap();
+    let mut last = 0;
+    for said in [
+        "<volume firstid=\"12\" lastid=\"23\">",
+        "key=\"fill_density\" value=\"60%\"",
+        "<volume firstid=\"24\" lastid=\"35\">",
+        "key=\"fill_density\" value=\"30%\"",
+        "<volume firstid=\"36\" lastid=\"47\">",
+        "key=\"fill_density\" value=\"15%\"",
+    ] {
+        let at = settings.find(said).unwrap_or_default();
+        assert!(at > last, "{said}: {settings}");
+        last = at;
+    }
+    let model = part(&bytes, MODEL_PART).unwrap();
+    assert_eq!(model.matches("<vertex ").count(), 4 * 8);
 }

@@ -1,0 +1,307 @@
+//! A wished density, changed as little as the goal allows: nested levels instead of the best void.
+//!
+//! The goal counts with its equations and with what it promises of its stand, each a linear row.
+//! Its figure is left as it comes.
+
+use nalgebra::DVector;
+
+use crate::base::verdict::Verdict;
+use crate::geom::Quadric;
+use crate::goal::{Goal, GoalKind, Objective};
+use crate::hollow::Problem;
+use crate::hollow::dual::programme::DualPoint;
+use crate::hollow::graded::{Graded, Row, Sense, Separation};
+use crate::hollow::levels::{LevelChange, PrintLevels, least_level_change};
+use crate::hollow::solution::{Certificate, Figure, Solution, Warm};
+use crate::hollow::status::{Obstacle, Status};
+use crate::interior::moments_where_positive;
+use crate::mass::Moments;
+
+// Places among the ten moments.
+const X: usize = 1;
+const Y: usize = 2;
+const Z: usize = 3;
+const YZ: usize = 5;
+const XZ: usize = 6;
+/// Tilt that is solved for beyond the promised one, rad: a hundredth of a degree, for the rounding
+/// of files.
+pub const TILT_MARGIN_RAD: f64 = 1.745e-4;
+
+/// Residual of the rows, in units of the body, up to which they count as met.
+const MET: f64 = 1e-7;
+/// The same for a solution whose last digits are not proved.
+const NEARLY_MET: f64 = 1e-3;
+
+/// A wished density, and the densities that can be had.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NearWished {
+    /// The density that is wished everywhere, over that of solid print.
+    pub wished: f64,
+    /// The densities.
+    pub levels: PrintLevels,
+    /// Stand: the tilt that it must bear, rad.
+    pub least_angle_rad: f64,
+}
+
+impl NearWished {
+    /// Finds the least change of the wished density that meets the goal's rows.
+    ///
+    /// A density is at most a level where the solution's quadric is above minus the next value of
+    /// [`cuts`](Self::cuts). The certificate measures the root mean square of the change. If no
+    /// density meets the rows, the status has the proof.
+    #[must_use]
+    pub fn solve(&self, problem: &Problem) -> Solution {
+        let rows = rows(problem.goal, self.least_angle_rad);
+        let graded = Graded {
+            shell: problem.fixed - problem.columns.moments(),
+            columns: problem.columns,
+            rows: &rows,
+        };
+        match least_level_change(&graded, &self.levels, self.wished) {
+            Verdict::Found(change) => found(problem, change),
+            Verdict::No(proof) => self.refused(problem, &graded, &proof),
+        }
+    }
+
+    /// Returns the values of minus the quadric between the levels, ascending.
+    pub fn cuts(&self) -> Vec<f64> {
+        let middle = |pair: &[f64]| 0.5 * (pair[0] + pair[1]) - self.wished;
+        self.levels.densities().windows(2).map(middle).collect()
+    }
+
+    fn refused(&self, problem: &Problem, graded: &Graded, proof: &Separation) -> Solution {
+        let range = self.levels.range();
+        let columns = problem.columns;
+        let sum = |moments: &Moments| dot(&proof.quadric, moments);
+        let densest = sum(&graded.shell) + range.high() * sum(&columns.moments());
+        let most = range.span() * sum(&moments_where_positive(columns, &proof.quadric));
+        let status = Status::ConstraintsInfeasible {
+            obstacle: match (problem.goal.kind, problem.goal.objective) {
+                (GoalKind::Stand, Objective::LowestCenter) => Obstacle::Center,
+                (GoalKind::Stand, _) => Obstacle::Tilt,
+                _ => Obstacle::Both,
+            },
+            // The rows are of unit length for a body of unit volume.
+            least_miss: (densest - most) / problem.fixed.volume(),
+            separator: proof.quadric,
+        };
+        let certificate = Certificate {
+            figure: Figure::InfillChange,
+            value: f64::NAN,
+            bound: f64::NAN,
+            gap_ratio: f64::INFINITY,
+            residual: f64::INFINITY,
+            bound_over_heights: None,
+        };
+        let moments = graded.shell + columns.moments() * range.high();
+        solution(
+            problem,
+            Found {
+                status,
+                quadric: proof.quadric,
+                certificate,
+                moments,
+                passes: 0,
+            },
+        )
+    }
+}
+
+/// The parts of a solution that differ from case to case.
+struct Found {
+    status: Status,
+    quadric: Quadric,
+    certificate: Certificate,
+    moments: Moments,
+    passes: usize,
+}
+
+fn found(problem: &Problem, change: LevelChange) -> Solution {
+    let status = match change.residual {
+        residual if residual <= MET => Status::Solved,
+        residual if residual <= NEARLY_MET => Status::AlmostSolved,
+        residual => Status::IterationLimit {
+            gap_ratio: 0.0,
+            residual,
+        },
+    };
+    // The mean of half the square, as the root of the mean square.
+    let rms = |cost: f64| (2.0 * cost.max(0.0)).sqrt();
+    let (value, bound) = (rms(change.cost), rms(change.bound));
+    let certificate = Certificate {
+        figure: Figure::InfillChange,
+        value,
+        bound,
+        gap_ratio: (value - bound) / value.max(f64::MIN_POSITIVE),
+        residual: change.residual,
+        bound_over_heights: None,
+    };
+    let (quadric, moments, passes) = (change.quadric, change.moments, change.steps);
+    solution(
+        problem,
+        Found {
+            status,
+            quadric,
+            certificate,
+            moments,
+            passes,
+        },
+    )
+}
+
+fn solution(problem: &Problem, found: Found) -> Solution {
+    let Found {
+        status,
+        quadric,
+        certificate,
+        moments,
+        passes,
+    } = found;
+    Solution {
+        status,
+        objective: problem.goal.objective,
+        quadric,
+        certificate,
+        moments,
+        passes,
+        log: Vec::new(),
+        course: Vec::new(),
+        warm: Warm {
+            point: DualPoint {
+                y: DVector::zeros(0),
+                lambda: DVector::zeros(0),
+                tau: 0.0,
+            },
+            height: None,
+            lever: None,
+        },
+    }
+}
+
+fn dot(quadric: &Quadric, moments: &Moments) -> f64 {
+    let pairs = quadric.0.iter().zip(moments.0);
+    pairs
+        .map(|(coefficient, moment)| coefficient * moment)
+        .sum()
+}
+
+/// Returns the rows of a goal: its equations, and for what stands the tilt that it must bear.
+///
+/// A tilt about an edge of the support is borne while the centre is far enough inside of it for its
+/// height. Floating objects have no rows.
+pub fn rows(goal: &Goal, least_angle_rad: f64) -> Vec<Row> {
+    let zero = |index: usize| {
+        Row::zero(Quadric(std::array::from_fn(|i| {
+            f64::from(u8::from(i == index))
+        })))
+    };
+    match goal.kind {
+        GoalKind::Top | GoalKind::Balance => [X, Y, YZ, XZ].map(zero).to_vec(),
+        GoalKind::Yoyo => [X, Y, Z, YZ, XZ].map(zero).to_vec(),
+        GoalKind::Stand if goal.objective == Objective::LowestCenter => [X, Y].map(zero).to_vec(),
+        GoalKind::Stand => edge_rows(&goal.support, least_angle_rad),
+        GoalKind::Float => Vec::new(),
+    }
+}
+
+/// Returns a row for each edge of a support polygon.
+fn edge_rows(support: &[[f64; 2]], least_angle_rad: f64) -> Vec<Row> {
+    let next = support.iter().cycle().skip(1);
+    let edges = support
+        .iter()
+        .zip(next)
+        .filter_map(|(&[x, y], &[to_x, to_y])| {
+            let (along_x, along_y) = (to_x - x, to_y - y);
+            let length = along_x.hypot(along_y);
+            // Counterclockwise: the inside is on the left.
+            let inward = [-along_y / length, along_x / length];
+            (length > 0.0).then_some((inward, inward[0] * x + inward[1] * y))
+        });
+    let row = |([inward_x, inward_y], edge): ([f64; 2], f64)| {
+        let mut quadric = Quadric([0.0; 10]);
+        quadric.0[0] = edge;
+        (quadric.0[X], quadric.0[Y]) = (-inward_x, -inward_y);
+        quadric.0[Z] = least_angle_rad.tan();
+        Row {
+            quadric,
+            wanted: 0.0,
+            sense: Sense::AtMost,
+        }
+    };
+    edges.map(row).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::field::DensityRange;
+    use crate::goal::compute_figures;
+    use crate::hollow::worlds;
+
+    fn near(wished: f64, least_deg: f64) -> NearWished {
+        let range = DensityRange::new(0.1, 1.0).unwrap();
+        NearWished {
+            wished,
+            levels: PrintLevels::even(range, 4).unwrap(),
+            least_angle_rad: f64::to_radians(least_deg),
+        }
+    }
+
+    #[test]
+    fn what_stands_as_wished_is_not_changed() {
+        let world = worlds::blocks_on_a_slope();
+        let lost = world.columns.moments() * 0.3;
+        let as_wished = compute_figures(&world.goal, &(world.fixed - lost));
+        let stands_deg = as_wished.toppling_angle_rad.unwrap().to_degrees();
+        let solution = near(0.7, stands_deg - 0.5).solve(&world.problem());
+        assert_eq!(solution.status, Status::Solved);
+        assert!(
+            solution.certificate.value < 1e-9,
+            "{:?}",
+            solution.certificate
+        );
+    }
+
+    #[test]
+    fn what_must_bear_more_tilt_bears_just_that_and_its_change_has_a_bound() {
+        let world = worlds::blocks_on_a_slope();
+        let lost = world.columns.moments() * 0.3;
+        let as_wished = compute_figures(&world.goal, &(world.fixed - lost));
+        let wanted_deg = as_wished.toppling_angle_rad.unwrap().to_degrees() + 1.0;
+        let solution = near(0.7, wanted_deg).solve(&world.problem());
+        assert!(solution.is_usable(), "{:?}", solution.status);
+        let reached = compute_figures(&world.goal, &solution.moments);
+        let reached_deg = reached.toppling_angle_rad.unwrap().to_degrees();
+        assert!(
+            (reached_deg - wanted_deg).abs() < 1e-4,
+            "{reached_deg} {wanted_deg}"
+        );
+        let proof = solution.certificate;
+        assert!(
+            proof.value > 1e-3 && proof.gap_ratio.abs() < 1e-5,
+            "{proof:?}"
+        );
+    }
+
+    #[test]
+    fn a_tilt_that_no_density_bears_is_refused_with_its_proof() {
+        let world = worlds::blocks_on_a_slope();
+        let solution = near(0.7, 60.0).solve(&world.problem());
+        let Status::ConstraintsInfeasible {
+            least_miss,
+            separator,
+            ..
+        } = solution.status
+        else {
+            unreachable!("{:?}", solution.status)
+        };
+        assert!(least_miss > 0.0);
+        // The proof holds for uniform densities, as for all others.
+        let shell = world.fixed - world.columns.moments();
+        for density in [0.1, 0.4, 1.0] {
+            let moments = shell + world.columns.moments() * density;
+            let miss = dot(&separator, &moments) / world.fixed.volume();
+            assert!(miss >= least_miss * (1.0 - 1e-9), "{density}");
+        }
+    }
+}

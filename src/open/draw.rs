@@ -1,0 +1,83 @@
+//! The bodies of a solution besides its voids: pockets of ballast, and regions inside of regions.
+
+use rayon::prelude::*;
+
+use crate::ballast::{Load, PlacedPart, Pocket};
+use crate::base::watch::Watch;
+use crate::cut::{Seat, Void};
+use crate::error::Error;
+use crate::geom::Quadric;
+use crate::hollow::Solution;
+use crate::mesh::{Solid, TriMesh};
+use crate::run::{Level, Nested, Placed, Voids};
+use crate::voids::{Cavity, VoidError, without_slivers};
+
+/// Returns the quadric that is positive in a solution's voids, or in its outermost region of
+/// infill.
+pub fn outermost(placed: &Placed, solution: &Solution) -> Quadric {
+    let levels = placed.sparse.iter().flat_map(|nested| &nested.levels);
+    let mut quadrics = levels.map(|level| level.quadric(&solution.quadric));
+    quadrics.next().unwrap_or(solution.quadric)
+}
+
+/// Draws the regions of infill inside of the outermost one, model frame.
+///
+/// Bodies that are too small to be printed on their own are left to the region around them.
+pub fn draw_inner(
+    cavity: &Cavity,
+    placed: &Placed,
+    solution: &Solution,
+    watch: &Watch,
+) -> Result<Vec<TriMesh>, Error> {
+    let levels = placed.sparse.as_ref().map_or(&[][..], inner_levels);
+    let frame = &placed.goal().frame;
+    let draw = |quadric: Quadric| {
+        let bodies = cavity.void_bodies(&quadric, frame, watch)?.bodies;
+        let join = |all: TriMesh, body: &Solid| all.joined(body.mesh());
+        Ok(bodies.iter().fold(TriMesh::default(), join))
+    };
+    let levels = levels.par_iter();
+    let drawn = levels.map(|level| draw(level.quadric(&solution.quadric)));
+    drawn.collect()
+}
+
+fn inner_levels(nested: &Nested) -> &[Level] {
+    nested.levels.get(1..).unwrap_or_default()
+}
+
+/// Returns the pockets of ballast, each with the seat of its part.
+pub fn pockets(load: &Load) -> Result<Vec<Void>, Error> {
+    let pocket = |(placed, pocket): (&PlacedPart, Pocket)| {
+        let seat = Seat {
+            center: pocket.center,
+            axis: pocket.half_height_mm.map(|half| (pocket.axis, half)),
+            radius_mm: pocket.radius_mm,
+            opening_mm: 2.0 * placed.lump.shape.radius_mm(),
+        };
+        Ok(Void {
+            body: Solid::new(pocket.mesh()).map_err(VoidError::from)?,
+            holds: Some(seat),
+        })
+    };
+    load.parts.iter().zip(load.pockets()).map(pocket).collect()
+}
+
+/// Returns the voids without the slivers that the rounding of a file would fold.
+pub fn finish(mut voids: Voids, watch: &Watch) -> Result<Voids, Error> {
+    let bodies = std::mem::take(&mut voids.hollowed.voids);
+    let finish = |void: Void| {
+        let body = without_slivers(&void.body, watch)?;
+        Ok::<_, Error>(Void { body, ..void })
+    };
+    let finished = bodies.into_par_iter().map(finish);
+    voids.hollowed.voids = finished.collect::<Result<_, _>>()?;
+    let inner = voids.inner.into_par_iter().map(|region| {
+        if region.is_empty() {
+            return Ok::<_, Error>(region);
+        }
+        let solid = Solid::new(region).map_err(VoidError::from)?;
+        Ok(without_slivers(&solid, watch)?.into_mesh())
+    });
+    voids.inner = inner.collect::<Result<_, _>>()?;
+    Ok(voids)
+}

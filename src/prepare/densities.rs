@@ -1,0 +1,262 @@
+//! The densities of a graded print: nested regions from what a job orders and a printer lays.
+
+use crate::error::GradedError;
+use crate::field::DensityRange;
+use crate::goal::GoalKind;
+use crate::hollow::{Fill, NearWished, PrintLevels, TILT_MARGIN_RAD};
+use crate::job::{DensityOrder, InfillDensity, Job, LevelCount, PartFormat};
+use crate::printer::{InfillPattern, Printer, Quantity};
+use crate::run::{Extent, Level, Nested};
+
+/// Steps of per cent to which the densities between the least and the greatest are rounded: slicers
+/// show them as typed.
+const STEPS_PER_PERCENT: f64 = 10.0;
+
+/// A printer's infill, and the least of it that carries what is printed over it.
+struct Stock<'a> {
+    pattern: &'a InfillPattern,
+    least_ratio: f64,
+}
+
+/// Returns the regions of infill that a graded job orders of a printer.
+///
+/// # Errors
+/// The printer has no infill, or does not print what the job orders.
+pub fn nested(job: &Job, printer: &Printer) -> Result<Nested, GradedError> {
+    let no_infill = || GradedError::NoInfill {
+        printer: printer.name.clone(),
+    };
+    let stock = Stock {
+        pattern: printer.infill.as_ref().ok_or_else(no_infill)?,
+        least_ratio: printer
+            .number(Quantity::LeastInfillRatio)
+            .ok_or_else(no_infill)?
+            .value,
+    };
+    let order = order(job, printer, &stock)?;
+    let nested = match job.infill {
+        Some(wished) => near(job, &stock, order, wished)?,
+        None => two(&stock, order),
+    };
+    let regions = nested.levels.len();
+    if job.format == PartFormat::ThreeMf && regions > 1 {
+        return Err(GradedError::OnlyThreeMf { regions });
+    }
+    Ok(nested)
+}
+
+/// Returns the filling that stands for the regions where voids are solved for.
+pub fn fill(nested: &Nested) -> Option<Fill> {
+    let outermost = nested.levels.first()?;
+    let high = match outermost.extent {
+        Extent::Interior => outermost.laid_ratio,
+        Extent::Above(_) => 1.0,
+    };
+    let range = DensityRange::new(nested.levels.last()?.laid_ratio, high).ok()?;
+    Some(Fill::between(range))
+}
+
+/// Returns the least and the greatest density, and refuses those that do not print.
+fn order(job: &Job, printer: &Printer, stock: &Stock) -> Result<DensityOrder, GradedError> {
+    let no_infill = || GradedError::NoInfill {
+        printer: printer.name.clone(),
+    };
+    let least = InfillDensity::of_ratio(stock.least_ratio).ok_or_else(no_infill)?;
+    let usual = DensityOrder::new(least, InfillDensity::SOLID).map_err(|_| no_infill())?;
+    let order = job.density.unwrap_or(usual);
+    if order.low() < least {
+        return Err(GradedError::TooSparse {
+            printer: printer.name.clone(),
+            density: order.low(),
+            high: order.high(),
+            least,
+        });
+    }
+    if let (Some(levels), None) = (job.levels, job.infill) {
+        return Err(GradedError::LevelsAlone { levels });
+    }
+    match job.infill {
+        Some(wished) if job.goal.kind == GoalKind::Float => {
+            Err(GradedError::WishedAfloat { wished })
+        }
+        Some(wished) if wished < order.low() || wished > order.high() => {
+            Err(GradedError::WishedOutside {
+                wished,
+                densities: order,
+            })
+        }
+        _ => Ok(order),
+    }
+}
+
+impl Stock<'_> {
+    /// Returns the density that is laid for a nominal one. All of it is solid print, which is laid
+    /// by another pattern.
+    fn laid_ratio(&self, nominal_ratio: f64) -> f64 {
+        match nominal_ratio < 1.0 {
+            true => self.pattern.laid_ratio(nominal_ratio),
+            false => 1.0,
+        }
+    }
+
+    /// Returns the region of a nominal density, as far as it is no solid print.
+    fn level(&self, nominal_ratio: f64, extent: Extent) -> Option<Level> {
+        let level = Level {
+            nominal_ratio,
+            laid_ratio: self.laid_ratio(nominal_ratio),
+            extent,
+        };
+        (nominal_ratio < 1.0).then_some(level)
+    }
+
+    /// Returns the regions of these densities, the outermost first.
+    fn nested(&self, levels: impl IntoIterator<Item = Option<Level>>) -> Nested {
+        Nested {
+            pattern: self.pattern.pattern.clone(),
+            levels: levels.into_iter().flatten().collect(),
+            near: None,
+        }
+    }
+}
+
+/// Returns the regions of two densities at their best.
+fn two(stock: &Stock, order: DensityOrder) -> Nested {
+    let high = stock.level(order.high().ratio(), Extent::Interior);
+    stock.nested([high, stock.level(order.low().ratio(), Extent::Above(0.0))])
+}
+
+/// Returns the regions of several densities near a wished one.
+fn near(
+    job: &Job,
+    stock: &Stock,
+    order: DensityOrder,
+    wished: InfillDensity,
+) -> Result<Nested, GradedError> {
+    let count = job.levels.unwrap_or(LevelCount::USUAL).count();
+    let nominal = even(order, count);
+    let laid: Vec<f64> = nominal.iter().map(|it| stock.laid_ratio(*it)).collect();
+    let levels = PrintLevels::new(laid).map_err(|_| GradedError::Levels { count })?;
+    let least_angle_rad = job.goal.promised_angle_deg().unwrap_or(0.0).to_radians();
+    let near = NearWished {
+        wished: stock.laid_ratio(wished.ratio()),
+        levels,
+        least_angle_rad: least_angle_rad + TILT_MARGIN_RAD,
+    };
+    let cuts = near.cuts();
+    let (greatest, others) = nominal.split_last().ok_or(GradedError::Levels { count })?;
+    let outermost = stock.level(*greatest, Extent::Interior);
+    let inner = others.iter().zip(&cuts).rev();
+    let inner = inner.map(|(nominal, cut)| stock.level(*nominal, Extent::Above(-cut)));
+    let nested = stock.nested(std::iter::once(outermost).chain(inner));
+    Ok(Nested {
+        near: Some(near),
+        ..nested
+    })
+}
+
+/// Returns densities at even steps, those between the ends rounded.
+fn even(order: DensityOrder, count: usize) -> Vec<f64> {
+    let (low, high) = (order.low().ratio(), order.high().ratio());
+    let steps = count.saturating_sub(1).max(1);
+    let steps_per_unit = 100.0 * STEPS_PER_PERCENT;
+    let density = |index: usize| {
+        let even = low + (high - low) * index as f64 / steps as f64;
+        match index {
+            0 => low,
+            _ if index == steps => high,
+            _ => (even * steps_per_unit).round() / steps_per_unit,
+        }
+    };
+    (0..=steps).map(density).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::base::units::Length;
+    use crate::goal::Request;
+    use crate::job::{Interior, ModelChoice, PrinterChoice, Scaling};
+
+    fn job(density: Option<&str>, infill: Option<&str>, levels: Option<&str>) -> Job {
+        let model = ModelChoice {
+            path: "a.stl".into(),
+            sha256: None,
+            scaling: Scaling::Size(Length::from_mm(60.0).unwrap()),
+        };
+        let printer = PrinterChoice {
+            id: "prusa-mk4".into(),
+            material: None,
+        };
+        Job {
+            interior: Interior::Graded,
+            density: density.map(|text| text.parse().unwrap()),
+            infill: infill.map(|text| text.parse().unwrap()),
+            levels: levels.map(|text| text.parse().unwrap()),
+            ..Job::new(model, printer, Request::new(GoalKind::Stand))
+        }
+    }
+
+    fn ordered(job: &Job) -> Result<Nested, GradedError> {
+        nested(job, &Printer::find("prusa-mk4").unwrap())
+    }
+
+    fn percents(nested: &Nested) -> Vec<f64> {
+        nested.levels.iter().map(Level::nominal_percent).collect()
+    }
+
+    #[test]
+    fn without_an_order_one_region_of_the_least_infill_lies_in_solid_print() {
+        let nested = ordered(&job(None, None, None)).unwrap();
+        assert_eq!(percents(&nested), [15.0]);
+        assert_eq!(nested.levels[0].extent, Extent::Above(0.0));
+        assert_eq!(fill(&nested).unwrap().density_ratio(), 0.142);
+    }
+
+    #[test]
+    fn a_greatest_density_below_solid_fills_all_of_the_interior() {
+        let nested = ordered(&job(Some("20%..60%"), None, None)).unwrap();
+        assert_eq!(percents(&nested), [60.0, 20.0]);
+        assert_eq!(nested.levels[0].extent, Extent::Interior);
+        // Between the rows of 50 and 70 per cent of the profile's table.
+        let laid = nested.levels[0].laid_ratio;
+        assert!((laid - 0.5 * (0.4648 + 0.6421)).abs() < 2e-3, "{laid}");
+    }
+
+    #[test]
+    fn levels_near_an_infill_are_cut_midway_between_their_densities() {
+        let nested = ordered(&job(None, Some("40%"), Some("5"))).unwrap();
+        assert_eq!(percents(&nested), [78.8, 57.5, 36.3, 15.0]);
+        let near = nested.near.as_ref().unwrap();
+        let middle = 0.5 * (1.0 + nested.levels[0].laid_ratio) - near.wished;
+        assert_eq!(nested.levels[0].extent, Extent::Above(-middle));
+        let sparse = ordered(&job(Some("15%..75%"), Some("40%"), Some("3"))).unwrap();
+        assert_eq!(percents(&sparse), [75.0, 45.0, 15.0]);
+        assert_eq!(sparse.levels[0].extent, Extent::Interior);
+    }
+
+    #[test]
+    fn what_does_not_print_or_means_nothing_is_refused_with_what_to_type() {
+        for (job, said) in [
+            (job(Some("5%..60%"), None, None), "`density = \"15%..60%\"`"),
+            (
+                job(Some("5%..10%"), None, None),
+                "`density = \"15%..100%\"`",
+            ),
+            (job(Some("20%..60%"), Some("70%"), None), "not within"),
+            (job(None, None, Some("4")), "`infill = \"40%\"`"),
+            (
+                job(Some("20%..20.2%"), Some("20.1%"), Some("12")),
+                "farther apart",
+            ),
+        ] {
+            let words = ordered(&job).unwrap_err().to_string();
+            assert!(words.contains(said), "{words}");
+        }
+        let packed = Job {
+            format: PartFormat::ThreeMf,
+            ..job(Some("15%..60%"), None, None)
+        };
+        let words = ordered(&packed).unwrap_err().to_string();
+        assert!(words.contains("`format = \"both\"`"), "{words}");
+    }
+}
