@@ -82,7 +82,6 @@ pub fn sample_pictures(sheet: &Checklist, evidence: &Evidence) -> (Vec<Picture>,
     } = &evidence.promise;
     let subject = Subject {
         infill: None,
-        laid: None,
         jigs: &evidence.jigs,
         promised_jigs: &evidence.promise.jigs,
         shells: &shells,
