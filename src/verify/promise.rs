@@ -79,20 +79,6 @@ pub struct Promise {
     pub files: BTreeMap<String, String>,
 }
 
-impl Promise {
-    /// Returns the moments of what a slicer is said to lay beyond surfaces and regions, in the
-    /// model frame; `None` if the kit says nothing of it.
-    pub(super) fn laid_beyond(&self) -> Option<Moments> {
-        let hollow = self.laid.as_ref().map(|laid| Moments(laid.beyond));
-        let infill = self.infill.as_ref();
-        let infill = infill.filter(|infill| infill.beyond.is_some());
-        match (hollow, infill.map(InfillOrder::beyond)) {
-            (Some(hollow), Some(infill)) => Some(hollow + infill),
-            (hollow, infill) => hollow.or(infill),
-        }
-    }
-}
-
 /// The part of the checklist's certificate that the judge reads.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 pub struct PromisedBound {
@@ -395,6 +381,20 @@ pub struct PromisedVoid {
 }
 
 impl Promise {
+    /// Returns the moments of what a slicer is said to lay beyond surfaces and regions, in the
+    /// model frame; `None` if the kit says nothing of it.
+    pub(super) fn laid_beyond(&self) -> Option<Moments> {
+        let hollow = self.laid.as_ref().map(|laid| Moments(laid.beyond));
+        let infill = self
+            .infill
+            .as_ref()
+            .filter(|infill| infill.beyond.is_some());
+        match (hollow, infill.map(InfillOrder::beyond)) {
+            (Some(hollow), Some(infill)) => Some(hollow + infill),
+            (hollow, infill) => hollow.or(infill),
+        }
+    }
+
     /// Returns the gap ordered between the pins and sockets of a joint, mm; 0 for a joint that is
     /// not in the list.
     pub(super) fn clearance_mm(&self, joint: &str) -> f64 {
