@@ -17,6 +17,7 @@ mod evidence;
 mod files;
 mod reading;
 // The facts about a whole body.
+mod asked;
 mod ballast;
 mod body;
 mod bound;

@@ -10,7 +10,7 @@ use super::{
 };
 use crate::geom::{Frame, Point, Vector};
 use crate::goal::GoalKind;
-use crate::mass::{FlatFace, Moments};
+use crate::mass::FlatFace;
 
 /// The schema of `checklist.json` this judge understands.
 pub const SCHEMA: u32 = 1;
@@ -378,27 +378,4 @@ pub struct PromisedVoid {
     /// The least opening that was ordered for it, mm; the printer's if none is stated.
     #[serde(default)]
     pub least_opening_mm: Option<f64>,
-}
-
-impl Promise {
-    /// Returns the moments of what a slicer is said to lay beyond surfaces and regions, in the
-    /// model frame; `None` if the kit says nothing of it.
-    pub(super) fn laid_beyond(&self) -> Option<Moments> {
-        let hollow = self.laid.as_ref().map(|laid| Moments(laid.beyond));
-        let infill = self
-            .infill
-            .as_ref()
-            .filter(|infill| infill.beyond.is_some());
-        match (hollow, infill.map(InfillOrder::beyond)) {
-            (Some(hollow), Some(infill)) => Some(hollow + infill),
-            (hollow, infill) => hollow.or(infill),
-        }
-    }
-
-    /// Returns the gap ordered between the pins and sockets of a joint, mm; 0 for a joint that is
-    /// not in the list.
-    pub(super) fn clearance_mm(&self, joint: &str) -> f64 {
-        let found = self.joints.iter().find(|known| known.id == joint);
-        found.map_or(0.0, |joint| joint.clearance_mm)
-    }
 }

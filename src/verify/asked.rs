@@ -1,0 +1,27 @@
+//! What is asked of a kit's promises as a whole.
+
+use super::{InfillOrder, Promise};
+use crate::mass::Moments;
+
+impl Promise {
+    /// Returns the moments of what a slicer is said to lay beyond surfaces and regions, in the
+    /// model frame; `None` if the kit says nothing of it.
+    pub(super) fn laid_beyond(&self) -> Option<Moments> {
+        let hollow = self.laid.as_ref().map(|laid| Moments(laid.beyond));
+        let infill = self
+            .infill
+            .as_ref()
+            .filter(|infill| infill.beyond.is_some());
+        match (hollow, infill.map(InfillOrder::beyond)) {
+            (Some(hollow), Some(infill)) => Some(hollow + infill),
+            (hollow, infill) => hollow.or(infill),
+        }
+    }
+
+    /// Returns the gap ordered between the pins and sockets of a joint, mm; 0 for a joint that is
+    /// not in the list.
+    pub(super) fn clearance_mm(&self, joint: &str) -> f64 {
+        let found = self.joints.iter().find(|known| known.id == joint);
+        found.map_or(0.0, |joint| joint.clearance_mm)
+    }
+}
