@@ -182,7 +182,8 @@ fn refuse_unsliced(request: &Request) -> Result<(), GradedError> {
     let job = &request.job;
     let is_unsliced = !request.slice && job.sliced.is_empty();
     let floats = job.goal.kind == GoalKind::Float && !job.interior.is_hollow();
-    if floats && is_unsliced {
+    // A wished infill is refused for what floats, sliced or not, and that is said later.
+    if floats && is_unsliced && job.infill.is_none() {
         return Err(GradedError::FloatUnsliced);
     }
     Ok(())
