@@ -19,7 +19,7 @@ const GRADE_SHARE_RATIO: f64 = 0.1;
 const BEARING_TOLERANCE_RAD: f64 = 0.5 * TILT_MARGIN_RAD;
 
 /// Returns the distance of a body from all that it was solved for, in the tolerances of a written
-/// kit. That is [`defect_ratio`], and the tilt that an object near a wished infill must bear.
+/// kit. That is the usual defect, and the tilt that an object near a wished infill must bear.
 pub fn shortfall_ratio(placed: &Placed, solved: &Moments, moments: &Moments) -> f64 {
     let goal = placed.goal();
     let own = defect_ratio(goal, solved, moments);

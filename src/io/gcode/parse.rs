@@ -29,7 +29,7 @@ pub struct Options {
 /// Reads G-code as text, in memory that does not grow with the file.
 ///
 /// # Errors
-/// Names the line that is no G-code, that no machine could follow, or that exceeds a [`Limit`].
+/// Names the line that is no G-code, that no machine could follow, or that exceeds a bound.
 pub fn read_text(
     input: impl BufRead,
     options: &Options,
