@@ -25,8 +25,8 @@ pub const HATCH: Color = [255, 214, 170];
 /// The ground of sparse infill: pale blue.
 pub const SPARSE: Color = [226, 241, 251];
 
-/// The ground of the densest infill of several: a blue between that and the inside of a void.
-pub const DENSE: Color = [120, 172, 208];
+/// The ground of the densest infill of several: dark blue, so that its stripes show.
+pub const DENSE: Color = [58, 110, 150];
 
 /// Hardware: dark grey.
 pub const HARDWARE: Color = [84, 88, 96];
