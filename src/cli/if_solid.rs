@@ -8,7 +8,13 @@ use crate::verify::FigureName;
 
 /// Returns what the model would do if it were printed solid, and its mass.
 pub fn solid_words(checklist: &Checklist) -> String {
-    let named = checklist.certificate.figure;
+    let certified = checklist.certificate.figure;
+    let promised = checklist.promise.map(|promise| promise.figure);
+    // The certificate of infill near a wished one says nothing of solid print.
+    let named = match certified {
+        FigureName::InfillChangeRatio => promised.unwrap_or(certified),
+        _ => certified,
+    };
     let mass = measured(checklist.solid.mass_g, "g");
     let kind = checklist.goal.aim.kind;
     let does = match (checklist.solid.value_of(named), kind) {

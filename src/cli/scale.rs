@@ -14,8 +14,9 @@ use super::voice::Voice;
 use crate::base::numbers::quantity;
 use crate::base::watch::Watch;
 use crate::field::FileError;
+use crate::job::InfillDensity;
 use crate::slice::{ScaleError, ScaleOrder, Scaled, scale_toolpaths};
-use crate::verify::{Figures, PrintedError, PrintedPart, verify_printed};
+use crate::verify::{Figures, PrintedError, PrintedJudgement, PrintedPart, verify_printed};
 
 /// A reason why no toolpaths were written.
 #[derive(Debug, thiserror::Error)]
@@ -74,16 +75,10 @@ pub fn scale_extrusion(
         toolpaths: args.toolpaths.clone(),
         kit: args.kit.clone(),
         field: args.field.order()?,
-        infill_ratio: args.infill,
+        infill_ratio: args.infill.map(InfillDensity::ratio),
         most_flow_mm3_s: args.most_flow,
     };
-    let scaled = write(&order, &args.out, &watch)?;
-    let judged = [&args.toolpaths, &args.out].map(|file| {
-        let files = [file.clone()];
-        verify_printed(&args.kit, &files, &watch)
-    });
-    let [before, after] = judged;
-    let (before, after) = (before?, after?);
+    let (scaled, [before, after]) = write(&order, &args.out, &watch)?;
     let parts = before.parts.iter().filter_map(|part| {
         let now = after.parts.iter().find(|now| now.id == part.id)?;
         Some([part, now])
@@ -107,7 +102,12 @@ pub fn scale_extrusion(
 }
 
 /// Writes the scaled toolpaths under another name first, so that nothing half-written is left.
-fn write(order: &ScaleOrder, path: &Path, watch: &Watch) -> Result<Scaled, ScaleCommandError> {
+/// Returns the weight of the toolpaths before and after, too.
+fn write(
+    order: &ScaleOrder,
+    path: &Path,
+    watch: &Watch,
+) -> Result<(Scaled, [PrintedJudgement; 2]), ScaleCommandError> {
     let refused = |source| NewFileError::Write {
         path: path.to_owned(),
         source,
@@ -117,8 +117,10 @@ fn write(order: &ScaleOrder, path: &Path, watch: &Watch) -> Result<Scaled, Scale
     let written = scale_toolpaths(order, &mut output, watch).map_err(ScaleCommandError::from);
     let written = written.and_then(|scaled| {
         output.flush().map_err(refused)?;
+        let weigh = |file: &PathBuf| verify_printed(&order.kit, &[file.clone()], watch);
+        let weighed = [weigh(&order.toolpaths)?, weigh(&draft)?];
         fs::rename(&draft, path).map_err(refused)?;
-        Ok(scaled)
+        Ok((scaled, weighed))
     });
     if written.is_err() {
         // The fault that matters is reported, not that of removing the draft.

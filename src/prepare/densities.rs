@@ -90,20 +90,11 @@ fn order(job: &Job, printer: &Printer, stock: &Stock) -> Result<DensityOrder, Gr
 }
 
 impl Stock<'_> {
-    /// Returns the density that is laid for a nominal one. All of it is solid print, which is laid
-    /// by another pattern.
-    fn laid_ratio(&self, nominal_ratio: f64) -> f64 {
-        match nominal_ratio < 1.0 {
-            true => self.pattern.laid_ratio(nominal_ratio),
-            false => 1.0,
-        }
-    }
-
     /// Returns the region of a nominal density, as far as it is no solid print.
     fn level(&self, nominal_ratio: f64, extent: Extent) -> Option<Level> {
         let level = Level {
             nominal_ratio,
-            laid_ratio: self.laid_ratio(nominal_ratio),
+            laid_ratio: self.pattern.laid_ratio(nominal_ratio),
             extent,
         };
         (nominal_ratio < 1.0).then_some(level)
@@ -133,12 +124,15 @@ fn near(
     wished: InfillDensity,
 ) -> Result<Nested, GradedError> {
     let count = job.levels.unwrap_or(LevelCount::USUAL).count();
-    let nominal = even(order, count);
-    let laid: Vec<f64> = nominal.iter().map(|it| stock.laid_ratio(*it)).collect();
+    let nominal = around(order, wished, count);
+    let laid: Vec<f64> = nominal
+        .iter()
+        .map(|it| stock.pattern.laid_ratio(*it))
+        .collect();
     let levels = PrintLevels::new(laid).map_err(|_| GradedError::Levels { count })?;
     let least_angle_rad = job.goal.promised_angle_deg().unwrap_or(0.0).to_radians();
     let near = NearWished {
-        wished: stock.laid_ratio(wished.ratio()),
+        wished: stock.pattern.laid_ratio(wished.ratio()),
         levels,
         least_angle_rad: least_angle_rad + TILT_MARGIN_RAD,
     };
@@ -154,17 +148,30 @@ fn near(
     })
 }
 
-/// Returns densities at even steps, those between the ends rounded.
-fn even(order: DensityOrder, count: usize) -> Vec<f64> {
-    let (low, high) = (order.low().ratio(), order.high().ratio());
+/// Returns densities from the least to the greatest, one of which is the wished one. Steps on
+/// either side of it are even, and as long as can be on both. Those between are rounded.
+fn around(order: DensityOrder, wished: InfillDensity, count: usize) -> Vec<f64> {
+    let ends = [order.low(), wished, order.high()].map(InfillDensity::ratio);
+    let [low, wished, high] = ends;
     let steps = count.saturating_sub(1).max(1);
+    let share = (wished - low) / (high - low) * steps as f64;
+    let below = match (low < wished, wished < high) {
+        (false, _) => 0,
+        (_, false) => steps,
+        _ => (share.round() as usize).clamp(1, steps.saturating_sub(1).max(1)),
+    };
     let steps_per_unit = 100.0 * STEPS_PER_PERCENT;
-    let density = |index: usize| {
-        let even = low + (high - low) * index as f64 / steps as f64;
-        match index {
-            0 => low,
-            _ if index == steps => high,
-            _ => (even * steps_per_unit).round() / steps_per_unit,
+    let density = |index: usize| match index {
+        0 => low,
+        _ if index == steps => high,
+        _ if index == below => wished,
+        _ => {
+            let even = if index < below {
+                low + (wished - low) * index as f64 / below as f64
+            } else {
+                wished + (high - wished) * (index - below) as f64 / (steps - below) as f64
+            };
+            (even * steps_per_unit).round() / steps_per_unit
         }
     };
     (0..=steps).map(density).collect()
@@ -225,13 +232,33 @@ mod tests {
     #[test]
     fn levels_near_an_infill_are_cut_midway_between_their_densities() {
         let nested = ordered(&job(None, Some("40%"), Some("5"))).unwrap();
-        assert_eq!(percents(&nested), [78.8, 57.5, 36.3, 15.0]);
+        assert_eq!(percents(&nested), [80.0, 60.0, 40.0, 15.0]);
         let near = nested.near.as_ref().unwrap();
         let middle = 0.5 * (1.0 + nested.levels[0].laid_ratio) - near.wished;
         assert_eq!(nested.levels[0].extent, Extent::Above(-middle));
         let sparse = ordered(&job(Some("15%..75%"), Some("40%"), Some("3"))).unwrap();
-        assert_eq!(percents(&sparse), [75.0, 45.0, 15.0]);
+        assert_eq!(percents(&sparse), [75.0, 40.0, 15.0]);
         assert_eq!(sparse.levels[0].extent, Extent::Interior);
+    }
+
+    #[test]
+    fn the_wished_infill_is_always_one_of_the_levels() {
+        for wished in ["15%", "16%", "40%", "57.5%", "99%", "100%"] {
+            for count in 3..=12 {
+                let order = "15%..100%".parse().unwrap();
+                let wished: InfillDensity = wished.parse().unwrap();
+                let found = around(order, wished, count);
+                assert_eq!(found.len(), count);
+                assert!(
+                    found.contains(&wished.ratio()),
+                    "{wished} {count}: {found:?}"
+                );
+                assert!(
+                    found.windows(2).all(|pair| pair[0] < pair[1]),
+                    "{wished} {count}: {found:?}"
+                );
+            }
+        }
     }
 
     #[test]

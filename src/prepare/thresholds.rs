@@ -100,10 +100,7 @@ impl Search<'_> {
 
     fn laid_ratio(&self, density: InfillDensity) -> f64 {
         let infill = self.placed.shop.printer.infill.as_ref();
-        match (density < InfillDensity::SOLID, infill) {
-            (true, Some(infill)) => infill.laid_ratio(density.ratio()),
-            _ => 1.0,
-        }
+        infill.map_or(1.0, |infill| infill.laid_ratio(density.ratio()))
     }
 
     /// Returns whether a solve with these densities meets the goal.

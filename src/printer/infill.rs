@@ -18,8 +18,11 @@ impl InfillPattern {
     /// Returns the density that is laid for a nominal one, both over that of solid print.
     ///
     /// Between two rows it lies on the line between them. Outside of the table, the share laid is
-    /// that of the nearest row.
+    /// that of the nearest row. All of it is solid print, which slicers lay in another pattern.
     pub fn laid_ratio(&self, nominal_ratio: f64) -> f64 {
+        if nominal_ratio >= 1.0 {
+            return 1.0;
+        }
         let rows = &self.core_ratio.value;
         let above = rows.partition_point(|[nominal, _]| *nominal < nominal_ratio);
         match (
@@ -77,6 +80,7 @@ mod tests {
         assert!((infill.laid_ratio(0.05) - 0.045).abs() < 1e-12);
         assert!((infill.laid_ratio(0.8) - 0.72).abs() < 1e-12);
         assert_eq!(table(&[]).laid_ratio(0.3), 0.3);
+        assert_eq!(infill.laid_ratio(1.0), 1.0, "solid print");
     }
 
     #[test]

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::FieldChoice;
-use crate::field::{Order, WordsError};
+use crate::job::InfillDensity;
 use crate::slice::MOST_FLOW_MM3_S;
 
 /// The arguments of `scale-extrusion`.
@@ -23,8 +23,8 @@ pub struct ScaleArgs {
     pub field: FieldChoice,
     /// The density of sparse infill with which the plate was sliced [default: what the kit or the
     /// file says]
-    #[arg(long, value_name = "SHARE", value_parser = share)]
-    pub infill: Option<f64>,
+    #[arg(long, value_name = "PERCENT")]
+    pub infill: Option<InfillDensity>,
     /// Most that the hot end melts, mm³/s; pieces that need more are laid more slowly
     #[arg(long, value_name = "NUMBER", value_parser = flow, default_value_t = MOST_FLOW_MM3_S)]
     pub most_flow: f64,
@@ -34,15 +34,6 @@ pub struct ScaleArgs {
     /// Replace the file if it exists
     #[arg(long)]
     pub force: bool,
-}
-
-/// Reads a density above zero: `40%` or `0.4`.
-fn share(text: &str) -> Result<f64, WordsError> {
-    let remedy = "give a share above 0, such as 40%";
-    match format!("uniform:{text}").parse()? {
-        Order::Uniform(uniform) if uniform.0 > 0.0 => Ok(uniform.0),
-        _ => Err(WordsError::Density(text.to_owned(), remedy.to_owned())),
-    }
 }
 
 /// Reads a flow above zero, mm³/s.

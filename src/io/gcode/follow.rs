@@ -19,9 +19,9 @@ pub struct Follower {
     pub heights: Heights,
     /// The objects.
     pub labels: Labels,
-    /// What the slicer says of the whole file.
+    /// The slicer's words about the whole file.
     pub notes: Notes,
-    /// Whether the file names features.
+    /// True if the file names features.
     pub has_features: bool,
     feature: Feature,
 }

@@ -40,10 +40,10 @@ pub trait Portions {
     fn factor(&self, feature: Feature, at: &Point) -> f64;
 }
 
-/// What is asked of a program that is written again.
+/// An order to write a program again.
 #[derive(Clone, Copy)]
 pub struct Rewriting<'a> {
-    /// How much is laid where.
+    /// The portions of material at every place.
     pub portions: &'a dyn Portions,
     /// Longest piece into which a bead is cut, mm.
     pub piece_mm: f64,
@@ -55,7 +55,7 @@ pub struct Rewriting<'a> {
     pub filament_mm2: f64,
 }
 
-/// What was written.
+/// The counts of what was written.
 #[derive(Debug, Clone, Copy, PartialEq, Default, serde::Serialize)]
 pub struct Rewritten {
     /// Number of beads that were scaled.
@@ -66,7 +66,7 @@ pub struct Rewritten {
     pub slowed: u64,
     /// Least and greatest factor; zero without beads.
     pub factors: [f64; 2],
-    /// What E moves in these beads, before and after: mm of filament, or mm³ if it is volumetric.
+    /// Feed of E in these beads, before and after: mm of filament, or mm³ if it is volumetric.
     pub fed: [f64; 2],
 }
 
@@ -168,9 +168,9 @@ struct Writer<'a> {
     follower: Follower,
     rewriting: &'a Rewriting<'a>,
     output: &'a mut dyn Write,
-    /// What absolute places of E are ahead of those of the slicer, in steps.
+    /// Lead of absolute places of E over those of the slicer, in steps.
     shift_steps: i64,
-    /// What is still to be fed, as rounding left it.
+    /// Rest that is still to be fed, as rounding left it.
     left: f64,
     /// The speed that holds in the slicer's program, mm/min.
     asked_speed: f64,

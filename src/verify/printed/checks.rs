@@ -9,6 +9,7 @@ use super::limits::{
 use super::part::PrintedPart;
 use crate::geom::Vector;
 use crate::goal::GoalKind;
+use crate::mass::Moments;
 use crate::verify::{
     Afloat, Aim, Check, CheckKind, DOMINANCE_LIMIT_RATIO, FIGURE_SLACK_RATIO, FigureName, Figures,
     Limit, METACENTRIC_LIMIT_MM, PromisedFigure, RIGHTING_LIMIT_DEG, STANDING_LIMIT_DEG,
@@ -72,14 +73,19 @@ fn cause_checks(found: &PrintedJudgement) -> [Check; 3] {
 /// Checks what all parts weigh together, and their centre if none is missing.
 fn weight_checks(found: &PrintedJudgement) -> Vec<Check> {
     let parts = &found.parts;
+    let stated = match found.missing.is_empty() {
+        true => found.stated_g,
+        false => Moments::default(),
+    };
     let written_g: f64 = parts.iter().map(|part| part.written_mass_g).sum();
+    let written_g = written_g + stated.volume();
     let printed_g: f64 = parts.iter().map(|part| part.mass_g).sum();
     // A density has a cause of its own.
-    let laid = |part: &PrintedPart| part.volume_ratio * part.written_mass_g;
+    let laid = |part: &PrintedPart| part.volume_ratio * part.nominal_mass_g;
     let laid_g: f64 = parts.iter().map(laid).sum();
     let written = |part: &PrintedPart| Vector::from(part.written_center_mm) * part.written_mass_g;
     let printed = |part: &PrintedPart| Vector::from(part.center_mm) * part.mass_g;
-    let written = parts.iter().map(written).sum::<Vector>() / written_g;
+    let written = (parts.iter().map(written).sum::<Vector>() + stated.first()) / written_g;
     let printed = parts.iter().map(printed).sum::<Vector>() / printed_g;
     let surface = |part: &PrintedPart| part.surface_per_mm * part.written_mass_g;
     let surface_per_mm = parts.iter().map(surface).sum::<f64>() / written_g;

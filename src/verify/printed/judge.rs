@@ -88,6 +88,9 @@ pub(super) fn judge_toolpaths(
         model: weighing.model(body),
         written: weighing.weigh(&weighing.written),
         toolpaths: laid.map(|laid| weighing.weigh(&laid)),
+        stated_g: promise.laid.as_ref().map_or(Moments::default(), |laid| {
+            Moments(laid.beyond) * weighing.setting.density_g_mm3()
+        }),
         beyond: laid.map(|laid| laid - (weighing.written - stated)),
         causes: find_causes(promise, &parts, &missing, sources),
         notes: write_notes(promise, &matches, &parts, sources),

@@ -29,6 +29,10 @@ pub struct PrintedJudgement {
     /// material and the model frame; `None` if parts are missing.
     #[serde(skip)]
     pub beyond: Option<Moments>,
+    /// The moments of what the slicer of a hollow kit is said to lay beyond its parts, model frame,
+    /// g to g·mm². Those of one piece count in its part.
+    #[serde(skip)]
+    pub stated_g: Moments,
     /// The causes of a wrong print.
     pub causes: Vec<Cause>,
     /// Assumptions, and what was left out.

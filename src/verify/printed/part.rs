@@ -60,6 +60,10 @@ pub struct PrintedPart {
     pub support_mm3: f64,
     /// The volume of support that lies in its voids, mm³.
     pub support_in_voids_mm3: f64,
+    /// The mass of its surfaces and regions of infill, g: without what its slicer is said to lay
+    /// beyond them.
+    #[serde(skip)]
+    pub nominal_mass_g: f64,
     /// The moments of its mass, model frame, g to g·mm².
     #[serde(skip)]
     pub moments_g: Moments,
@@ -102,6 +106,8 @@ impl PrintedPart {
             sparse_ratio: volume(Feature::Infill) / volume_mm3,
             support_mm3: volume(Feature::Support) + volume(Feature::SupportInterface),
             support_in_voids_mm3: 0.0,
+            nominal_mass_g: thing.nominal_volume_mm3() * promise.material.density_g_cm3
+                / MM3_PER_CM3,
             moments_g,
         }
     }

@@ -289,6 +289,11 @@ impl<'a> Thing<'a> {
         self.pose.moments_to_model(&self.unscaled(&self.moments)) + self.beyond
     }
 
+    /// Returns the volume of its surfaces and regions of infill in nominal size, mm³.
+    pub(super) fn nominal_volume_mm3(&self) -> f64 {
+        self.unscaled(&self.moments).volume()
+    }
+
     /// Takes the scale against shrinkage off moments of the file.
     fn unscaled(&self, file: &Moments) -> Moments {
         let inverse = self.scale_ratio.map(f64::recip);
