@@ -117,7 +117,7 @@ fn write(
     let written = scale_toolpaths(order, &mut output, watch).map_err(ScaleCommandError::from);
     let written = written.and_then(|scaled| {
         output.flush().map_err(refused)?;
-        let weigh = |file: &PathBuf| verify_printed(&order.kit, &[file.clone()], watch);
+        let weigh = |file: &PathBuf| verify_printed(&order.kit, std::slice::from_ref(file), watch);
         let weighed = [weigh(&order.toolpaths)?, weigh(&draft)?];
         fs::rename(&draft, path).map_err(refused)?;
         Ok((scaled, weighed))
