@@ -15,7 +15,7 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Deserializer, Serialize, de::Error as _};
 
 pub use choices::{CutMode, IdStyle, Interior, ModelUnit, PartFormat, PinStyle};
-pub use densities::{DensityError, DensityOrder, InfillDensity, LevelCount};
+pub use densities::{DensityError, DensityOrder, InfillDensity, KeptShare, LevelCount};
 pub use effort::Effort;
 pub use filling::Filling;
 pub use model::ModelChoice;
@@ -112,6 +112,10 @@ pub struct Job {
     /// The number of densities near that infill; the usual number if the key is missing.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub levels: Option<LevelCount>,
+    /// The share of the best figure that a print near that infill keeps; the usual one of the goal
+    /// if the key is missing.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub keep: Option<KeptShare>,
     /// The repairs of the model asked for; those that everyone gets if the key is missing.
     #[serde(default, skip_serializing_if = "RepairOrder::is_auto")]
     pub repair: RepairOrder,
@@ -262,6 +266,7 @@ impl Job {
             density: None,
             infill: None,
             levels: None,
+            keep: None,
             repair: RepairOrder::default(),
             model,
             printer,
@@ -429,6 +434,7 @@ mod tests {
         other.density = Some("15%..62.5%".parse().unwrap());
         other.infill = Some("40%".parse().unwrap());
         other.levels = Some("6".parse().unwrap());
+        other.keep = Some("95%".parse().unwrap());
         other.sliced = vec![SlicedRound {
             miss_mm: 0.0317,
             beyond: [460.1, -3.0, 0.1 + 0.2, 0.0, 1e-7, 2.0, 3.0, 4e9, 5.0, 6.0],

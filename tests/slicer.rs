@@ -91,7 +91,6 @@ fn assert_on_plate(facts: &Facts) {
 }
 
 #[test]
-#[ignore = "long: 20 s, and tests/slice.rs slices a plate; run with -- --ignored"]
 fn a_slicer_takes_every_part_of_a_kit_without_repair() {
     if slice(Path::new(ELLIPSOID)).is_none() {
         return;

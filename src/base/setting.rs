@@ -55,6 +55,8 @@ choice! {
         Infill = "infill",
         /// The number of densities near that infill.
         Levels = "levels",
+        /// The share of the best figure that is kept near that infill.
+        Keep = "keep",
         /// The repairs of the model.
         Repair = "repair",
         /// The unit of the model file's numbers.

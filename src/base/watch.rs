@@ -99,12 +99,6 @@ impl Phase {
             Self::Parts => 0.13,
         }
     }
-
-    /// Returns the share of a run that usually lies before the phase.
-    fn share_before(self) -> f64 {
-        let earlier = Self::ALL.into_iter().filter(|phase| *phase < self);
-        earlier.map(Self::share).sum()
-    }
 }
 
 /// The progress of a run.
@@ -132,6 +126,10 @@ const CHECK_PERIOD_MS: u64 = 100;
 /// Share of what is left of a phase by which a report of checks moves the progress. A phase that
 /// does not know its own length takes some ten seconds.
 const CHECK_STEP_RATIO: f64 = 0.01;
+/// Share of what is left of a run that a round takes: most runs end with the second.
+const ROUND_RATIO: f64 = 0.5;
+/// Share of a round that slicing takes.
+const SLICE_RATIO: f64 = 0.5;
 /// Share of a phase left at which it takes longer than usual. From then on checks move the progress
 /// towards the end of the run, as if as much time were left as it took so far.
 const OVERDUE_RATIO: f64 = 0.05;
@@ -169,6 +167,10 @@ struct Run {
 /// The phase at work, and the time that each took so far.
 struct Course {
     progress: Progress,
+    /// The done share of the round at work, 0 to 1; that of the whole run without rounds.
+    round_ratio: f64,
+    /// The shares of the whole run at which the round begins and ends; `None` without rounds.
+    round: Option<[f64; 2]>,
     since: Instant,
     laps: Vec<(Phase, f64)>,
 }
@@ -207,6 +209,8 @@ impl Watch {
         let start = Instant::now();
         let course = Mutex::new(Course {
             progress,
+            round_ratio: 0.0,
+            round: None,
             since: start,
             laps: Vec::new(),
         });
@@ -232,6 +236,15 @@ impl Watch {
         }
     }
 
+    /// Begins a round of a run that makes and slices its kit until that is good enough. Nobody
+    /// knows how many rounds there are: each takes half of what is left of the progress.
+    pub fn begin_round(&self) {
+        let mut course = self.course();
+        let begin = course.round.map_or(0.0, |[_, end]| end);
+        course.round = Some([begin, begin + ROUND_RATIO * (1.0 - begin)]);
+        self.report(course, 0.0);
+    }
+
     /// Begins a phase, or goes on with it; the time since the last call counts for the phase
     /// before.
     pub fn enter(&self, phase: Phase) {
@@ -239,8 +252,8 @@ impl Watch {
         course.lap();
         course.progress.phase = phase;
         course.progress.phase_ratio = 0.0;
-        let whole_ratio = course.progress.whole_ratio.max(phase.share_before());
-        self.report(course, whole_ratio);
+        let round_ratio = course.round_ratio.max(course.share_before(phase));
+        self.report(course, round_ratio);
     }
 
     /// Reports that the phase at work is done so far, 0 to 1. A smaller share than before counts
@@ -248,16 +261,15 @@ impl Watch {
     pub fn advance(&self, done_ratio: f64) {
         let mut course = self.course();
         let Progress {
-            phase,
-            phase_ratio,
-            whole_ratio,
+            phase, phase_ratio, ..
         } = course.progress;
         let is_news = !self.is_muted && done_ratio > phase_ratio;
         if is_news {
             course.progress.phase_ratio = done_ratio.min(1.0);
         }
-        let reached = phase.share_before() + phase.share() * course.progress.phase_ratio;
-        if is_news && reached > whole_ratio {
+        let done = course.share(phase) * course.progress.phase_ratio;
+        let reached = course.share_before(phase) + done;
+        if is_news && reached > course.round_ratio {
             self.report(course, reached);
         } else if self.is_due() {
             self.creep(course);
@@ -320,20 +332,24 @@ impl Watch {
     fn creep(&self, mut course: MutexGuard<'_, Course>) {
         let progress = &mut course.progress;
         progress.phase_ratio += CHECK_STEP_RATIO * (1.0 - progress.phase_ratio);
-        let (phase, whole_ratio) = (progress.phase, progress.whole_ratio);
-        let left_ratio = phase.share_before() + phase.share() - whole_ratio;
-        let step_ratio = if left_ratio > OVERDUE_RATIO * phase.share() {
+        let (phase, round_ratio) = (progress.phase, course.round_ratio);
+        let share = course.share(phase);
+        let left_ratio = course.share_before(phase) + share - round_ratio;
+        let step_ratio = if left_ratio > OVERDUE_RATIO * share {
             CHECK_STEP_RATIO * left_ratio
         } else {
             let elapsed_ms = self.elapsed_ms().max(1) as f64;
             let slow_ratio = CHECK_PERIOD_MS as f64 / elapsed_ms;
-            CHECK_STEP_RATIO.min(slow_ratio) * (1.0 - whole_ratio)
+            CHECK_STEP_RATIO.min(slow_ratio) * (1.0 - round_ratio)
         };
-        self.report(course, whole_ratio + step_ratio);
+        self.report(course, round_ratio + step_ratio);
     }
 
-    fn report(&self, mut course: MutexGuard<'_, Course>, whole_ratio: f64) {
-        course.progress.whole_ratio = whole_ratio.min(1.0);
+    fn report(&self, mut course: MutexGuard<'_, Course>, round_ratio: f64) {
+        course.round_ratio = round_ratio.min(1.0);
+        let [begin, end] = course.round.unwrap_or([0.0, 1.0]);
+        let whole_ratio = begin + (end - begin) * course.round_ratio;
+        course.progress.whole_ratio = whole_ratio.max(course.progress.whole_ratio);
         if let Some(observer) = &self.run.observer {
             // Called under the lock, so that reports of two threads arrive in their order.
             observer(course.progress);
@@ -350,6 +366,22 @@ impl fmt::Debug for Watch {
 }
 
 impl Course {
+    /// Returns the usual share of a phase in the time of a round.
+    fn share(&self, phase: Phase) -> f64 {
+        let rest = (1.0 - SLICE_RATIO) / (1.0 - Phase::Slice.share());
+        match (self.round, phase) {
+            (None, _) => phase.share(),
+            (Some(_), Phase::Slice) => SLICE_RATIO,
+            (Some(_), _) => rest * phase.share(),
+        }
+    }
+
+    /// Returns the share of a round that usually lies before a phase.
+    fn share_before(&self, phase: Phase) -> f64 {
+        let earlier = Phase::ALL.into_iter().filter(|other| *other < phase);
+        earlier.map(|phase| self.share(phase)).sum()
+    }
+
     /// Gives the time since the last lap to the phase at work.
     fn lap(&mut self) {
         let now = Instant::now();
@@ -407,7 +439,28 @@ mod tests {
 
     /// Returns the share of a run that is usually done after a phase.
     fn end(phase: Phase) -> f64 {
-        phase.share_before() + phase.share()
+        let until = Phase::ALL.into_iter().filter(|other| *other <= phase);
+        until.map(Phase::share).sum()
+    }
+
+    #[test]
+    fn each_round_takes_half_of_what_is_left_and_slicing_half_of_a_round() {
+        let (watch, seen) = recorded();
+        for begin in [0.0, 0.5, 0.75] {
+            watch.begin_round();
+            for (phase, end) in [(Phase::Report, 0.5), (Phase::Slice, 1.0)] {
+                watch.enter(phase);
+                watch.advance(1.0);
+                let whole = whole_ratios(&seen).last().copied().unwrap();
+                let expected = begin + 0.5 * (1.0 - begin) * end;
+                assert!(
+                    (whole - expected).abs() < 1e-12,
+                    "{begin} {phase:?}: {whole}"
+                );
+            }
+        }
+        let whole = whole_ratios(&seen);
+        assert!(whole.windows(2).all(|pair| pair[0] <= pair[1]));
     }
 
     #[test]

@@ -13,7 +13,7 @@ use crate::base::units::format_count;
 use crate::base::watch::Phase;
 use crate::page::{bought, pieces, promise, shortfall, spins_on};
 use crate::sheet::{Checklist, Course, LogRow, PassRow, Taker};
-use crate::verify::{Check, SHEET_FILE};
+use crate::verify::{Check, FigureName, SHEET_FILE};
 
 /// Least length in mm or angle in degrees that is shown. Nobody prints or balances so exactly.
 const MIN_SHOWN_OFFSET: f64 = 0.001;
@@ -76,6 +76,13 @@ fn bound_words(checklist: &Checklist) -> String {
     let proof = &checklist.certificate;
     let unit = proof.figure.unit();
     let best = measured(proof.bound, unit);
+    if proof.figure == FigureName::InfillChangeRatio {
+        return format!(
+            "the infill is {} of solid print from the wished one (root mean square); at best {best} \
+             is possible",
+            measured(proof.value, unit)
+        );
+    }
     let is_cut = checklist.infill.is_none();
     let is_solid = is_cut && proof.kept_solid_mm3 + proof.bosses_mm3 > 0.0;
     let of_what = if is_solid {

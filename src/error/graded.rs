@@ -2,7 +2,9 @@
 
 use crate::ballast::Order;
 use crate::base::setting::{Key, Setting};
-use crate::job::{DensityOrder, Filling, InfillDensity, Interior, LevelCount, PartFormat};
+use crate::job::{
+    DensityOrder, Filling, InfillDensity, Interior, KeptShare, LevelCount, PartFormat,
+};
 
 /// A reason why a print cannot be graded.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -114,6 +116,37 @@ pub enum GradedError {
     LevelsAlone {
         /// The levels.
         levels: LevelCount,
+    },
+    /// Two levels were ordered near a wished infill.
+    #[error(
+        "two densities are placed by the goal alone, and `{}` asks for more; remedy: order three \
+         levels or more (`{}`), or leave the infill out",
+        Setting::new(Key::Infill, wished),
+        Setting::new(Key::Levels, 3)
+    )]
+    TwoLevels {
+        /// The wished infill.
+        wished: InfillDensity,
+    },
+    /// A share of the best figure was ordered where no infill is wished.
+    #[error(
+        "`{}` is kept near a wished infill, and none is ordered; remedy: order one (`{}`), or \
+         leave the share out for the best itself",
+        Setting::new(Key::Keep, share),
+        Setting::new(Key::Infill, "40%")
+    )]
+    KeepAlone {
+        /// The share.
+        share: KeptShare,
+    },
+    /// A share of the best figure was ordered for a goal that is met or not.
+    #[error(
+        "a rotor runs true or not, so that there is no share of it to keep; remedy: leave `{}` out",
+        Setting::new(Key::Keep, share)
+    )]
+    KeepBalance {
+        /// The share.
+        share: KeptShare,
     },
     /// The densities are too near to each other for the levels.
     #[error(

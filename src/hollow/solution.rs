@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::dual::programme::DualPoint;
+use super::goals::kept::Kept;
 use super::log::{LogRow, Pass};
 use super::status::Status;
 use crate::geom::Quadric;
@@ -163,6 +164,8 @@ pub(super) struct Warm {
     pub height: Option<Tangent>,
     /// A top's lever, if Spin-It's functional weighs it.
     pub lever: Option<Tangent>,
+    /// The figure that a print near a wished infill keeps.
+    pub kept: Option<Kept>,
 }
 
 /// The last known zero of a slope, and the slope's derivative there.

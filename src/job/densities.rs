@@ -1,6 +1,7 @@
 //! The densities of infill that a job orders, in per cent as slicers name them.
 
 use std::fmt;
+use std::ops::RangeInclusive;
 use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
@@ -27,12 +28,20 @@ pub struct DensityOrder {
 #[serde(try_from = "String", into = "String")]
 pub struct LevelCount(usize);
 
+/// The share of the best figure that a print near a wished infill keeps.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "String", into = "String")]
+pub struct KeptShare(InfillDensity);
+
 /// Between the two densities of an order.
 const TO: &str = "..";
-/// Fewest levels near a wished infill. With two, the goal alone decides where they lie.
-const MIN_LEVELS: usize = 3;
+/// Fewest levels: two at their best.
+const MIN_LEVELS: usize = 2;
 /// Most levels: slicers get slow with more modifiers.
 const MAX_LEVELS: usize = 12;
+/// Shares of the best figure that may be kept, per cent. All of it is kept by the two densities at
+/// their best alone.
+const KEPT_PERCENT: RangeInclusive<f64> = 1.0..=99.0;
 /// The word for a density without steps.
 const SMOOTH: &str = "smooth";
 
@@ -66,6 +75,14 @@ pub enum DensityError {
          {MAX_LEVELS} levels"
     )]
     Smooth,
+    /// No share of a figure.
+    #[error(
+        "`{0}` is no share of the best figure; remedy: give {least}% to {most}%, or leave the \
+         wished infill out for the best itself",
+        least = KEPT_PERCENT.start(),
+        most = KEPT_PERCENT.end()
+    )]
+    NoShare(String),
 }
 
 impl InfillDensity {
@@ -115,6 +132,37 @@ impl LevelCount {
     /// Returns the number.
     pub fn count(self) -> usize {
         self.0
+    }
+
+    /// Returns true for two densities, which the goal alone places.
+    pub fn is_two(self) -> bool {
+        self.0 == MIN_LEVELS
+    }
+}
+
+impl KeptShare {
+    /// Returns the share, 0 to 1.
+    pub fn ratio(self) -> f64 {
+        self.0.ratio()
+    }
+}
+
+impl FromStr for KeptShare {
+    type Err = DensityError;
+
+    fn from_str(text: &str) -> Result<Self, DensityError> {
+        let no_share = || DensityError::NoShare(text.to_owned());
+        let share: InfillDensity = text.parse().map_err(|_| no_share())?;
+        match KEPT_PERCENT.contains(&share.percent) {
+            true => Ok(Self(share)),
+            false => Err(no_share()),
+        }
+    }
+}
+
+impl fmt::Display for KeptShare {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.fmt(f)
     }
 }
 
@@ -175,6 +223,7 @@ impl fmt::Display for LevelCount {
 as_text!(InfillDensity);
 as_text!(DensityOrder);
 as_text!(LevelCount);
+as_text!(KeptShare);
 
 #[cfg(test)]
 mod tests {
@@ -213,12 +262,20 @@ mod tests {
     }
 
     #[test]
-    fn levels_are_three_to_twelve_and_never_smooth() {
+    fn a_share_of_the_best_figure_is_more_than_nothing_and_less_than_all() {
+        assert_eq!("95%".parse::<KeptShare>().unwrap().ratio(), 0.95);
+        for text in ["0%", "100%", "0.95", "95", "", "-5%", "nan%"] {
+            let error = text.parse::<KeptShare>().unwrap_err().to_string();
+            assert!(error.contains("give 1% to 99%"), "{text}: {error}");
+        }
+    }
+
+    #[test]
+    fn levels_are_two_to_twelve_and_never_smooth() {
         for (text, said) in [
-            ("1", "give 3 to 12"),
-            ("2", "give 3 to 12"),
-            ("13", "give 3 to 12"),
-            ("-3", "give 3 to 12"),
+            ("1", "give 2 to 12"),
+            ("13", "give 2 to 12"),
+            ("-3", "give 2 to 12"),
             ("smooth", "a modifier has one density"),
         ] {
             let error = text.parse::<LevelCount>().unwrap_err().to_string();

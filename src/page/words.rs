@@ -244,7 +244,7 @@ fn runs_true(sheet: &Checklist) -> String {
 pub fn certificate(sheet: &Checklist) -> Vec<String> {
     let (proof, unit) = (&sheet.certificate, sheet.certificate.figure.unit());
     let is_change = proof.figure == FigureName::InfillChangeRatio;
-    let is_top = sheet.goal.aim.kind == GoalKind::Top && !is_change;
+    let is_top = sheet.goal.aim.kind == GoalKind::Top;
     let better = if proof.figure.more_is_better() {
         "higher"
     } else {
@@ -274,7 +274,7 @@ pub fn certificate(sheet: &Checklist) -> Vec<String> {
             gap(proof.gap_ratio)
         ),
     ];
-    words.extend(is_top.then(|| other_heights(proof)));
+    words.extend((is_top && !is_change).then(|| other_heights(proof)));
     words.extend(proof.proof.as_ref().map(|first| {
         format!(
             "If only the wall stayed solid, no hollowing could have a {} {better} than {}. Anyone can check this without the solver: `verify` does, from the numbers in checklist.json.",

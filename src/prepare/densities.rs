@@ -4,7 +4,7 @@ use crate::error::GradedError;
 use crate::field::DensityRange;
 use crate::goal::GoalKind;
 use crate::hollow::{Fill, NearWished, PrintLevels, TILT_MARGIN_RAD};
-use crate::job::{DensityOrder, InfillDensity, Job, LevelCount, PartFormat};
+use crate::job::{DensityOrder, InfillDensity, Job, KeptShare, LevelCount, PartFormat};
 use crate::printer::{InfillPattern, Printer, Quantity};
 use crate::run::{Extent, Level, Nested};
 
@@ -72,8 +72,19 @@ fn order(job: &Job, printer: &Printer, stock: &Stock) -> Result<DensityOrder, Gr
             least,
         });
     }
-    if let (Some(levels), None) = (job.levels, job.infill) {
-        return Err(GradedError::LevelsAlone { levels });
+    let more = job.levels.filter(|levels| !levels.is_two());
+    match (job.infill, job.levels, job.keep) {
+        (None, _, Some(share)) => return Err(GradedError::KeepAlone { share }),
+        (Some(_), _, Some(share)) if job.goal.kind == GoalKind::Balance => {
+            return Err(GradedError::KeepBalance { share });
+        }
+        (None, Some(levels), None) if more.is_some() => {
+            return Err(GradedError::LevelsAlone { levels });
+        }
+        (Some(wished), Some(_), _) if more.is_none() => {
+            return Err(GradedError::TwoLevels { wished });
+        }
+        _ => {}
     }
     match job.infill {
         Some(wished) if job.goal.kind == GoalKind::Float => {
@@ -135,6 +146,7 @@ fn near(
         wished: stock.pattern.laid_ratio(wished.ratio()),
         levels,
         least_angle_rad: least_angle_rad + TILT_MARGIN_RAD,
+        keep: job.keep.map(KeptShare::ratio),
     };
     let cuts = near.cuts();
     let (greatest, others) = nominal.split_last().ok_or(GradedError::Levels { count })?;
@@ -239,6 +251,24 @@ mod tests {
         let sparse = ordered(&job(Some("15%..75%"), Some("40%"), Some("3"))).unwrap();
         assert_eq!(percents(&sparse), [75.0, 40.0, 15.0]);
         assert_eq!(sparse.levels[0].extent, Extent::Interior);
+    }
+
+    #[test]
+    fn two_levels_are_the_usual_two_densities_and_a_share_needs_a_wished_infill() {
+        let two = ordered(&job(None, None, Some("2"))).unwrap();
+        assert_eq!(two, ordered(&job(None, None, None)).unwrap());
+        let words = |job: &Job| ordered(job).unwrap_err().to_string();
+        assert!(words(&job(None, Some("40%"), Some("2"))).contains("`levels = \"3\"`"));
+        let keep = |job: Job| Job {
+            keep: Some("90%".parse().unwrap()),
+            ..job
+        };
+        assert!(words(&keep(job(None, None, None))).contains("`infill = \"40%\"`"));
+        let near = ordered(&keep(job(None, Some("40%"), None))).unwrap().near;
+        assert_eq!(near.unwrap().keep, Some(0.9));
+        let mut rotor = keep(job(None, Some("40%"), None));
+        rotor.goal.kind = GoalKind::Balance;
+        assert!(words(&rotor).contains("`keep = \"90%\"`"));
     }
 
     #[test]

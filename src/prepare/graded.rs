@@ -46,7 +46,8 @@ fn ordered_density(job: &Job) -> Option<Setting> {
     let density = job.density.map(|order| Setting::new(Key::Density, order));
     let infill = job.infill.map(|wished| Setting::new(Key::Infill, wished));
     let levels = job.levels.map(|count| Setting::new(Key::Levels, count));
-    density.or(infill).or(levels)
+    let keep = job.keep.map(|share| Setting::new(Key::Keep, share));
+    density.or(infill).or(levels).or(keep)
 }
 
 /// Refuses a placed goal that one closed piece cannot meet.

@@ -36,6 +36,7 @@ pub struct SlicedOutcome {
 /// # Errors
 /// As [`super::prepare`], or there is no slicer, or none for this printer.
 pub fn prepare_sliced(job: &Job, watch: &Watch) -> Result<SlicedOutcome, Error> {
+    watch.begin_round();
     let command = slice::find_for_rounds(job, watch)?;
     let job = Job {
         sliced: Vec::new(),
@@ -46,7 +47,10 @@ pub fn prepare_sliced(job: &Job, watch: &Watch) -> Result<SlicedOutcome, Error> 
     let placed = placed(&job, watch)?;
     let mut plans = Plans::of(&placed, watch)?;
     let mut rounds = Rounds::default();
-    for _ in 0..=MOST_ROUNDS {
+    for number in 0..=MOST_ROUNDS {
+        if number > 0 {
+            watch.begin_round();
+        }
         let round = with_rounds(&placed, rounds.sliced.clone(), None);
         let draft = match plans.draft(&round, watch) {
             Ok(Verdict::Found(draft)) => draft,

@@ -60,7 +60,7 @@ impl Placed {
         };
         let near = self.sparse.as_ref().and_then(|nested| nested.near.as_ref());
         match near {
-            Some(near) => near.solve(&problem),
+            Some(near) => near.solve(&problem, known, watch),
             None => self.fill.solve(&problem, known, &watch.muted()),
         }
     }

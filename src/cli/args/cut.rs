@@ -9,8 +9,8 @@ use clap::Args;
 use super::values::{share, words};
 use crate::cut::{CutOrder, KeepClear, LeastPart, SeamStyle};
 use crate::job::{
-    CutMode, DensityOrder, Effort, IdStyle, InfillDensity, Interior, LevelCount, PinStyle,
-    PlanError,
+    CutMode, DensityOrder, Effort, IdStyle, InfillDensity, Interior, KeptShare, LevelCount,
+    PinStyle, PlanError,
 };
 
 /// The arguments for cutting the object and joining its parts.
@@ -33,9 +33,13 @@ pub struct CutArgs {
     /// goal allows
     #[arg(long, value_name = "PERCENT", allow_hyphen_values = true)]
     pub infill: Option<InfillDensity>,
-    /// The number of densities near the infill, 3 to 12 [default: 4]
+    /// The number of densities: 3 to 12 near an infill [default: 4], 2 without one
     #[arg(long, value_name = "N", allow_hyphen_values = true)]
     pub levels: Option<LevelCount>,
+    /// Keep this share of the best speed, angle or height near that infill, such as 95%. Tops and
+    /// yo-yos keep 80% if nothing is said
+    #[arg(long, value_name = "PERCENT", allow_hyphen_values = true)]
+    pub keep: Option<KeptShare>,
     /// Put seams where they are seen least (hidden), make them short (short), or only level ones
     /// (level) [default: hidden]
     #[arg(long, value_parser = words::<SeamStyle>(SeamStyle::WORDS))]

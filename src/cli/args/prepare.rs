@@ -189,7 +189,7 @@ pub struct PrepareArgs {
 pub const DEFAULT_PLANS: u8 = 3;
 
 /// The arguments that a replayed job decides.
-const DECIDED_BY_JOB: [&str; 43] = [
+const DECIDED_BY_JOB: [&str; 44] = [
     "slicer",
     "printer",
     "material",
@@ -232,6 +232,7 @@ const DECIDED_BY_JOB: [&str; 43] = [
     "density",
     "infill",
     "levels",
+    "keep",
     "repair",
 ];
 
@@ -328,6 +329,7 @@ impl PrepareArgs {
             density: self.cutting.density,
             infill: self.cutting.infill,
             levels: self.cutting.levels,
+            keep: self.cutting.keep,
             seam: self.cutting.seam.unwrap_or(default.seam),
             keep_clear,
             least_part: self.cutting.least_part.unwrap_or(default.least_part),

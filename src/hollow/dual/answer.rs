@@ -71,6 +71,7 @@ impl Answer {
                 point: best.point.clone(),
                 height: self.height,
                 lever: self.lever,
+                kept: None,
             },
             log: work.into_log(),
         }

@@ -5,6 +5,7 @@ pub(crate) mod balance;
 pub(crate) mod ballast;
 pub(crate) mod fill;
 pub(crate) mod float;
+pub(crate) mod kept;
 pub(crate) mod near;
 pub(crate) mod stand;
 pub(crate) mod two;

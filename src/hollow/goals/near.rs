@@ -1,19 +1,21 @@
 //! A wished density, changed as little as the goal allows: nested levels instead of the best void.
 //!
 //! The goal counts with its equations and with what it promises of its stand, each a linear row.
-//! Its figure is left as it comes.
+//! Tops and yo-yos keep a share of their best figure too, and the others where that is ordered.
 
 use nalgebra::DVector;
 
+use super::kept::{Kept, KeptChange, keeps_figure};
 use crate::base::verdict::Verdict;
+use crate::base::watch::Watch;
 use crate::geom::Quadric;
 use crate::goal::{Goal, GoalKind, Objective};
-use crate::hollow::Problem;
 use crate::hollow::dual::programme::DualPoint;
 use crate::hollow::graded::{Graded, Row, Sense, Separation};
-use crate::hollow::levels::{LevelChange, PrintLevels, least_level_change};
+use crate::hollow::levels::{PrintLevels, least_level_change};
 use crate::hollow::solution::{Certificate, Figure, Solution, Warm};
 use crate::hollow::status::{Obstacle, Status};
+use crate::hollow::{Fill, Problem};
 use crate::interior::moments_where_positive;
 use crate::mass::Moments;
 
@@ -41,25 +43,71 @@ pub struct NearWished {
     pub levels: PrintLevels,
     /// Stand: the tilt that it must bear, rad.
     pub least_angle_rad: f64,
+    /// The share of the best figure that is kept; `None` for the usual one of the goal.
+    pub keep: Option<f64>,
 }
 
 impl NearWished {
-    /// Finds the least change of the wished density that meets the goal's rows.
+    /// Finds the least change of the wished density that meets the goal and keeps its figure.
     ///
     /// A density is at most a level where the solution's quadric is above minus the next value of
-    /// [`cuts`](Self::cuts). The certificate measures the root mean square of the change. If no
-    /// density meets the rows, the status has the proof.
+    /// [`cuts`](Self::cuts). The certificate measures the root mean square of the change. For a top
+    /// whose speed would not be kept otherwise, it holds for the height of the solution's centre.
+    /// If no density meets the rows, the status has the proof. A `known` solution of coarser
+    /// columns says what is kept.
     #[must_use]
-    pub fn solve(&self, problem: &Problem) -> Solution {
-        let rows = rows(problem.goal, self.least_angle_rad);
-        let graded = Graded {
+    pub fn solve(&self, problem: &Problem, known: Option<&Solution>, watch: &Watch) -> Solution {
+        let kept = match self.kept(problem, known, watch) {
+            Verdict::Found(kept) => kept,
+            Verdict::No(impossible) => return *impossible,
+        };
+        let angle_rad = kept.map_or(0.0, |kept| kept.angle_rad());
+        let rows = rows(problem.goal, self.least_angle_rad.max(angle_rad));
+        let least = |rows: &[Row]| {
+            let graded = Graded {
+                rows,
+                ..self.graded(problem)
+            };
+            least_level_change(&graded, &self.levels, self.wished)
+        };
+        let found = match kept {
+            Some(kept) => kept.least_change(&rows, least),
+            None => least(&rows).map(|change| Some(KeptChange { change, kept: None })),
+        };
+        match found {
+            Verdict::Found(Some(found)) => solved(problem, found),
+            Verdict::Found(None) => unsettled(problem),
+            Verdict::No(proof) => self.refused(problem, &proof),
+        }
+    }
+
+    /// Returns what must be kept, `None` for nothing; or the best print, if it does not do either.
+    fn kept(
+        &self,
+        problem: &Problem,
+        known: Option<&Solution>,
+        watch: &Watch,
+    ) -> Verdict<Option<Kept>, Box<Solution>> {
+        if !keeps_figure(problem.goal, self.keep) {
+            return Verdict::Found(None);
+        }
+        let usable = known.filter(|known| known.is_usable());
+        if let Some(kept) = usable.and_then(|known| known.warm.kept) {
+            return Verdict::Found(Some(kept));
+        }
+        let best = Fill::between(self.levels.range()).solve(problem, None, &watch.muted());
+        if !best.is_usable() {
+            return Verdict::No(Box::new(best));
+        }
+        Verdict::Found(Some(Kept::of(problem.goal, &best.moments, self.keep)))
+    }
+
+    /// Returns the body without rows.
+    fn graded<'a>(&self, problem: &Problem<'a>) -> Graded<'a> {
+        Graded {
             shell: problem.fixed - problem.columns.moments(),
             columns: problem.columns,
-            rows: &rows,
-        };
-        match least_level_change(&graded, &self.levels, self.wished) {
-            Verdict::Found(change) => found(problem, change),
-            Verdict::No(proof) => self.refused(problem, &graded, &proof),
+            rows: &[],
         }
     }
 
@@ -69,7 +117,8 @@ impl NearWished {
         self.levels.densities().windows(2).map(middle).collect()
     }
 
-    fn refused(&self, problem: &Problem, graded: &Graded, proof: &Separation) -> Solution {
+    fn refused(&self, problem: &Problem, proof: &Separation) -> Solution {
+        let graded = self.graded(problem);
         let range = self.levels.range();
         let columns = problem.columns;
         let sum = |moments: &Moments| dot(&proof.quadric, moments);
@@ -102,6 +151,7 @@ impl NearWished {
                 certificate,
                 moments,
                 passes: 0,
+                kept: None,
             },
         )
     }
@@ -114,9 +164,38 @@ struct Found {
     certificate: Certificate,
     moments: Moments,
     passes: usize,
+    kept: Option<Kept>,
 }
 
-fn found(problem: &Problem, change: LevelChange) -> Solution {
+/// Returns the answer of a search that found no densities, and no proof that there are none.
+fn unsettled(problem: &Problem) -> Solution {
+    let status = Status::IterationLimit {
+        gap_ratio: f64::INFINITY,
+        residual: f64::INFINITY,
+    };
+    let certificate = Certificate {
+        figure: Figure::InfillChange,
+        value: f64::NAN,
+        bound: f64::NAN,
+        gap_ratio: f64::INFINITY,
+        residual: f64::INFINITY,
+        bound_over_heights: None,
+    };
+    solution(
+        problem,
+        Found {
+            status,
+            quadric: Quadric([0.0; 10]),
+            certificate,
+            moments: problem.fixed,
+            passes: 0,
+            kept: None,
+        },
+    )
+}
+
+fn solved(problem: &Problem, found: KeptChange) -> Solution {
+    let KeptChange { change, kept } = found;
     let status = match change.residual {
         residual if residual <= MET => Status::Solved,
         residual if residual <= NEARLY_MET => Status::AlmostSolved,
@@ -145,6 +224,7 @@ fn found(problem: &Problem, change: LevelChange) -> Solution {
             certificate,
             moments,
             passes,
+            kept,
         },
     )
 }
@@ -156,6 +236,7 @@ fn solution(problem: &Problem, found: Found) -> Solution {
         certificate,
         moments,
         passes,
+        kept,
     } = found;
     Solution {
         status,
@@ -174,6 +255,7 @@ fn solution(problem: &Problem, found: Found) -> Solution {
             },
             height: None,
             lever: None,
+            kept,
         },
     }
 }
@@ -244,6 +326,7 @@ mod tests {
             wished,
             levels: PrintLevels::even(range, 4).unwrap(),
             least_angle_rad: f64::to_radians(least_deg),
+            keep: None,
         }
     }
 
@@ -253,7 +336,7 @@ mod tests {
         let lost = world.columns.moments() * 0.3;
         let as_wished = compute_figures(&world.goal, &(world.fixed - lost));
         let stands_deg = as_wished.toppling_angle_rad.unwrap().to_degrees();
-        let solution = near(0.7, stands_deg - 0.5).solve(&world.problem());
+        let solution = near(0.7, stands_deg - 0.5).solve(&world.problem(), None, &Watch::silent());
         assert_eq!(solution.status, Status::Solved);
         // The change is the root of a square, in which only rounding is left.
         let squared = solution.certificate.value.powi(2);
@@ -266,7 +349,7 @@ mod tests {
         let lost = world.columns.moments() * 0.3;
         let as_wished = compute_figures(&world.goal, &(world.fixed - lost));
         let wanted_deg = as_wished.toppling_angle_rad.unwrap().to_degrees() + 1.0;
-        let solution = near(0.7, wanted_deg).solve(&world.problem());
+        let solution = near(0.7, wanted_deg).solve(&world.problem(), None, &Watch::silent());
         assert!(solution.is_usable(), "{:?}", solution.status);
         let reached = compute_figures(&world.goal, &solution.moments);
         let reached_deg = reached.toppling_angle_rad.unwrap().to_degrees();
@@ -284,7 +367,7 @@ mod tests {
     #[test]
     fn a_tilt_that_no_density_bears_is_refused_with_its_proof() {
         let world = worlds::blocks_on_a_slope();
-        let solution = near(0.7, 60.0).solve(&world.problem());
+        let solution = near(0.7, 60.0).solve(&world.problem(), None, &Watch::silent());
         let Status::ConstraintsInfeasible {
             least_miss,
             separator,

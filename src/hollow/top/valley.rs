@@ -87,6 +87,7 @@ impl Bottom {
             point: climb.best.point.clone(),
             height: Some(self.tangent()),
             lever: *lever,
+            kept: None,
         }
     }
 
