@@ -104,9 +104,9 @@
 //! * **A few levels meet the rows exactly.** The cost is replaced by its chords between printable
 //!   densities. Then the best are nested level sets of one quadric. Nothing is rounded, and it
 //!   costs at most an eighth of the square of a step more ([`crate::hollow::least_level_change`]).
-//! * **A share of the best is kept by cuts.** At a fixed height of the centre, a speed or ratio
-//!   that is not passed is a convex set of moments. The rows that touch it are added where the last
-//!   answer broke them, five to eight times.
+//! * **Cuts keep a share of the best.** With the height of the centre fixed, bounds of speeds and
+//!   ratios are convex in the moments. Rows that touch them are added where the last answer broke
+//!   them, five to eight times.
 //!
 //! Whether bounds are enough is known before any solve. Put F = A s − b at the upper density
 //! everywhere. Some density does it if and only if (high − low) ∫(u·A m)₊ ≥ u·F for every u.

@@ -40,11 +40,13 @@ const MOST_ROUNDS: usize = 40;
 const HEIGHT_ROUNDS: usize = 9;
 
 /// The figure that is kept, and the height of the centre at which it is.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub(in crate::hollow) struct Kept {
     limit: Limit,
     /// Tops whose least change breaks the limit: the height of the centre, mm.
     height_mm: Option<f64>,
+    /// The rows that held it last. They hold for all moments at that height.
+    cuts: Vec<Row>,
 }
 
 /// The limit of a figure.
@@ -71,6 +73,8 @@ struct Spin {
     lever: Option<f64>,
     /// Height of the centre of the best print, mm; `None` for yo-yos.
     best_mm: Option<f64>,
+    /// Moments of the best print. The rows that touch the limits there are the first to be tried.
+    best: Moments,
 }
 
 /// A function of the moments that is not positive where a limit is kept.
@@ -79,6 +83,12 @@ struct Cone {
     /// Weights of s_z, I_zz and of the convex part.
     weights: [f64; 3],
     is_norm: bool,
+}
+
+/// A least change, and the rows that hold its limits.
+struct Held {
+    change: LevelChange,
+    cuts: Vec<Row>,
 }
 
 /// A least change, and what it keeps.
@@ -112,6 +122,7 @@ impl Kept {
         Self {
             limit,
             height_mm: None,
+            cuts: Vec::new(),
         }
     }
 
@@ -147,7 +158,9 @@ impl Kept {
             least: &least,
         };
         if let Some(height_mm) = self.height_mm {
-            return Verdict::Found(search.at(height_mm).map(|change| self.with(change)));
+            let cuts = self.cuts.clone();
+            let held = search.at(height_mm, cuts);
+            return Verdict::Found(held.map(|held| self.holding(Some(height_mm), held)));
         }
         let free = match least(rows) {
             Verdict::Found(free) => free,
@@ -155,20 +168,27 @@ impl Kept {
         };
         let free_mm = free.moments.0[Z] / free.moments.0[ONE];
         let Some(best_mm) = spin.best_mm else {
-            let found = search.kept_by(free, 0.0);
-            return Verdict::Found(found.map(|change| self.with(change)));
+            let start = Held {
+                change: free,
+                cuts: self.cuts.clone(),
+            };
+            let held = search.held(start, 0.0);
+            return Verdict::Found(held.map(|held| self.holding(None, held)));
         };
         if spin.broken_by(&free.moments, free_mm).is_empty() {
             return Verdict::Found(Some(self.with(free)));
         }
-        let found = search.between(free_mm, best_mm).map(|(height_mm, change)| {
-            let kept = Self {
-                height_mm: Some(height_mm),
-                ..self
-            };
-            kept.with(change)
-        });
-        Verdict::Found(found)
+        let found = search.between(free_mm, best_mm);
+        Verdict::Found(found.map(|(height_mm, held)| self.holding(Some(height_mm), held)))
+    }
+
+    fn holding(&self, height_mm: Option<f64>, held: Held) -> KeptChange {
+        let kept = Self {
+            limit: self.limit,
+            height_mm,
+            cuts: held.cuts,
+        };
+        kept.with(held.change)
     }
 
     fn with(self, change: LevelChange) -> KeptChange {
@@ -188,15 +208,13 @@ struct Search<'a, F> {
 
 impl<F: Fn(&[Row]) -> Verdict<LevelChange, Separation>> Search<'_, F> {
     /// Returns the height between two whose change is least, and that change.
-    fn between(&self, free_mm: f64, best_mm: f64) -> Option<(f64, LevelChange)> {
-        let cost = |change: &Option<LevelChange>| {
-            let cost = change.as_ref().map(|change| change.cost);
+    fn between(&self, free_mm: f64, best_mm: f64) -> Option<(f64, Held)> {
+        let cost = |held: &Option<Held>| {
+            let cost = held.as_ref().map(|held| held.change.cost);
             cost.unwrap_or(f64::INFINITY)
         };
-        let sample = |height_mm: f64| (height_mm, self.at(height_mm));
-        let is_better = |a: &(f64, Option<LevelChange>), b: &(f64, Option<LevelChange>)| {
-            cost(&a.1) < cost(&b.1)
-        };
+        let sample = |height_mm: f64| (height_mm, self.first(height_mm));
+        let is_better = |a: &(f64, Option<Held>), b: &(f64, Option<Held>)| cost(&a.1) < cost(&b.1);
         // Where neither is possible, the search goes on towards the best print.
         let [first, second] = golden_section([free_mm, best_mm], HEIGHT_ROUNDS, sample, is_better);
         let found = if is_better(&first, &second) {
@@ -204,15 +222,22 @@ impl<F: Fn(&[Row]) -> Verdict<LevelChange, Separation>> Search<'_, F> {
         } else {
             second
         };
-        let (height_mm, change) = match found {
-            (height_mm, Some(change)) => (height_mm, change),
-            _ => (best_mm, self.at(best_mm)?),
-        };
-        Some((height_mm, change))
+        match found {
+            (height_mm, Some(held)) => Some((height_mm, held)),
+            _ => Some((best_mm, self.first(best_mm)?)),
+        }
     }
 
-    /// Returns the least change with the centre at a height; `None` if there is none.
-    fn at(&self, height_mm: f64) -> Option<LevelChange> {
+    /// Returns the least change with the centre at a height that is tried first.
+    fn first(&self, height_mm: f64) -> Option<Held> {
+        let cones = self.spin.cones().into_iter();
+        let touching = cones.map(|cone| cone.row_at(&self.spin.best, height_mm));
+        self.at(height_mm, touching.collect())
+    }
+
+    /// Returns the least change with the centre at a height, from rows that hold there; `None` if
+    /// there is none.
+    fn at(&self, height_mm: f64, cuts: Vec<Row>) -> Option<Held> {
         let lies = Row::zero(quadric(&[(Z, 1.0), (ONE, -height_mm)]));
         let lever = self.spin.lever.map(|lever| Row {
             wanted: lever,
@@ -224,20 +249,24 @@ impl<F: Fn(&[Row]) -> Verdict<LevelChange, Separation>> Search<'_, F> {
             rows: &rows,
             ..*self
         };
-        match (self.least)(&rows) {
-            Verdict::Found(change) => search.kept_by(change, height_mm),
+        match (self.least)(&[rows.as_slice(), &cuts].concat()) {
+            Verdict::Found(change) => search.held(Held { change, cuts }, height_mm),
             Verdict::No(_) => None,
         }
     }
 
     /// Returns the least change that breaks no limit, from one that may break some.
-    fn kept_by(&self, mut change: LevelChange, height_mm: f64) -> Option<LevelChange> {
-        let mut cuts: Vec<Row> = Vec::new();
+    fn held(&self, start: Held, height_mm: f64) -> Option<Held> {
+        let Held {
+            mut change,
+            mut cuts,
+        } = start;
         let mut steps = change.steps;
         for _ in 0..MOST_ROUNDS {
             let broken = self.spin.broken_by(&change.moments, height_mm);
             if broken.is_empty() {
-                return Some(LevelChange { steps, ..change });
+                let change = LevelChange { steps, ..change };
+                return Some(Held { change, cuts });
             }
             // Rows that decide nothing any more would only make the others less certain.
             cuts.retain(|row| excess(row, &change.moments) > -MET);
@@ -280,6 +309,7 @@ impl Spin {
             flatness,
             lever: weighs_lever.then_some(best.0[Z]),
             best_mm: is_top.then_some(figures.center_height_mm),
+            best: *best,
         }
     }
 
@@ -453,6 +483,7 @@ mod tests {
             flatness: Some(1.3),
             lever: None,
             best_mm: None,
+            best: solid,
         };
         let height_mm = 0.3 * solid.0[Z] / solid.0[ONE];
         let value = |cone: &Cone, moments: &Moments| {

@@ -61,7 +61,7 @@ impl NearWished {
             Verdict::Found(kept) => kept,
             Verdict::No(impossible) => return *impossible,
         };
-        let angle_rad = kept.map_or(0.0, |kept| kept.angle_rad());
+        let angle_rad = kept.as_ref().map_or(0.0, Kept::angle_rad);
         let rows = rows(problem.goal, self.least_angle_rad.max(angle_rad));
         let least = |rows: &[Row]| {
             let graded = Graded {
@@ -92,7 +92,7 @@ impl NearWished {
             return Verdict::Found(None);
         }
         let usable = known.filter(|known| known.is_usable());
-        if let Some(kept) = usable.and_then(|known| known.warm.kept) {
+        if let Some(kept) = usable.and_then(|known| known.warm.kept.clone()) {
             return Verdict::Found(Some(kept));
         }
         let best = Fill::between(self.levels.range()).solve(problem, None, &watch.muted());
