@@ -294,11 +294,6 @@ impl Job {
         self.model_copy.as_ref().unwrap_or(&self.model.path)
     }
 
-    /// Returns true if nothing but air goes into the voids.
-    pub fn is_plain(&self) -> bool {
-        self.fill.is_none() && self.ballast.is_none() && self.interior.is_hollow()
-    }
-
     /// Reads the job in the file at `path`.
     pub fn read(path: &Path) -> Result<Self, JobError> {
         let text = std::fs::read_to_string(path).map_err(|source| JobError::Unreadable {

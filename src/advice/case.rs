@@ -1,6 +1,7 @@
 //! The question that is put to the advice.
 
 use crate::goal::Request;
+use crate::hollow::Fill;
 use crate::mesh::Solid;
 
 /// A model, a goal, and the limits of the printer.
@@ -20,4 +21,7 @@ pub struct Case<'a> {
     pub density_g_cm3: f64,
     /// The length of the longest model whose kit this printer can print, mm.
     pub greatest_size_mm: f64,
+    /// The contents of the voids: a filling, or the sparse infill of a print in one piece; `None`
+    /// for air.
+    pub fill: Option<Fill>,
 }

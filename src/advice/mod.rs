@@ -131,7 +131,8 @@ pub fn remedies(case: &Case, watch: &Watch) -> Result<Vec<Remedy>, Cancelled> {
     if goal.kind == GoalKind::Stand {
         all.push(footing::remedy(&model, &goal.frame.axis()));
     }
-    all.push(ballast);
+    // What is filled takes no ballast besides.
+    all.extend(case.fill.is_none().then_some(ballast));
     watch.check()?;
     Ok(all)
 }

@@ -179,6 +179,7 @@ mod tests {
             wall_step_mm: 0.1,
             density_g_cm3: 1.2,
             greatest_size_mm: 1e4,
+            fill: None,
         }
     }
 

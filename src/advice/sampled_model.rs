@@ -10,7 +10,7 @@ use crate::goal::{
     Footing, Hydrostatics, MeasuredSolid, Placement, PrintStock, Request, Warning, Waterline,
     place_measured, spins_on_lowest,
 };
-use crate::hollow::{Figure, Problem, Settings, Solution, solve, solve_on_model_columns};
+use crate::hollow::{Figure, Fill, Problem, Settings, Solution, solve, solve_on_model_columns};
 use crate::interior::{Columns, Depths};
 use crate::mass::RoundBar;
 use crate::shell::{Keep, Shell};
@@ -119,7 +119,7 @@ impl<'a> SampledModel<'a> {
     pub fn trial_as_promised(&self, request: &Request, wall_mm: f64) -> Option<Trial> {
         let placement = self.place(request, wall_mm)?;
         let columns = self.depths.columns(wall_mm, &placement.keeps);
-        self.best_trial(&placement, &columns, solve_on_model_columns)
+        self.best_trial(&placement, &columns, Axes::Model)
     }
 
     /// Returns true if a request is possible on the sampled depths, and stands as is promised.
@@ -133,7 +133,7 @@ impl<'a> SampledModel<'a> {
     /// Returns `None` if it is not possible there, or breaks its promise.
     pub fn confirm(&self, request: &Request, wall_mm: f64) -> Option<Trial> {
         let (placement, columns) = self.exact_columns(request, wall_mm, CONFIRMING_COLUMNS)?;
-        let trial = self.best_trial(&placement, &columns, solve)?;
+        let trial = self.best_trial(&placement, &columns, Axes::Goal)?;
         let keeps = trial.stands_as_promised(request)
             && trial.spins_as_promised(request)
             && trial.is_within_reach();
@@ -199,14 +199,23 @@ impl<'a> SampledModel<'a> {
         (1..=WATERLINES).map(at).collect()
     }
 
+    /// Solves for a placed goal, with what the voids hold.
+    fn solve(&self, placement: &Placement, columns: &Columns, axes: Axes) -> Solution {
+        let all = columns.moments();
+        let (ask, all): (Ask, _) = match axes {
+            Axes::Model => (solve_on_model_columns, all.in_frame(&placement.goal.frame)),
+            Axes::Goal => (solve, all),
+        };
+        let solver = |problem: &Problem| ask(problem, &Settings::default(), &self.watch);
+        let problem = problem(placement, columns);
+        let fill = self.case.fill.unwrap_or(Fill::AIR);
+        fill.solve_by(&problem, all, solver)
+    }
+
     /// Returns the best answer over the waterlines; the first if none is possible.
-    fn best_trial(&self, placement: &Placement, columns: &Columns, ask: Ask) -> Option<Trial> {
+    fn best_trial(&self, placement: &Placement, columns: &Columns, axes: Axes) -> Option<Trial> {
         let trials = self.at_waterlines(placement).into_iter().map(|placement| {
-            let solution = ask(
-                &problem(&placement, columns),
-                &Settings::default(),
-                &self.watch,
-            );
+            let solution = self.solve(&placement, columns, axes);
             Trial {
                 columns: columns.len(),
                 placement,
@@ -246,6 +255,13 @@ fn with_tip(mut placement: Placement, stock: &PrintStock) -> Placement {
         radius_mm: rod.radius_mm() + stock.wall_mm,
     });
     placement
+}
+
+/// The frame of some columns.
+#[derive(Clone, Copy)]
+enum Axes {
+    Model,
+    Goal,
 }
 
 /// A solver for columns in the model's or in the goal's frame.

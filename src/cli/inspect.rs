@@ -264,6 +264,7 @@ fn becoming(args: &InspectArgs, solid: &Solid) -> Result<Becoming, InspectError>
         wall_step_mm: wall_mm,
         density_g_cm3: density_g_cm3(printer.as_ref())?,
         greatest_size_mm: f64::INFINITY,
+        fill: None,
     };
     let watch = Watch::silent();
     let poses = find_upright(solid, &watch)?;

@@ -4,6 +4,7 @@ use std::{fmt, str::FromStr};
 
 use serde::{Deserialize, Serialize};
 
+use super::Job;
 use crate::base::words::as_text;
 
 /// A material that is poured into the voids, given by its density in g/cm³.
@@ -19,6 +20,18 @@ impl Filling {
     /// Returns its density, g/cm³; positive.
     pub fn density_g_cm3(self) -> f64 {
         self.0
+    }
+}
+
+impl Job {
+    /// Returns true if nothing but air goes into the voids.
+    pub fn is_plain(&self) -> bool {
+        self.is_unfilled() && self.interior.is_hollow()
+    }
+
+    /// Returns true if neither ballast nor a filling goes into it. Its interior may be sparse.
+    pub fn is_unfilled(&self) -> bool {
+        self.fill.is_none() && self.ballast.is_none()
     }
 }
 

@@ -22,7 +22,7 @@ const BARE: &str =
 const MOST_BALLS: u32 = 3;
 
 /// Returns the case that advice is sought for.
-pub fn case<'a>(model: &'a Model, shop: &Shop, request: Request) -> Case<'a> {
+pub fn case<'a>(model: &'a Model, shop: &Shop, request: Request, fill: Fill) -> Case<'a> {
     Case {
         solid: &model.solid,
         request,
@@ -31,6 +31,7 @@ pub fn case<'a>(model: &'a Model, shop: &Shop, request: Request) -> Case<'a> {
         wall_step_mm: shop.wall.step_mm,
         density_g_cm3: shop.material.density_g_cm3.value,
         greatest_size_mm: shop.printer.max_model_length_mm(),
+        fill: (fill != Fill::AIR).then_some(fill),
     }
 }
 
@@ -40,18 +41,6 @@ pub fn remedies(
     impossible: Impossible,
     watch: &Watch,
 ) -> Result<Impossible, Error> {
-    if placed.fill != Fill::AIR {
-        // The searches know of air only.
-        let hints = impossible
-            .hints
-            .into_iter()
-            .chain(density_hints(placed, watch)?)
-            .chain(hollow_hint(placed, watch)?);
-        return Ok(Impossible {
-            hints: hints.collect(),
-            ..impossible
-        });
-    }
     watch.enter(Phase::Advise);
     if placed.has_ordered_hardware() {
         let hints = impossible.hints.into_iter().chain([BARE.to_owned()]);
@@ -60,12 +49,13 @@ pub fn remedies(
             ..impossible
         });
     }
-    let case = case(&placed.model, &placed.shop, placed.request);
+    let case = case(&placed.model, &placed.shop, placed.request, placed.fill);
     let remedies = advice::remedies(&case, watch)?;
+    let densities = density_hints(placed, watch)?.into_iter();
     // Every hint of the solver was tried as a remedy.
     Ok(Impossible {
         remedies: with_ballast_carried_out(placed, remedies, watch)?,
-        hints: Vec::new(),
+        hints: densities.chain(hollow_hint(placed, watch)?).collect(),
         ..impossible
     })
 }

@@ -138,13 +138,13 @@ fn does_help(placed: &Placed, kind: &CheckKind, watch: &Watch) -> Result<bool, C
     let Some(request) = hinted_request(placed, kind) else {
         return Ok(true);
     };
-    let case = case(&placed.model, &placed.shop, request);
+    let case = case(&placed.model, &placed.shop, request, placed.fill);
     advice::keeps_promises(&case, watch)
 }
 
 /// Returns what surely makes the object stand as promised: another size, wall or face.
 fn firmer(placed: &Placed, watch: &Watch) -> Result<Vec<Remedy>, Cancelled> {
-    let case = case(&placed.model, &placed.shop, placed.request);
+    let case = case(&placed.model, &placed.shop, placed.request, placed.fill);
     let found = advice::remedies(&case, watch)?.into_iter();
     // Ballast is laid in only where nothing stands at all.
     let is_firmer = |remedy: &Remedy| remedy.kind != Kind::LeastBallast && remedy.helps();

@@ -14,7 +14,13 @@ use crate::run::{AxisChoice, Model, NaturalUp, Placed, Policy, Shop};
 
 /// Places the job's goal in the model and settles what the job leaves open.
 pub fn goal(job: &Job, model: Model, shop: Shop, watch: &Watch) -> Result<Placed, Error> {
-    let choice = choose_axis(job, &model, &shop, watch)?;
+    let sparse = graded::sparse_print(job, &shop.printer)?;
+    let fill = match sparse.as_ref().and_then(densities::fill) {
+        Some(laid) => laid,
+        None => fill(job, shop.material.density_g_cm3.value)?,
+    };
+    let case = |request: Request| advise::case(&model, &shop, request, fill);
+    let choice = choose_axis(job, &model, &case(job.goal), watch)?;
     let request = match &choice {
         Some(AxisChoice::Best { request, .. }) => **request,
         Some(AxisChoice::NearNatural { nearby, .. }) => nearby.request,
@@ -32,26 +38,20 @@ pub fn goal(job: &Job, model: Model, shop: Shop, watch: &Watch) -> Result<Placed
         density_g_cm3: shop.material.density_g_cm3.value,
     };
     let request = Request {
-        contact: choose_contact(job, &advise::case(&model, &shop, request), watch)?,
+        contact: choose_contact(job, &case(request), watch)?,
         ..request
     };
     let placement = match place_in_material(&model.solid, &stock, &request) {
         Ok(placement) => placement,
         Err(error) => {
-            let case = advise::case(&model, &shop, request);
-            return Err(upright::advised(error, &case, watch)?);
+            return Err(upright::advised(error, &case(request), watch)?);
         }
     };
     refuse_air(&request, &placement)?;
     let mut bound = job.clone();
     bound.model.sha256 = Some(model.sha256.clone());
-    let sparse = graded::sparse_print(job, &shop.printer)?;
-    let laid = sparse.as_ref().and_then(densities::fill);
     let placed = Placed {
-        fill: match laid {
-            Some(laid) => laid,
-            None => fill(job, stock.density_g_cm3)?,
-        },
+        fill,
         sparse,
         policy: Policy::with_joint_price(bound.joint_price_ratio).with_effort(bound.effort),
         job: bound,
@@ -71,20 +71,20 @@ pub fn goal(job: &Job, model: Model, shop: Shop, watch: &Watch) -> Result<Placed
 fn choose_axis(
     job: &Job,
     model: &Model,
-    shop: &Shop,
+    case: &Case,
     watch: &Watch,
 ) -> Result<Option<AxisChoice>, Error> {
     let request = &job.goal;
     if rotor::turns_on_model(request) {
-        return rotor::choose(job, model, shop, watch).map(Some);
+        return rotor::choose(job, model, case, watch).map(Some);
     }
     if request.up == Up::Natural {
-        return Ok(Some(upright::choose(job, model, shop, watch)?));
+        return Ok(Some(upright::choose(job, case, watch)?));
     }
     if request.up != Up::Auto {
         return Ok(None);
     }
-    let Some(best) = best_orientation(&advise::case(model, shop, *request), watch)? else {
+    let Some(best) = best_orientation(case, watch)? else {
         let up = if request.kind == GoalKind::Stand {
             Up::Z
         } else {
@@ -120,7 +120,7 @@ fn choose_contact(job: &Job, case: &Case, watch: &Watch) -> Result<Option<Contac
         return Ok(request.contact);
     }
     let lowest = spins_on_lowest(&MeasuredSolid::new(case.solid), case.wall_mm, request)?;
-    let is_known = request.ordered_tip() == TipChoice::None || !job.is_plain();
+    let is_known = request.ordered_tip() == TipChoice::None || !job.is_unfilled();
     if !lowest || is_known {
         return Ok(Some(if lowest {
             Contact::Lowest

@@ -1,6 +1,6 @@
 //! The axis of a rotor: its bore or its shaft.
 
-use super::advise;
+use crate::advice::Case;
 use crate::base::watch::Watch;
 use crate::error::Error;
 use crate::geom::Vector;
@@ -9,7 +9,7 @@ use crate::goal::{
     place_in_material,
 };
 use crate::job::Job;
-use crate::run::{AxisChoice, Model, Shop};
+use crate::run::{AxisChoice, Model};
 
 /// Returns true if a request is for a rotor that turns on what the model has: no bore is ordered.
 pub fn turns_on_model(request: &Request) -> bool {
@@ -21,12 +21,11 @@ pub fn turns_on_model(request: &Request) -> bool {
 ///
 /// # Errors
 /// The model has none, several, or none on the axis that was ordered.
-pub fn choose(job: &Job, model: &Model, shop: &Shop, watch: &Watch) -> Result<AxisChoice, Error> {
+pub fn choose(job: &Job, model: &Model, case: &Case, watch: &Watch) -> Result<AxisChoice, Error> {
     let shafts = find_shafts(&model.solid, watch)?;
     if shafts.is_empty() {
         return Err(GoalError::NoShaft.into());
     }
-    let case = advise::case(model, shop, job.goal);
     let stock = PrintStock {
         wall_mm: case.wall_mm,
         density_g_cm3: case.density_g_cm3,

@@ -1,28 +1,25 @@
 //! The natural up of a model, or the axis nearest to it on which the goal is possible.
 
-use super::advise;
 use crate::advice::{Case, NearbyAxis, name_direction, nearest_orientation};
 use crate::base::setting::{Key, Setting};
 use crate::base::watch::{Cancelled, Watch};
 use crate::error::Error;
 use crate::goal::{GoalError, GoalKind, Request, Up, find_upright};
 use crate::job::Job;
-use crate::run::{AxisChoice, Model, NaturalUp, Shop};
+use crate::run::{AxisChoice, NaturalUp};
 
 /// Chooses the axis of a job that asks for the natural up.
 ///
 /// Stand and float take it as it is. Tops and yo-yos take the axis nearest to it on which they are
-/// possible. With ballast, a filling or infill they take it as it is: the search knows of none.
-pub fn choose(
-    job: &Job,
-    model: &Model,
-    shop: &Shop,
-    watch: &Watch,
-) -> Result<AxisChoice, Cancelled> {
-    let case = advise::case(model, shop, job.goal);
-    let natural = natural_up(&case, watch)?;
+/// possible. With ballast or a filling they take it as it is.
+pub fn choose(job: &Job, case: &Case, watch: &Watch) -> Result<AxisChoice, Cancelled> {
+    let natural = natural_up(case, watch)?;
     let spins = matches!(job.goal.kind, GoalKind::Top | GoalKind::Yoyo);
-    let Some(up) = natural.up.direction().filter(|_| spins && job.is_plain()) else {
+    let Some(up) = natural
+        .up
+        .direction()
+        .filter(|_| spins && job.is_unfilled())
+    else {
         return Ok(AxisChoice::Natural(natural));
     };
     // A tip that was ordered is held against the axis that would be taken without it. No other axis
@@ -32,10 +29,10 @@ pub fn choose(
             least_lean_deg: 0.0,
             ..case.request
         },
-        ..case
+        ..*case
     };
     let has_ordered_tip = case.request.ordered_tip().rod().is_some();
-    let asked = if has_ordered_tip { &waived } else { &case };
+    let asked = if has_ordered_tip { &waived } else { case };
     let nearby = nearest_orientation(asked, &up, watch)?.map(|nearby| NearbyAxis {
         request: Request {
             least_lean_deg: case.request.least_lean_deg,

@@ -31,6 +31,7 @@ pub(super) fn case(solid: &Solid, request: Request, wall_mm: f64) -> Case<'_> {
         wall_step_mm: 0.1,
         density_g_cm3: 1.2,
         greatest_size_mm: 1e4,
+        fill: None,
     }
 }
 

@@ -177,6 +177,7 @@ fn ask_up(solid: &Solid, kind: GoalKind) -> Result<UpChoice, AskError> {
         wall_step_mm: 1.0,
         density_g_cm3: 1.0,
         greatest_size_mm: f64::INFINITY,
+        fill: None,
     };
     let mut poses = find_upright(solid, &Watch::silent())?;
     poses.truncate(MOST_POSES);

@@ -74,15 +74,18 @@ impl Fill {
         self.rest_ratio - self.density_ratio
     }
 
-    /// Returns the moments that the interior lacks where it is not filled.
-    fn lost(&self, columns: &Columns) -> Moments {
-        columns.moments() * (1.0 - self.rest_ratio)
+    /// Returns the moments that the interior, with these at full density, lacks where it is not
+    /// filled.
+    fn lost(&self, all: Moments) -> Moments {
+        all * (1.0 - self.rest_ratio)
     }
 
     /// Returns the moments of a body with the void { quadric > 0 } filled; `fixed` are its moments
     /// without a void.
     pub fn filled(&self, fixed: Moments, columns: &Columns, quadric: &Quadric) -> Moments {
-        fixed - self.lost(columns) - moments_where_positive(columns, quadric) * self.relief()
+        fixed
+            - self.lost(columns.moments())
+            - moments_where_positive(columns, quadric) * self.relief()
     }
 
     /// Finds the best filled void: by [`solve`], or by [`refine`] from a known solution.
@@ -91,24 +94,37 @@ impl Fill {
     /// with air. The certificate is for this filling.
     #[must_use]
     pub fn solve(&self, problem: &Problem, known: Option<&Solution>, watch: &Watch) -> Solution {
+        let settings = Settings::default();
+        let solver = |problem: &Problem| match known.filter(|known| known.is_usable()) {
+            Some(known) => refine(problem, &settings, known, watch),
+            None => solve(problem, &settings, watch),
+        };
+        self.solve_by(problem, problem.columns.moments(), solver)
+    }
+
+    /// Finds the best filled void by a solver of empty ones, which is asked for the scaled problem.
+    ///
+    /// `all` are the moments of all columns in the goal's frame. The columns themselves may have
+    /// another, if the solver takes them so.
+    #[must_use]
+    pub fn solve_by(
+        &self,
+        problem: &Problem,
+        all: Moments,
+        solver: impl FnOnce(&Problem) -> Solution,
+    ) -> Solution {
         let weight = self.relief().abs();
         let goal = scaled(problem.goal, 1.0 / weight);
         let whole = if self.is_heavier() {
-            problem.columns.moments() * weight
+            all * weight
         } else {
             Moments::default()
         };
-        let fixed = (problem.fixed - self.lost(problem.columns) + whole) * (1.0 / weight);
-        let problem = Problem {
+        let solution = solver(&Problem {
             goal: &goal,
-            fixed,
+            fixed: (problem.fixed - self.lost(all) + whole) * (1.0 / weight),
             columns: problem.columns,
-        };
-        let settings = Settings::default();
-        let solution = match known.filter(|known| known.is_usable()) {
-            Some(known) => refine(&problem, &settings, known, watch),
-            None => solve(&problem, &settings, watch),
-        };
+        });
         solution.stretched(weight, self.is_heavier())
     }
 }
