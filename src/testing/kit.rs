@@ -298,6 +298,7 @@ fn the_void() -> VoidRow {
         id: "V1".into(),
         volume_mm3: 54.0 * 34.0 * 6.0,
         opened_by: vec!["C1".into()],
+        drained_by: Vec::new(),
         parts: vec!["P01".into(), "P02".into()],
         opening_mm: 34.0,
         least_opening_mm: 4.0,
