@@ -7,7 +7,6 @@ use super::way::Candidate;
 use crate::base::watch::Watch;
 use crate::cut::{self, CutPlan, Drained, PlanRequest, VoidId, find_hollow_cups};
 use crate::error::{DrainError, Error};
-use crate::goal::GoalKind;
 use crate::mass::Moments;
 use crate::printer::DrainNeed;
 use crate::run::{KeptCause, KeptSolid, Opened, Placed, Rung, Solved, Voids};
@@ -83,9 +82,6 @@ pub fn drain_again(
 
 /// Returns the holes that each void needs.
 fn need(placed: &Placed, voids: &Voids) -> Result<DrainNeed, DrainError> {
-    if placed.goal().kind == GoalKind::Float {
-        return Err(DrainError::Floats);
-    }
     if placed.job.fill.is_some() {
         return Err(DrainError::Filling);
     }

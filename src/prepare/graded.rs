@@ -5,6 +5,7 @@ use crate::base::setting::{Key, Setting};
 use crate::base::verdict::Verdict;
 use crate::base::watch::Watch;
 use crate::error::{DrainError, Error, GradedError, SlicedError};
+use crate::goal::GoalKind;
 use crate::hollow::Fill;
 use crate::job::{DrainOrder, Interior, Job, PartFormat, SlicedRound};
 use crate::mass::moments_of_mesh;
@@ -41,12 +42,15 @@ pub fn sparse_print(job: &Job, printer: &Printer) -> Result<Option<Nested>, Grad
     nested(job, printer).map(Some)
 }
 
-/// Refuses an order of drain holes for what is cut or has no voids.
+/// Refuses drain holes for what floats, and an order of them for what is cut or has no voids.
 ///
 /// # Errors
-/// The job orders a diameter, and no hollow piece that stays whole.
+/// The job orders a diameter, and no hollow piece that stays whole; or one that floats.
 pub fn refuse_holes(placed: &Placed) -> Result<(), DrainError> {
     let order = placed.job.drain;
+    if placed.is_drained() && placed.goal().kind == GoalKind::Float {
+        return Err(DrainError::Floats);
+    }
     match order {
         DrainOrder::Diameter(_) if !placed.is_drained() => Err(DrainError::NotWhole { order }),
         _ => Ok(()),

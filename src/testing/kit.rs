@@ -120,6 +120,7 @@ pub fn sample_pictures(sheet: &Checklist, evidence: &Evidence) -> (Vec<Picture>,
 fn checklist(evidence: &Evidence, found: &Judgement) -> Checklist {
     let speed = found.assembly.critical_speed_rpm.unwrap();
     Checklist {
+        drains: Vec::new(),
         schema: Checklist::SCHEMA,
         tool: Tool {
             name: "equipoise".into(),

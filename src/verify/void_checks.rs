@@ -161,7 +161,8 @@ fn opening_check(void: &VoidFacts, pair_mm: Option<f64>, least_mm: f64) -> Check
     let by_pair = |openings: &Vec<f64>| {
         let second_mm = openings.get(1).copied().unwrap_or(0.0);
         let one_mm = openings.first().copied().unwrap_or(0.0);
-        if pair_mm.is_some_and(|pair_mm| second_mm >= pair_mm) {
+        let narrow = 1.0 - OPENING_SLACK_RATIO;
+        if pair_mm.is_some_and(|pair_mm| second_mm >= pair_mm * narrow) {
             one_mm.max(least_mm)
         } else {
             one_mm

@@ -32,6 +32,8 @@ const UNEVEN_PRICE: f64 = 0.5;
 const THICK_PRICE: f64 = 0.3;
 /// Price of a drain at the top of a void, or a vent at its bottom. It must outdo how much is seen.
 const LEVEL_PRICE: f64 = 4.0;
+/// Share of a void's height within which a drain is low, and a vent high, enough.
+const LEVEL_SLACK: f64 = 0.1;
 /// Price of a second hole right beside the first.
 const NEAR_PRICE: f64 = 2.0;
 /// Least distance of two holes, in diameters from middle to middle.
@@ -196,8 +198,8 @@ impl Chooser<'_> {
             let height = (self.up.dot(&place.site.ends[1].coords) - low_mm) / range_mm;
             let off = match level {
                 Level::Any => 0.0,
-                Level::Low => height.max(0.0),
-                Level::High => (1.0 - height).max(0.0),
+                Level::Low => (height - LEVEL_SLACK).max(0.0),
+                Level::High => (1.0 - LEVEL_SLACK - height).max(0.0),
             };
             let distances = chosen.iter().map(|site| (site.at - place.site.at).norm());
             let near = distances.fold(size_mm, f64::min) / size_mm;
