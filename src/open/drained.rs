@@ -106,7 +106,7 @@ fn find_undrained(
         let body = |void: &VoidId| voids.hollowed.voids[void.index()].mesh().clone();
         let kept = |&void: &VoidId| KeptSolid {
             void,
-            cause: KeptCause::Unopenable,
+            cause: KeptCause::Undrainable,
         };
         return Ok(Keep {
             bodies: found.closed.iter().map(body).collect(),

@@ -1,6 +1,6 @@
 //! The checks of the voids: every one open and clean by the printer's rule.
 
-use super::limits::{OPENING_SLACK_RATIO, SIGHT_TOLERANCE_RATIO};
+use super::limits::{HOLE_LIMIT_MM, OPENING_SLACK_RATIO, SIGHT_TOLERANCE_RATIO};
 use super::{
     Check, CheckKind, Cleaning, CleaningRule, HoleFacts, InfillOrder, Judgement, Limit, Promise,
     PromisedVoid, VoidFacts,
@@ -8,9 +8,6 @@ use super::{
 
 /// The process whose voids drain, and need a vent for air.
 const VAT: &str = "sla";
-/// A drain hole may be this much narrower than stated, mm: the rounding of files is far below it,
-/// and a printer's pixel above.
-const HOLE_TOLERANCE_MM: f64 = 0.01;
 
 /// Checks that every drain hole is as free as stated and leads to its void; `None` without any.
 pub(super) fn holes_check(holes: &[HoleFacts]) -> Option<Check> {
@@ -19,9 +16,7 @@ pub(super) fn holes_check(holes: &[HoleFacts]) -> Option<Check> {
         None => hole.diameter_mm,
     };
     let worst_mm = holes.iter().map(lack_mm).reduce(f64::max)?;
-    let narrow = holes
-        .iter()
-        .filter(|hole| lack_mm(hole) > HOLE_TOLERANCE_MM);
+    let narrow = holes.iter().filter(|hole| lack_mm(hole) > HOLE_LIMIT_MM);
     let narrow: Vec<String> = narrow
         .map(|hole| match hole.void {
             Some(_) => format!("{}: {:.2} mm free", hole.id, hole.free_mm),
@@ -29,7 +24,7 @@ pub(super) fn holes_check(holes: &[HoleFacts]) -> Option<Check> {
         })
         .collect();
     let promise = "every drain hole is free by its diameter; short by at most";
-    let limit = Limit::at_most(HOLE_TOLERANCE_MM, "mm");
+    let limit = Limit::at_most(HOLE_LIMIT_MM, "mm");
     let check = Check::new(CheckKind::DrainHoles, promise, Some(worst_mm), limit);
     Some(check.at((!narrow.is_empty()).then(|| narrow.join("; "))))
 }
