@@ -128,7 +128,7 @@ fn an_independent_judge_feels_the_drain_holes_of_an_uncut_piece_and_finds_a_wide
     let folder = tempfile::tempdir().unwrap();
     let kit = folder.path().join("kit");
     let whole = "--size 60mm --pitch 0.3mm --goal stand --up z --cut never";
-    let options = format!("{whole} --printer hp-mjf-5200");
+    let options = format!("{whole} --printer hp-mjf-5200 --least-angle 3");
     assert_exit(&prepare(&kit, &words(&options)), 0);
     let (code, said) = judge(JUDGE, &python, &kit);
     assert!(code == Some(0) && said.contains("D2 free, mm"), "{said}");
