@@ -1280,18 +1280,24 @@ def within_hole(points, hole, by=0.0):
     return (depth > by) & (local[:, 2] > -by) & (local[:, 2] < length + by)
 
 
+def near_hole(corners, hole):
+    """The triangles that come near a drain hole."""
+    start, axes, length, _ = hole_sides(hole)
+    reach = length + 2 * hole["diameter_mm"]
+    low, high = corners.min(axis=1) - start, corners.max(axis=1) - start
+    return corners[((low < reach) & (high > -reach)).all(axis=1)]
+
+
 def hole_walls(hole, body):
     """Points on the flats of a drain hole that bound material: on its way through the uncut body, off its rims."""
     start, axes, length, inward = hole_sides(hole)
-    radius = hole["diameter_mm"] / 2
-    around = start - radius * (inward @ axes[:2])
-    heights = (np.arange(200) + 0.5) * length / 200
-    points = (around[:, None] + heights[None, :, None] * axes[2]).reshape(-1, 3)
-    beside = (points.reshape(PEG_SIDES, -1, 3) - 0.01 * (inward @ axes[:2])[:, None]).reshape(-1, 3)
-    inside = body.contains(beside).reshape(PEG_SIDES, -1)
-    # Next to a rim the surface of the body is as near as the wall.
-    inner = inside[:, 1:-1] & inside[:, 2:] & inside[:, :-2]
-    return points.reshape(PEG_SIDES, -1, 3)[:, 1:-1][inner]
+    around = start - hole["diameter_mm"] / 2 * (inward @ axes[:2])
+    points = []
+    for foot, met in zip(around, lines_through(near_hole(body, hole), around, axes[2])):
+        met = met[(met > 0) & (met < length)]
+        for low, high in zip(met[0::2], met[1::2]):
+            points.append(foot + np.linspace(low, high, 12)[1:-1, None] * axes[2])
+    return np.concatenate(points) if points else np.full((1, 3), np.inf)
 
 
 def hole_surface(hole):
@@ -1312,9 +1318,8 @@ def hole_volume(hole, body):
     x, y = (grid.ravel() for grid in np.meshgrid((side[1:] + side[:-1]) / 2, (side[1:] + side[:-1]) / 2))
     flat = np.stack([x, y], 1)
     flat = flat[((flat @ inward.T).min(axis=1) + hole["diameter_mm"] / 2) > 0]
-    near = body.triangles[(np.abs((body.triangles - start) @ axes[2]).min(axis=1) < length + 5) & (np.linalg.norm(body.triangles_center - start, axis=1) < length + 5 * radius + 20)]
     points, total = start + flat @ axes[:2], 0.0
-    for met in lines_through(near, points, axes[2]):
+    for met in lines_through(near_hole(body, hole), points, axes[2]):
         met = met[(met > 0) & (met < length)]
         total += met[1::2].sum() - met[0::2].sum() if len(met) % 2 == 0 else math.nan
     return total * (side[1] - side[0]) ** 2
@@ -1329,13 +1334,12 @@ def judge_holes(table, sheet, parts, whole, voids):
         table.line(f"{hole['id']} leads from the open to {hole['void']}", True, leads, leads)
         # A ball is pushed along the axis: what is nearest to its middle anywhere decides.
         way = start + (end - start) * np.linspace(0, 1, 101)[:, None]
-        corners = np.concatenate(parts)
-        near = corners[np.linalg.norm(corners.mean(axis=1) - (start + end) / 2, axis=1) < np.linalg.norm(end - start) + 30]
+        near = near_hole(np.concatenate(parts), hole)
         soup = welded_soup(near)
         free = 2 * trimesh.proximity.closest_point(soup, way)[1].min()
         blocked = any(((met > 0) & (met < np.linalg.norm(end - start))).any() for met in lines_through(near, start[None], (end - start) / np.linalg.norm(end - start)))
         table.at_least(f"{hole['id']} free, mm", hole["diameter_mm"] - 0.01, 0.0 if blocked else free)
-        table.same(f"{hole['id']} volume, mm³", hole["volume_mm3"], hole_volume(hole, whole), 0.01)
+        table.same(f"{hole['id']} volume, mm³", hole["volume_mm3"], hole_volume(hole, whole.triangles), 0.01)
     for void in sheet["voids"]:
         holes = [hole for hole in sheet.get("drains", []) if hole["void"] == void["id"]]
         if holes and "cleaning" in sheet["printer"]:
@@ -1498,8 +1502,8 @@ def judge_surfaces(table, sheet, parts, outer, voids):
         # Nothing of what a part has of the body lies in a hole.
         inside = [within_hole(np.concatenate(parts).mean(axis=1), hole, ON_SURFACE_MM).sum() for hole in holes]
         table.none("triangles in the drain holes", int(sum(inside)))
-        mesh = welded(np.concatenate([*outer, *voids]))
-        lack = [trimesh.proximity.closest_point(welded_soup(np.concatenate(parts)), hole_walls(hole, mesh))[1].max(initial=0.0) for hole in holes]
+        soup = lambda hole: welded_soup(near_hole(np.concatenate(parts), hole))
+        lack = [trimesh.proximity.closest_point(soup(hole), hole_walls(hole, body))[1].max(initial=0.0) for hole in holes]
         table.at_most("walls of the drain holes, off by mm", ON_SURFACE_MM, max(lack))
     off, _ = farthest_off(rest, np.concatenate(parts))
     table.at_most("missing of the uncut body, mm", ON_SURFACE_MM, off.max(initial=0.0))
