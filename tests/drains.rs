@@ -18,9 +18,11 @@ use common::{
     printed, verify, words,
 };
 use equipoise::base::watch::Watch;
+use equipoise::cut::{GoalAxis, Hollowed, PlanRequest, drain};
 use equipoise::geom::{Frame, Point, Vector};
-use equipoise::mesh::primitives::cylinder;
-use equipoise::mesh::{Csg, TriMesh};
+use equipoise::mesh::primitives::{cuboid, cylinder};
+use equipoise::mesh::{Csg, Solid, TriMesh};
+use equipoise::printer::Printer;
 use equipoise::verify::{Check, Evidence, PromisedHole, judge, read_kit};
 use serde_json::Value;
 
@@ -293,4 +295,35 @@ fn an_unchanged_hole_of_another_hand_is_blamed_for_nothing() {
     assert_eq!(broken(&kept), []);
     let sheet = checklist(&sintered().0);
     assert_eq!(list(&sheet, "drains").len(), kept.promise.drains.len());
+}
+
+/// Returns the union of two bars that form a T, each made smaller by this on all sides, mm.
+fn tee(less_mm: f64) -> Solid {
+    let bars = [
+        [[0.0, 0.0, 0.0], [200.0, 20.0, 20.0]],
+        [[90.0, 0.0, 0.0], [110.0, 140.0, 20.0]],
+    ];
+    let bars = bars.map(|[low, high]| {
+        let (low, high) = (low.map(|x| x + less_mm), high.map(|x| x - less_mm));
+        Csg::of_mesh(&cuboid(&low.into(), &high.into())).unwrap()
+    });
+    bars[0].union(&bars[1]).unwrap().to_solid().unwrap()
+}
+
+#[test]
+fn a_long_void_gets_more_holes_until_all_of_it_is_within_reach() {
+    let hollowed = Hollowed::new(tee(0.0), vec![tee(2.0)]);
+    let printer = Printer::find("formlabs-form4").unwrap();
+    let axis = GoalAxis {
+        point: Point::new(100.0, 70.0, 0.0),
+        direction: Vector::z(),
+    };
+    let mut request = PlanRequest::for_printer(&printer, 200.0, axis);
+    let need = printer.drain_need(None).unwrap();
+    let count = |request: &PlanRequest| drain(&hollowed, request, &need).unwrap().plan;
+    assert_eq!(count(&request).drains.len(), 2);
+    request.cleaning.reach_mm = Some(60.0);
+    let found = count(&request);
+    assert!(found.drains.len() > 2, "{:?}", found.drains);
+    assert!(found.voids[0].depth_mm <= 60.0);
 }

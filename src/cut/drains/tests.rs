@@ -6,7 +6,6 @@ use crate::cut::Obstacle;
 use crate::cut::parts;
 use crate::cut::scenes::{ball, cuboid, request};
 use crate::geom::Vector;
-use crate::mesh::Solid;
 
 const ONE: DrainNeed = DrainNeed {
     diameter_mm: 4.0,
@@ -142,15 +141,4 @@ fn a_hole_that_misses_its_void_leaves_it_closed_and_the_piece_is_refused() {
         refused,
         Verdict::No(Obstacle::ClosedCavity { cavities: 1, .. })
     ));
-}
-
-#[test]
-fn a_long_void_gets_more_holes_until_all_of_it_is_within_reach() {
-    let outer: Solid = cuboid([0.0; 3], [200.0, 20.0, 20.0]);
-    let hollowed = Hollowed::new(outer, vec![cuboid([2.0; 3], [198.0, 18.0, 18.0])]);
-    let mut request = request();
-    request.cleaning.reach_mm = Some(60.0);
-    let found = drain(&hollowed, &request, &RESIN).unwrap();
-    assert!(found.plan.drains.len() > 2);
-    assert!(found.plan.voids[0].depth_mm <= 60.0);
 }
