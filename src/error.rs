@@ -1,10 +1,12 @@
 //! The union of the stages' errors.
 
+mod drain;
 mod graded;
 mod sliced;
 
 use std::path::PathBuf;
 
+pub use drain::DrainError;
 pub use graded::GradedError;
 pub use sliced::SlicedError;
 
@@ -145,6 +147,9 @@ pub enum Error {
     /// The print cannot be graded.
     #[error(transparent)]
     Graded(#[from] GradedError),
+    /// The uncut piece gets no drain holes.
+    #[error(transparent)]
+    Drain(#[from] DrainError),
     /// A kit is not sliced, or its rounds are refused.
     #[error(transparent)]
     Sliced(#[from] SlicedError),

@@ -3,6 +3,7 @@
 mod choices;
 pub mod core_kit;
 mod densities;
+mod drain;
 mod effort;
 mod filling;
 mod model;
@@ -16,6 +17,7 @@ use serde::{Deserialize, Deserializer, Serialize, de::Error as _};
 
 pub use choices::{CutMode, IdStyle, Interior, ModelUnit, PartFormat, PinStyle};
 pub use densities::{DensityError, DensityOrder, InfillDensity, KeptShare, LevelCount};
+pub use drain::{DrainOrder, DrainOrderError};
 pub use effort::Effort;
 pub use filling::Filling;
 pub use model::ModelChoice;
@@ -56,6 +58,9 @@ pub struct Job {
     pub pitch: Option<Length>,
     /// The choice to cut the object.
     pub cut: CutMode,
+    /// The drain holes of an uncut piece; the least that do if the key is missing.
+    #[serde(default, skip_serializing_if = "DrainOrder::is_auto")]
+    pub drain: DrainOrder,
     /// The kind of seam; hidden ones if the key is missing.
     #[serde(default = "default_seam", skip_serializing_if = "SeamStyle::is_hidden")]
     pub seam: SeamStyle,
@@ -250,6 +255,7 @@ impl Job {
             wall: None,
             pitch: None,
             cut: CutMode::Auto,
+            drain: DrainOrder::Auto,
             seam: default_seam(),
             least_part: default_least_part(),
             pins: PinStyle::Printed,

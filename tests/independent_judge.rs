@@ -120,6 +120,27 @@ fn an_independent_judge_weighs_the_tip_and_the_stem_of_a_top_and_finds_a_false_l
     assert!(said.contains("FAIL lean, °"), "{said}");
 }
 
+#[test]
+fn an_independent_judge_feels_the_drain_holes_of_an_uncut_piece_and_finds_a_wider_one_false() {
+    let Some(python) = find_python(PACKAGES) else {
+        return;
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let kit = folder.path().join("kit");
+    let whole = "--size 60mm --pitch 0.3mm --goal stand --up z --cut never";
+    let options = format!("{whole} --printer hp-mjf-5200 --least-angle 3");
+    assert_exit(&prepare(&kit, &words(&options)), 0);
+    let (code, said) = judge(JUDGE, &python, &kit);
+    assert!(code == Some(0) && said.contains("D2 free, mm"), "{said}");
+    let [diameter, lie] = ["2.0", "2.1"].map(|mm| format!("\"diameter_mm\": {mm}"));
+    replace(&kit, &diameter, &lie);
+    let (code, said) = judge(JUDGE, &python, &kit);
+    assert!(
+        code == Some(1) && said.contains("FAIL D1 free, mm"),
+        "{said}"
+    );
+}
+
 /// Moves one corner of a binary STL file, in all triangles that have it, mm.
 fn dent(stl: &Path, by_mm: f32) {
     let mut bytes = fs::read(stl).unwrap();

@@ -21,6 +21,8 @@ choice! {
         Pitch = "pitch",
         /// The choice to cut the object.
         Cut = "cut",
+        /// The drain holes of an uncut piece.
+        Drain = "drain",
         /// The cuts and pins that the user orders.
         Plan = "plan",
         /// The kind of seam.

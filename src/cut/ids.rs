@@ -115,6 +115,11 @@ macro_rules! named_id {
 }
 
 counted_id! {
+    /// The id of a drain hole: D1, D2, …
+    DrainId, 'D', 1
+}
+
+counted_id! {
     /// The id of a void, by its place among those of the hollowed body: V1, V2, …
     VoidId, 'V', 1
 }

@@ -14,6 +14,7 @@
 //! | `plan`, `ids`, `side` | the plan as plain data, with the ids and sides that it names |
 //! | `remark`, `error` | notes for the user, obstacles and errors |
 //! | `geometry` | sections, outlines and the tree of cuts |
+//! | `drains` | the holes through which the voids of an uncut piece drain |
 //! | `access` | the openings of voids, and the share of their walls in sight |
 //! | `pieces` | the pieces between the cuts, their poses, and the finished parts |
 //! | `joints` | pins, dowels, bosses and labels |
@@ -33,6 +34,7 @@ mod seat;
 mod side;
 
 mod access;
+mod drains;
 mod geometry;
 mod joints;
 mod pieces;
@@ -57,12 +59,16 @@ pub use seat::Seat;
 
 // The plan.
 pub use error::{CutError, Obstacle};
-pub use ids::{CutId, IdError, JointId, PartId, PinId, VoidId};
+pub use ids::{CutId, DrainId, IdError, JointId, PartId, PinId, VoidId};
 pub use plan::{Cut, CutMove, CutPlan, JointNote, SolidEnd, UncutFace};
 pub use planner::draft::{Draft, Drafts, SeamWeight, draft, draft_again, finish_draft};
 pub use planner::{measure_voids_again, plan, plan_around, plan_by};
 pub use remark::{PinLack, Proof, Remark, SightGain, Term, UncleanCause};
 pub use side::{CutSide, Side};
+
+// The drain holes of an uncut piece.
+pub use drains::hole::DrainHole;
+pub use drains::{Drained, drain};
 
 // The parts and their joints.
 pub use joints::bench::{PRESSED_MM, WIPING_ROOM_MM};

@@ -3,6 +3,7 @@
 use crate::{
     cut::{
         access::void_access::VoidAccess,
+        drains::hole::DrainHole,
         error::CutError,
         geometry::{
             chart::{Chart, Point2},
@@ -40,6 +41,10 @@ pub struct CutPlan {
     /// Regions of the interior that stay solid, so that joints have room for their pins.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub solid: Vec<SolidEnd>,
+    /// The holes through which the voids of an uncut piece drain. They follow from the body, and
+    /// are not written to the plan's file.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub drains: Vec<DrainHole>,
     /// The cuts that were moved to a whole layer of the printer. They record how the plan was found
     /// and are not written to its file.
     #[serde(skip)]
@@ -150,6 +155,7 @@ impl CutPlan {
             voids: hollowed.voids.iter().enumerate().map(closed).collect(),
             uncut: Vec::new(),
             solid: Vec::new(),
+            drains: Vec::new(),
             moves: Vec::new(),
             notes: Vec::new(),
         }

@@ -12,7 +12,7 @@ use crate::cut::{
 use crate::error::Error;
 use crate::mass::{Moments, moments_of_mesh};
 use crate::mesh::TriMesh;
-use crate::open::{Candidate, Planner, Resolver, finish, shortfall_ratio};
+use crate::open::{Candidate, Planner, Resolver, drain_again, finish, shortfall_ratio};
 use crate::run::{BossRound, KeptBoss, Made, Placed, Voids, WrittenPart};
 use crate::verify::{PartEvidence, assembly_moments};
 
@@ -32,7 +32,8 @@ pub fn make<'a>(
         mut resolver,
     } = candidate.weighing(placed);
     let value_before_cleaning = resolver.first_value();
-    let more = moments_of_mesh(&opened.plan.pegs()) + placed.joining_moments(&opened.plan);
+    let pegs = moments_of_mesh(&opened.plan.pegs()) + placed.joining_moments(&opened.plan);
+    let more = pegs - opened.plan.drained(&opened.voids.hollowed)?;
     let mut corrector = Corrector {
         placed,
         resolver: &mut resolver,
@@ -171,6 +172,15 @@ impl Corrector<'_, '_> {
         Ok(kept)
     }
 
+    /// Plans the voids as they are now.
+    fn plan_anew(&self, voids: &Voids) -> Result<CutPlan, Error> {
+        if self.placed.is_drained() {
+            return drain_again(self.placed, voids, self.request);
+        }
+        let anew = Planner::of(self.placed).plan(voids, self.request)?;
+        Ok(anew.or_error::<CutError>()?)
+    }
+
     /// Cuts the body by the plan and writes its parts, in memory.
     ///
     /// If the voids have changed so that the plan leaves one closed, it is planned anew.
@@ -183,8 +193,7 @@ impl Corrector<'_, '_> {
         let (parts, plan) = match parts_and_faces(&body, &plan, self.request)? {
             Verdict::No(Obstacle::ClosedCavity { .. }) => {
                 let solid = std::mem::take(&mut plan.solid);
-                let anew = Planner::of(self.placed).plan(voids, self.request)?;
-                let anew = anew.or_error::<CutError>()?;
+                let anew = self.plan_anew(voids)?;
                 let anew = CutPlan { solid, ..anew };
                 parts_and_faces(&body, &anew, self.request)?
             }

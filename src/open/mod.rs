@@ -12,6 +12,7 @@ mod build;
 mod clean;
 mod defect;
 mod drain;
+mod drained;
 mod draw;
 mod failed;
 mod ground;
@@ -32,6 +33,7 @@ mod way;
 mod scenes;
 
 pub use defect::shortfall_ratio;
+pub use drained::drain_again;
 pub use draw::finish;
 pub use one_piece::one_piece;
 pub use plan::Planner;

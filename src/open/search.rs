@@ -4,6 +4,7 @@
 use std::vec::IntoIter;
 
 use super::build::{Planned, build, build_found, plan_order};
+use super::drained::drained;
 use super::ladder::Ladder;
 use super::proxy::Bodies;
 use super::refused::unless_refused;
@@ -22,6 +23,9 @@ pub fn climb<'a>(
     solved: Solved,
     watch: &Watch,
 ) -> Result<Candidates<'a>, Error> {
+    if placed.is_drained() {
+        return Ok(Candidates::of_one(drained(placed, solved, watch)?));
+    }
     let bodies = Bodies::new(placed, solved, watch)?;
     let planner = bodies.whole.planner();
     let found = match planner.order().filter(|_| planner.pins().is_some()) {
@@ -90,6 +94,15 @@ pub struct Candidates<'a> {
 }
 
 impl<'a> Candidates<'a> {
+    /// Returns the only plan of a piece that is not cut.
+    fn of_one(candidate: Candidate<'a>) -> Self {
+        Self {
+            bodies: None,
+            found: Vec::new().into_iter(),
+            ready: vec![candidate].into_iter(),
+        }
+    }
+
     /// Climbs the ladder of the body itself.
     fn of_body(bodies: Bodies<'a>) -> Result<Self, Error> {
         let budget = bodies.whole.budget().clone();

@@ -67,7 +67,7 @@ pub struct Settled {
 
 /// Bodies that must be kept solid too, or the settled plan.
 enum Step {
-    Done(CutPlan),
+    Done(Box<CutPlan>),
     Keep(Vec<Unclean>),
 }
 
@@ -88,6 +88,7 @@ pub fn settle(
         let unclean = match replan(&voids, terms)? {
             Verdict::Found(Step::Done(plan)) => {
                 let voids = resolver.correct(voids, Moments::default())?;
+                let plan = *plan;
                 return Ok(Verdict::Found(Settled { voids, plan }));
             }
             Verdict::Found(Step::Keep(unclean)) => unclean,
@@ -116,7 +117,7 @@ fn replan(voids: &Voids, terms: &Terms) -> Result<Verdict<Step, Refusal>, Error>
         Verdict::Found(plan) => {
             let unclean = list_unclean(voids, &plan, terms)?;
             Ok(Verdict::Found(if unclean.is_empty() {
-                Step::Done(plan)
+                Step::Done(Box::new(plan))
             } else {
                 Step::Keep(unclean)
             }))

@@ -6,6 +6,7 @@ use super::apart::{self, Apart, halves};
 use super::below;
 use super::curves;
 use super::cut_drawing::{self, CutFace};
+use super::drain_drawing;
 use super::figure::{Draft, Picture, Role};
 use super::inertia;
 use super::inserts::{lump_mesh, rod_mesh};
@@ -123,6 +124,7 @@ pub fn draw_figures(
     );
     let mut drawings = plates?;
     drawings.extend(below?);
+    drawings.extend(drain_drawing::pictures(sheet, subject, watch)?);
     drawings.extend(jig_drawing::pictures(sheet, subject, watch)?);
     drawings.extend(joint_drawing::drawings(sheet, faces));
     drawings.extend(cut_drawing::drawings(sheet, faces));

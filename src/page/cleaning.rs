@@ -3,10 +3,11 @@
 use maud::{Markup, html};
 
 use super::fields::{residue, residue_density_ratio};
-use crate::base::numbers::{measured, quantity};
-use crate::base::units::MM3_PER_CM3;
+use crate::base::numbers::{coordinates, measured, quantity};
+use crate::base::units::{MM3_PER_CM3, format_count};
+use crate::geom::Vector;
 use crate::sheet::{Checklist, Process, VoidRow, checks_of_void};
-use crate::verify::{Check, CheckKind, CleaningRule};
+use crate::verify::{Check, CheckKind, CleaningRule, PromisedHole};
 
 /// Least volume kept solid that is reported, mm³. Less changes no figure that is shown: other
 /// differences come from solving again with pins and on the printer's own columns.
@@ -16,6 +17,9 @@ const LEAST_REPORTED_MM3: f64 = 0.05;
 /// more accurate.
 const ALL_IN_SIGHT_RATIO: f64 = 0.995;
 
+/// Sine of the rise from which a side looks up or down: 30°.
+const LEVEL_SINE: f64 = 0.5;
+
 /// Returns the instruction to clean a void, with a box to tick.
 pub(super) fn clean_one(sheet: &Checklist, void: &VoidRow) -> Markup {
     let is_in_several = void.parts.len() > 1;
@@ -23,7 +27,8 @@ pub(super) fn clean_one(sheet: &Checklist, void: &VoidRow) -> Markup {
         li class=[is_in_several.then_some("boxed")] {
             strong { (void.id) }
             @if let [part] = &void.parts[..] { " in " (part) } ": "
-            @if void.opened_by.is_empty() { strong class="fail" { "opened by no cut. " } }
+            @if !void.drained_by.is_empty() { (holes_of(sheet, void)) }
+            @else if void.opened_by.is_empty() { strong class="fail" { "opened by no cut. " } }
             @else {
                 (measured(void.opening_mm, "mm")) " wide at its narrowest opening and " (measured(void.depth_mm, "mm")) " deep, open at the cut face. "
             }
@@ -34,6 +39,56 @@ pub(super) fn clean_one(sheet: &Checklist, void: &VoidRow) -> Markup {
             (left_full(sheet, void))
             (part_boxes(void))
         }
+    }
+}
+
+/// Words the drain holes of a void, where they are, and how they are used.
+fn holes_of(sheet: &Checklist, void: &VoidRow) -> Markup {
+    let holes = sheet.drains.iter().filter(|hole| hole.void == void.id);
+    let holes: Vec<&PromisedHole> = holes.collect();
+    let place = |hole: &&PromisedHole| {
+        let at = coordinates(&hole.from_mm);
+        format!("{} on its {} at {at} mm", hole.id, side_of(sheet, hole))
+    };
+    let places: Vec<String> = holes.iter().map(place).collect();
+    let width = holes
+        .iter()
+        .map(|hole| hole.diameter_mm)
+        .fold(0.0, f64::max);
+    html! {
+        (format_count(holes.len(), "drain hole")) " of " (measured(width, "mm")) " (" (places.join("; ")) "), "
+        (measured(void.depth_mm, "mm")) " to its farthest point. "
+        (way_out(&sheet.printer.process, holes.len())) " "
+    }
+}
+
+/// Names the side of the finished object that a hole is in: by the way it faces.
+fn side_of(sheet: &Checklist, hole: &PromisedHole) -> &'static str {
+    let way = Vector::from(hole.from_mm) - Vector::from(hole.to_mm);
+    let up = Vector::from(sheet.goal.aim.axis).normalize();
+    match way.normalize().dot(&up) {
+        rise if rise < -LEVEL_SINE => "underside",
+        rise if rise > LEVEL_SINE => "upper side",
+        _ => "flank",
+    }
+}
+
+/// Tells how the content leaves through so many holes.
+fn way_out(process: &Process, holes: usize) -> &'static str {
+    match process {
+        Process::Sla => {
+            "Let the resin run out with one hole down and the other open, and flush solvent \
+             through both. Switch off supports inside in the slicer: none could be taken out."
+        }
+        Process::Sls | Process::Mjf if holes > 1 => {
+            "Turn and knock it with a hole down, and blow into the other one until no more powder \
+             comes."
+        }
+        Process::Sls | Process::Mjf => {
+            "Turn and knock it with the hole down, and blow in with a thin nozzle until no more \
+             powder comes."
+        }
+        _ => "Turn it so that a hole is the lowest place.",
     }
 }
 

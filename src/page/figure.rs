@@ -19,6 +19,8 @@ pub enum Role {
     Plate,
     /// Table of parts: a part from below, with what support touches.
     Below,
+    /// Clean: a drain hole, seen straight into it.
+    Drain,
     /// Join: both faces of a joint, opened like a book.
     Joint,
     /// Join: the object in a jig.

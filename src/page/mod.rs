@@ -14,6 +14,7 @@ mod cover;
 mod curves;
 mod cut_drawing;
 mod document;
+mod drain_drawing;
 mod fields;
 mod figure;
 mod gluing;

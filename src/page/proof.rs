@@ -215,9 +215,15 @@ fn void_line(void: &VoidRow) -> Markup {
             td class="n" data-head="Depth" { (quantity(void.depth_mm, "mm")) }
             @let sight = void.sight_ratio.map(|ratio| 100.0 * ratio);
             td class="n" data-head="Wall in sight" { (quantity_or_dash(sight, "%")) }
-            td data-head="Opened by, and cleaned by" { (void.opened_by.join(", ")) ": " (void.method) }
+            td data-head="Opened by, and cleaned by" { (opened_by(void)) ": " (void.method) }
         }
     }
+}
+
+/// Names the cuts or drain holes that open a void.
+fn opened_by(void: &VoidRow) -> String {
+    let names = void.opened_by.iter().chain(&void.drained_by);
+    names.map(String::as_str).collect::<Vec<_>>().join(", ")
 }
 
 /// Returns the hashes of all files, and the sources of the numbers.

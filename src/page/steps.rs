@@ -159,7 +159,7 @@ fn clean(sheet: &Checklist, pictures: &[Picture]) -> Markup {
         @if sheet.voids.is_empty() { p { "There are no voids: nothing to clean." } }
         @else {
             div class="beside" {
-                (figures(pictures, Role::CutAway))
+                (figures_of(pictures, &[Role::CutAway, Role::Drain]))
                 ul class="ticks" { @for void in &sheet.voids { (clean_one(sheet, void)) } }
             }
         }

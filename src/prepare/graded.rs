@@ -4,9 +4,10 @@ use crate::ballast::Load;
 use crate::base::setting::{Key, Setting};
 use crate::base::verdict::Verdict;
 use crate::base::watch::Watch;
-use crate::error::{Error, GradedError, SlicedError};
+use crate::error::{DrainError, Error, GradedError, SlicedError};
+use crate::goal::GoalKind;
 use crate::hollow::Fill;
-use crate::job::{Interior, Job, PartFormat, SlicedRound};
+use crate::job::{DrainOrder, Interior, Job, PartFormat, SlicedRound};
 use crate::mass::moments_of_mesh;
 use crate::mesh::{TriMesh, shells};
 use crate::printer::Printer;
@@ -39,6 +40,21 @@ pub fn sparse_print(job: &Job, printer: &Printer) -> Result<Option<Nested>, Grad
         return Err(GradedError::OnlyStl);
     }
     nested(job, printer).map(Some)
+}
+
+/// Refuses drain holes for what floats, and an order of them for what is cut or has no voids.
+///
+/// # Errors
+/// The job orders a diameter, and no hollow piece that stays whole; or one that floats.
+pub fn refuse_holes(placed: &Placed) -> Result<(), DrainError> {
+    let order = placed.job.drain;
+    if placed.is_drained() && placed.goal().kind == GoalKind::Float {
+        return Err(DrainError::Floats);
+    }
+    match order {
+        DrainOrder::Diameter(_) if !placed.is_drained() => Err(DrainError::NotWhole { order }),
+        _ => Ok(()),
+    }
 }
 
 /// Returns the first order of densities in a job; `None` without any.

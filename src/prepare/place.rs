@@ -64,6 +64,7 @@ pub fn goal(job: &Job, model: Model, shop: Shop, watch: &Watch) -> Result<Placed
     };
     let placed = hardware::fit(waterline::choose(placed, watch)?, watch)?;
     graded::refuse_pieces(&placed)?;
+    graded::refuse_holes(&placed)?;
     Ok(placed)
 }
 

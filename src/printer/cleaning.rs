@@ -97,11 +97,16 @@ impl Cleaning {
 impl Printer {
     /// Returns how voids are cleaned, in words. A vat leaves resin in them too.
     pub fn cleaning_method(&self) -> &'static str {
-        if self.process.as_deref() == Some(VAT) {
+        if self.prints_in_vat() {
             "resin drains, and support comes out, through the opening"
         } else {
             self.cleaning_rule().rule.description()
         }
+    }
+
+    /// Returns whether it prints in a vat of resin.
+    pub fn prints_in_vat(&self) -> bool {
+        self.process.as_deref() == Some(VAT)
     }
 
     /// Returns the rule by which voids in this printer's parts count as clean.

@@ -296,6 +296,8 @@ pub enum KeptCause {
     Ordered,
     /// No cut opens the void.
     Unopenable,
+    /// The void has no place for its drain holes.
+    Undrainable,
     /// It cannot be cleaned.
     Uncleanable(UncleanCause),
     /// It encloses resin while its part is printed in a vat.
@@ -312,6 +314,7 @@ impl fmt::Display for KeptCause {
             Self::SmallPart => f.write_str("the end in a part that would be too small"),
             Self::Ordered => f.write_str("the plan keeps it solid"),
             Self::Unopenable => f.write_str("no cut opens it wide enough"),
+            Self::Undrainable => f.write_str("no thin, flat wall has room for its drain holes"),
             Self::Uncleanable(cause) => cause.fmt(f),
             Self::Cup { volume_mm3 } => write!(
                 f,

@@ -16,8 +16,8 @@ use super::voids::{CutRow, VoidRow};
 use crate::printer::Plate;
 use crate::repair::RepairOrder;
 use crate::verify::{
-    Check, Figures, FillOrder, Hardware, InfillOrder, LaidOrder, PromisedFigure, PromisedPlate,
-    SCHEMA,
+    Check, Figures, FillOrder, Hardware, InfillOrder, LaidOrder, PromisedFigure, PromisedHole,
+    PromisedPlate, SCHEMA,
 };
 
 /// The job sheet of a kit, for machines; the room `page` renders the same for people.
@@ -56,6 +56,9 @@ pub struct Checklist {
     pub wall: WallRow,
     /// Voids.
     pub voids: Vec<VoidRow>,
+    /// Drain holes of an uncut piece; empty for others.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub drains: Vec<PromisedHole>,
     /// Cuts.
     pub cuts: Vec<CutRow>,
     /// Parts.

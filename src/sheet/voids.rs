@@ -13,6 +13,9 @@ pub struct VoidRow {
     pub volume_mm3: f64,
     /// Ids of the cuts that open it.
     pub opened_by: Vec<String>,
+    /// Ids of the drain holes that open it; empty if cuts do.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub drained_by: Vec<String>,
     /// Ids of the parts that hold a piece of it.
     #[serde(default)]
     pub parts: Vec<String>,

@@ -120,6 +120,7 @@ pub fn sample_pictures(sheet: &Checklist, evidence: &Evidence) -> (Vec<Picture>,
 fn checklist(evidence: &Evidence, found: &Judgement) -> Checklist {
     let speed = found.assembly.critical_speed_rpm.unwrap();
     Checklist {
+        drains: Vec::new(),
         schema: Checklist::SCHEMA,
         tool: Tool {
             name: "equipoise".into(),
@@ -298,6 +299,7 @@ fn the_void() -> VoidRow {
         id: "V1".into(),
         volume_mm3: 54.0 * 34.0 * 6.0,
         opened_by: vec!["C1".into()],
+        drained_by: Vec::new(),
         parts: vec!["P01".into(), "P02".into()],
         opening_mm: 34.0,
         least_opening_mm: 4.0,

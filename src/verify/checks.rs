@@ -11,7 +11,7 @@ use super::limits::{
 use super::play::worst_joint;
 use super::shape_checks::shape_checks;
 use super::thin_checks::thin_checks;
-use super::void_checks::{regions_check, void_checks};
+use super::void_checks::{holes_check, regions_check, void_checks};
 use super::{
     Check, CheckKind, CupFacts, JigFacts, Judgement, Limit, PartFacts, Peg, PegFacts, Promise,
     PromisedPart,
@@ -45,6 +45,7 @@ pub fn checks(promise: &Promise, found: &Judgement) -> Vec<Check> {
             .map(|room| room_check(&printed, room)),
     );
     checks.extend(cup_check(&found.cups));
+    checks.extend(holes_check(&found.holes));
     checks.extend(void_checks(promise, &found.voids));
     checks.push(volume_check(promise, found));
     checks.extend(joint_checks(promise, found));
@@ -133,7 +134,7 @@ fn surface_checks(promise: &Promise, found: &Judgement) -> Vec<Check> {
     let crossings = surfaces.iter().map(|(_, s)| s.crossings).sum();
     let cavities = match &promise.infill {
         Some(infill) => regions_check(promise, found, infill),
-        None => cavities_check(&found.parts),
+        None => cavities_check(found),
     };
     vec![
         no_faults(
@@ -158,11 +159,16 @@ fn surface_checks(promise: &Promise, found: &Judgement) -> Vec<Check> {
 }
 
 /// Checks that no part has a closed cavity.
-fn cavities_check(parts: &[PartFacts]) -> Check {
+fn cavities_check(found: &Judgement) -> Check {
+    let parts = &found.parts;
     let sealed = parts.iter().filter(|part| part.cavities > 0);
     let count = parts.iter().map(|part| part.cavities).sum();
     let words = sealed.map(|part| format!("{}: {}", part.id, part.cavities));
-    let promise = "every void is opened by a cut";
+    let promise = if found.holes.is_empty() {
+        "every void is opened by a cut"
+    } else {
+        "every void is opened by a drain hole"
+    };
     no_faults(CheckKind::ClosedCavities, promise, count).at(join_words(words))
 }
 
@@ -238,10 +244,15 @@ fn volume_check(promise: &Promise, found: &Judgement) -> Check {
         .map(|part| sum(&part.pins) - sum(&part.sockets) - marks(part))
         .sum();
     let whole = found.hollowed.volume_mm3;
-    let error = (found.assembly.volume_mm3 - whole - joints).abs() / whole;
+    let drained_mm3 = found.drained_mm3;
+    let error = (found.assembly.volume_mm3 - whole - joints + drained_mm3).abs() / whole;
     Check::new(
         CheckKind::Volumes,
-        "the parts add up to the uncut body, its pins, sockets and engraved ids",
+        if found.holes.is_empty() {
+            "the parts add up to the uncut body, its pins, sockets and engraved ids"
+        } else {
+            "the piece is the uncut body, less its drain holes"
+        },
         Some(error),
         Limit::at_most(VOLUME_SUM_LIMIT_RATIO, ""),
     )

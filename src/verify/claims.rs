@@ -10,7 +10,7 @@ use super::limits::CONTACT_LIMIT_MM;
 use super::{Evidence, FigureName, Hardware, Judgement, Peg};
 use crate::geom::{Plane, Point, Vector};
 use crate::goal::GoalKind;
-use crate::mesh::foot_area_mm2;
+use crate::mesh::{area_mm2, foot_area_mm2};
 
 /// A stated opening may differ from the found one by this share, since the widest disc is found by
 /// steps.
@@ -59,6 +59,7 @@ pub(super) fn find_false_claims(
         faults: Vec::new(),
     };
     claims.judge_voids();
+    claims.judge_drains();
     claims.judge_joints();
     claims.judge_pegs();
     claims.judge_marks();
@@ -98,7 +99,15 @@ impl Claims<'_> {
             let parts = &self.evidence.parts;
             let holders = facts.holders.iter().filter_map(|&part| parts.get(part));
             let holders: BTreeSet<&str> = holders.map(|part| part.id.as_str()).collect();
-            for (key, found) in [("opened_by", cuts), ("parts", holders)] {
+            let holes = judgement.holes.iter();
+            let holes = holes.filter(|hole| hole.void.as_ref() == Some(&facts.id));
+            let holes: BTreeSet<&str> = holes.map(|hole| hole.id.as_str()).collect();
+            let found = [
+                ("opened_by", cuts),
+                ("drained_by", holes),
+                ("parts", holders),
+            ];
+            for (key, found) in found {
                 let stated = row[key].as_array();
                 let stated: Option<BTreeSet<&str>> =
                     stated.map(|names| names.iter().filter_map(Value::as_str).collect());
@@ -107,6 +116,15 @@ impl Claims<'_> {
                 }
             }
         }
+    }
+
+    /// Judges the volume that the drain holes take.
+    fn judge_drains(&mut self) {
+        let stated = rows(self.sheet, "drains").iter();
+        let stated = stated.filter_map(|hole| hole["volume_mm3"].as_f64());
+        let (stated, found): (f64, f64) = (stated.sum(), self.judgement.drained_mm3);
+        let slack = AREA_RATIO * found;
+        self.compare("drains: volume_mm3", &stated.into(), found, slack);
     }
 
     /// Judges the parts and the areas of the joints by the faces in their planes.
@@ -367,11 +385,6 @@ fn bounds(rod: &Hardware) -> [Point; 4] {
         (to, disc)
     };
     [from - disc, from + disc, end - reach, end + reach]
-}
-
-/// Returns the area of a triangle, mm².
-fn area_mm2([a, b, c]: &[Point; 3]) -> f64 {
-    (b - a).cross(&(c - a)).norm() / 2.0
 }
 
 /// Returns the rows of a table of the checklist.

@@ -7,6 +7,7 @@ use super::body::Body;
 use super::checks::checks;
 use super::cleaning::inspect_voids;
 use super::cups::measure_cups;
+use super::drains::{Bored, measure_holes, open_through_holes};
 use super::hardware::measure_fit;
 use super::jigs::measure_jigs;
 use super::joints::{count_lost_strokes, film_error};
@@ -18,8 +19,8 @@ use super::regions::measure_inner_regions;
 use super::shape::measure_shapes;
 use super::slack::Slack;
 use super::{
-    Evidence, Figures, Fit, JigFacts, Judgement, PartFacts, PegFacts, RegionFacts, Setting,
-    ShapeFacts, SpinFacts, SurfaceFacts, VoidFacts, assembly_moments,
+    Evidence, Figures, Fit, HoleFacts, JigFacts, Judgement, PartFacts, PegFacts, RegionFacts,
+    Setting, ShapeFacts, SpinFacts, SurfaceFacts, VoidFacts, assembly_moments,
 };
 use crate::base::watch::{Cancelled, Watch};
 use crate::mass::{Moments, moments_of_mesh};
@@ -72,12 +73,16 @@ fn judge_beside(
 ) -> Result<Judgement, Cancelled> {
     let promise = &evidence.promise;
     watch.check()?;
+    let bored = Bored::of(promise, body);
+    let bored = bored.as_ref();
     let jigs = || jigs.map_or_else(|| measure_jigs(evidence, body, watch), Ok);
     let thin = || find_thin(&body.outer, promise.printer.minimum_wall_mm, watch);
     let ((surface, (jigs, walls)), ((thin, cups), (inside, figures))) = both(
         || {
             let surface = || SurfaceFacts::of_mesh(&body.welded, &body.whole, watch);
-            both(surface, || both(jigs, || Walls::of(evidence, body, watch)))
+            both(surface, || {
+                both(jigs, || Walls::of(evidence, body, bored, watch))
+            })
         },
         || {
             let cups = || measure_cups(promise, &evidence.parts, watch);
@@ -112,6 +117,8 @@ fn judge_beside(
         jigs,
         overlaps: inside.overlaps,
         voids: inside.voids,
+        holes: inside.holes,
+        drained_mm3: bored.map_or(0.0, |bored| bored.taken_mm3),
         beyond_ratio: figures.beyond_ratio,
         inner_regions: inside.inner_regions,
         film_error: film_error(promise, &evidence.parts),
@@ -194,8 +201,13 @@ struct Walls {
 }
 
 impl Walls {
-    fn of(evidence: &Evidence, body: &Body, watch: &Watch) -> Result<Self, Cancelled> {
-        let shape = || measure_shapes(evidence, &body.shells, watch);
+    fn of(
+        evidence: &Evidence,
+        body: &Body,
+        bored: Option<&Bored>,
+        watch: &Watch,
+    ) -> Result<Self, Cancelled> {
+        let shape = || measure_shapes(evidence, &body.shells, bored, watch);
         let (shape, least_mm) = both(shape, || body.smallest_wall_mm(watch))?;
         Ok(Self {
             least_mm: least(least_mm, shape.wall_mm),
@@ -210,6 +222,7 @@ struct Inside {
     pegs: Vec<PegFacts>,
     overlaps: usize,
     voids: Vec<VoidFacts>,
+    holes: Vec<HoleFacts>,
     lost_strokes: Option<usize>,
     inner_regions: Vec<RegionFacts>,
 }
@@ -225,11 +238,15 @@ impl Inside {
         let parts = || probes.par_iter().map(facts).collect::<Result<_, _>>();
         let ((pegs, overlaps), (voids, parts)) =
             both(|| both(pegs, overlaps), || both(voids, parts))?;
+        let holes = measure_holes(promise, body, &probes, watch)?;
+        let mut voids = voids;
+        open_through_holes(&mut voids, promise, body, &holes);
         Ok(Self {
             parts,
             pegs,
             overlaps,
             voids,
+            holes,
             lost_strokes: count_lost_strokes(promise, &probes),
             inner_regions: measure_inner_regions(evidence),
         })

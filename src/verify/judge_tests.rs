@@ -57,6 +57,7 @@ fn promise(poses: &[Pose]) -> Promise {
         marks: vec![],
     };
     Promise {
+        drains: Vec::new(),
         certificate: None,
         schema: SCHEMA,
         printer: PrinterLimits {

@@ -2,8 +2,8 @@
 
 use super::joints::FilmError;
 use super::{
-    Check, CupFacts, Figures, FileChange, Fit, JigFacts, JointFacts, PartFacts, PegFacts,
-    RegionFacts, ShapeFacts, SpinFacts, SurfaceFacts, VoidFacts,
+    Check, CupFacts, Figures, FileChange, Fit, HoleFacts, JigFacts, JointFacts, PartFacts,
+    PegFacts, RegionFacts, ShapeFacts, SpinFacts, SurfaceFacts, VoidFacts,
 };
 use crate::thin::ThinFeatures;
 
@@ -51,6 +51,10 @@ pub struct Judgement {
     pub overlaps: usize,
     /// Facts about every void in the parts; empty if no cleaning was ordered.
     pub voids: Vec<VoidFacts>,
+    /// Facts about every drain hole.
+    pub holes: Vec<HoleFacts>,
+    /// The volume that the drain holes take from the uncut result, mm³; 0 without any.
+    pub drained_mm3: f64,
     /// The film of glue that differs most from its faces; `None` without films.
     pub film_error: Option<FilmError>,
     /// Number of strokes of engraved ids that are not in their files as deep as promised; `None`

@@ -89,6 +89,8 @@ pub enum CheckKind {
         /// The void's id, such as `V1`.
         void: String,
     },
+    /// Free diameters of the drain holes.
+    DrainHoles,
     /// Agreement of the voids with what the checklist states of them.
     VoidsAsStated,
     /// Sum of the parts' volumes against the uncut body.
@@ -269,6 +271,7 @@ impl fmt::Display for CheckKind {
             Self::Cups => "cups",
             Self::VoidOpen { void } => return write!(f, "void {void} open"),
             Self::VoidClean { void } => return write!(f, "void {void} clean"),
+            Self::DrainHoles => "drain holes",
             Self::VoidsAsStated => "voids as stated",
             Self::Volumes => "volumes",
             Self::Pins => "pins",
@@ -298,7 +301,8 @@ mod tests {
     use serde_json::json;
 
     /// The keys and names of all kinds without data.
-    const KEYS: [(CheckKind, &str, &str); 76] = [
+    const KEYS: [(CheckKind, &str, &str); 77] = [
+        (CheckKind::DrainHoles, "drain-holes", "drain holes"),
         (CheckKind::Papers, "papers", "papers"),
         (CheckKind::Replay, "replay", "replay"),
         (CheckKind::AxisOffset, "axis-offset", "axis offset"),

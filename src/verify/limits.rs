@@ -48,6 +48,9 @@ pub const RESTING_LIMIT_MM: f64 = 1e-4;
 /// A part in a vat may enclose this much resin, mm³: a socket or a letter drains and causes no
 /// suction.
 pub const CUP_LIMIT_MM3: f64 = 150.0;
+/// A drain hole may be this much narrower than stated, mm. The rounding of files is far below it,
+/// and a printer's pixel above.
+pub const HOLE_LIMIT_MM: f64 = 0.01;
 /// The matrix of a pose is rigid within this. Rounding of a 4×4 matrix gives 1e-15, a mirror 2, a
 /// stretch of 0.01 % gives 2e-4.
 pub const POSE_LIMIT_RATIO: f64 = 1e-9;

@@ -24,6 +24,13 @@ impl<'a> PartProbe<'a> {
         !self.surface.crosses_segment(&from, &to)
     }
 
+    /// Returns the distance of a point from the part's surface, mm; `None` if it has none.
+    pub(super) fn distance_mm(&self, model: &Point) -> Option<f64> {
+        let at = self.part.pose.to_print(model);
+        let nearest = self.surface.closest(&at, f64::INFINITY, &[])?;
+        Some(nearest.distance_squared.sqrt())
+    }
+
     /// Returns true if a point lies in the part's material.
     pub(super) fn contains(&self, model: &Point) -> bool {
         self.surface.winding(&self.part.pose.to_print(model)) != 0

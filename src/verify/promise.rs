@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{
     BallastOrder, BoundProof, Density, FillOrder, Fingerprint, Hardware, InfillOrder, LaidOrder,
-    Pose, PrinterLimits, PromisedPlate, RotorOrder, WaterOrder,
+    Pose, PrinterLimits, PromisedHole, PromisedPlate, RotorOrder, WaterOrder,
 };
 use crate::geom::{Frame, Point, Vector};
 use crate::goal::GoalKind;
@@ -44,6 +44,9 @@ pub struct Promise {
     /// The voids, in the order of the cavities of the uncut result.
     #[serde(default)]
     pub voids: Vec<PromisedVoid>,
+    /// The drain holes of an uncut piece; empty for others.
+    #[serde(default)]
+    pub drains: Vec<PromisedHole>,
     /// The hardware put into the parts.
     #[serde(default)]
     pub hardware: Vec<Hardware>,

@@ -1,11 +1,12 @@
 //! Facts about the surfaces of the parts: every triangle held against what it should be.
 //!
-//! A part consists of surfaces of the uncut body, of cut faces, and of its pins, sockets and ids. A
-//! cut face must have its counterpart on another part.
+//! A part consists of surfaces of the uncut body with its drain holes, of cut faces, and of its
+//! pins, sockets and ids. A cut face must have its counterpart on another part.
 
 use rayon::prelude::*;
 
 use super::cover::{Lie, ON_SHEET_MM, Sheet, Sheets, Whose, normal_of};
+use super::drains::Bored;
 use super::files::HOLLOWED_FILE;
 use super::peg_shape::Relief;
 use super::{Evidence, Shells};
@@ -46,6 +47,32 @@ pub struct ShapeFacts {
 /// A triangle, model frame, mm.
 type Corners = [Point; 3];
 
+/// The surfaces of the uncut body.
+struct Uncut {
+    outer: Vec<Corners>,
+    inner: Vec<Corners>,
+    /// The walls of its drain holes.
+    bores: Vec<Corners>,
+}
+
+impl Uncut {
+    /// Returns the surfaces of a body, with its holes if it has any.
+    fn of(shells: &Shells, bored: Option<&Bored>) -> Self {
+        match bored {
+            Some(bored) => Self {
+                outer: bored.outer.clone(),
+                inner: bored.inner.clone(),
+                bores: bored.walls.clone(),
+            },
+            None => Self {
+                outer: shells.outer_mesh().iter_corners().collect(),
+                inner: shells.inner_mesh().iter_corners().collect(),
+                bores: Vec::new(),
+            },
+        }
+    }
+}
+
 /// The surfaces that the parts should have.
 struct Plan {
     sheets: Sheets,
@@ -62,6 +89,7 @@ struct Plan {
 pub(super) fn measure_shapes(
     evidence: &Evidence,
     shells: &Shells,
+    bored: Option<&Bored>,
     watch: &Watch,
 ) -> Result<ShapeFacts, Cancelled> {
     let parts: Vec<Vec<Corners>> = evidence
@@ -73,7 +101,7 @@ pub(super) fn measure_shapes(
         })
         .collect();
     watch.check()?;
-    let plan = Plan::new(evidence, shells, &parts);
+    let plan = Plan::new(evidence, Uncut::of(shells, bored), &parts);
     watch.check()?;
     let mut strays = Vec::new();
     for (index, part) in parts.iter().enumerate() {
@@ -148,11 +176,11 @@ impl Sheets {
 }
 
 impl Plan {
-    fn new(evidence: &Evidence, shells: &Shells, parts: &[Vec<Corners>]) -> Self {
-        let (outer, inner) = (shells.outer_mesh(), shells.inner_mesh());
-        let body: Vec<Corners> = outer.iter_corners().chain(inner.iter_corners()).collect();
+    fn new(evidence: &Evidence, uncut: Uncut, parts: &[Vec<Corners>]) -> Self {
+        let (of_outer, of_body) = (uncut.outer.len(), uncut.outer.len() + uncut.inner.len());
+        let body = uncut.outer.into_iter().chain(uncut.inner);
+        let body: Vec<Corners> = body.chain(uncut.bores).collect();
         let mut wanted: Vec<(Corners, Option<usize>)> = body.iter().map(|&c| (c, None)).collect();
-        let (of_outer, of_body) = (outer.triangles().len(), body.len());
         let sheet = |corners: Corners, whose: Whose| Sheet { corners, whose };
         let mut sheets: Vec<Sheet> = body.into_iter().map(|c| sheet(c, Whose::Any)).collect();
         for (index, Relief { own, mouth, .. }) in reliefs(evidence) {

@@ -271,7 +271,7 @@ fn assert_changes_are_named(count: usize) {
     let sound = kit_with_pin(PIN, SOCKET, Vector::zeros());
     let shells = Shells::of_mesh(&crate::repair::weld(&sound.hollowed));
     let strays = |evidence: &Evidence| {
-        let found = measure_shapes(evidence, &shells, &Watch::silent()).unwrap();
+        let found = measure_shapes(evidence, &shells, None, &Watch::silent()).unwrap();
         found.strays
     };
     assert_eq!(strays(&sound), []);

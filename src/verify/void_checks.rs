@@ -1,9 +1,73 @@
 //! The checks of the voids: every one open and clean by the printer's rule.
 
-use super::limits::{OPENING_SLACK_RATIO, SIGHT_TOLERANCE_RATIO};
+use super::limits::{HOLE_LIMIT_MM, OPENING_SLACK_RATIO, SIGHT_TOLERANCE_RATIO};
 use super::{
-    Check, CheckKind, CleaningRule, InfillOrder, Judgement, Limit, Promise, PromisedVoid, VoidFacts,
+    Check, CheckKind, Cleaning, CleaningRule, HoleFacts, InfillOrder, Judgement, Limit, Promise,
+    PromisedVoid, VoidFacts,
 };
+
+/// The process whose voids drain, and need a vent for air.
+const VAT: &str = "sla";
+
+/// Checks that every drain hole is as free as stated and leads to its void; `None` without any.
+pub(super) fn holes_check(holes: &[HoleFacts]) -> Option<Check> {
+    let lack_mm = |hole: &HoleFacts| match hole.void {
+        Some(_) => (hole.diameter_mm - hole.free_mm).max(0.0),
+        None => hole.diameter_mm,
+    };
+    let worst_mm = holes.iter().map(lack_mm).reduce(f64::max)?;
+    let narrow = holes.iter().filter(|hole| lack_mm(hole) > HOLE_LIMIT_MM);
+    let narrow: Vec<String> = narrow
+        .map(|hole| match hole.void {
+            Some(_) => format!("{}: {:.2} mm free", hole.id, hole.free_mm),
+            None => format!("{}: leads to no void", hole.id),
+        })
+        .collect();
+    let promise = "every drain hole is free by its diameter; short by at most";
+    let limit = Limit::at_most(HOLE_LIMIT_MM, "mm");
+    let check = Check::new(CheckKind::DrainHoles, promise, Some(worst_mm), limit);
+    Some(check.at((!narrow.is_empty()).then(|| narrow.join("; "))))
+}
+
+/// Returns the check of a void that stays in one piece: holes wide enough, and for a liquid two.
+fn drained_checks(promise: &Promise, cleaning: &Cleaning, void: &VoidFacts) -> Vec<Check> {
+    let least_mm = promise.printer.minimum_opening_mm.unwrap_or(0.0);
+    let open = match is_liquid(promise) {
+        false => opening_check(void, cleaning.pair_opening_mm, least_mm),
+        true => {
+            let second_mm = void.openings_mm.first().and_then(|widths| widths.get(1));
+            let words = format!("{} has a drain and a vent, each of at least", void.id);
+            let kind = CheckKind::VoidOpen {
+                void: void.id.clone(),
+            };
+            let limit = Limit::at_least(least_mm * (1.0 - OPENING_SLACK_RATIO), "mm");
+            let value = Some(second_mm.copied().unwrap_or(0.0));
+            Check::new(kind, &words, value, limit)
+        }
+    };
+    let reached = cleaning.reach_mm.map(|_| {
+        let words = format!(
+            "the wall of {} is within reach of its holes, to a share of",
+            void.id
+        );
+        let kind = CheckKind::VoidClean {
+            void: void.id.clone(),
+        };
+        let limit = Limit::at_least(cleaning.sight_ratio, "");
+        Check::new(kind, &words, Some(void.sight_ratio), limit)
+    });
+    std::iter::once(open).chain(reached).collect()
+}
+
+/// Returns whether a liquid drains from the voids.
+fn is_liquid(promise: &Promise) -> bool {
+    promise.printer.process.as_deref() == Some(VAT)
+}
+
+/// Returns whether holes empty a void of this process: what is broken or dug out needs sight.
+fn can_drain(promise: &Promise, cleaning: &Cleaning) -> bool {
+    !cleaning.rule.needs_sight() || is_liquid(promise)
+}
 
 /// The most by which a region may stick out of the one around it, mm: the rounding of files, and
 /// what is smoothed of slivers.
@@ -48,6 +112,11 @@ pub(super) fn void_checks(promise: &Promise, found: &[VoidFacts]) -> Vec<Check> 
     }
     let mut checks = Vec::new();
     for (index, void) in found.iter().enumerate() {
+        let is_drained = promise.drains.iter().any(|hole| hole.void == void.id);
+        if is_drained && can_drain(promise, &cleaning) {
+            checks.extend(drained_checks(promise, &cleaning, void));
+            continue;
+        }
         let ordered = promise.voids.get(index);
         let least_mm = ordered
             .and_then(|void| void.least_opening_mm)
@@ -87,7 +156,8 @@ fn opening_check(void: &VoidFacts, pair_mm: Option<f64>, least_mm: f64) -> Check
     let by_pair = |openings: &Vec<f64>| {
         let second_mm = openings.get(1).copied().unwrap_or(0.0);
         let one_mm = openings.first().copied().unwrap_or(0.0);
-        if pair_mm.is_some_and(|pair_mm| second_mm >= pair_mm) {
+        let narrow = 1.0 - OPENING_SLACK_RATIO;
+        if pair_mm.is_some_and(|pair_mm| second_mm >= pair_mm * narrow) {
             one_mm.max(least_mm)
         } else {
             one_mm

@@ -216,9 +216,10 @@ const ARROWS: &[(&str, &[&str])] = &[
     ),
     (
         "open",
+        // A printer says which holes empty a void of one piece.
         &[
             "ballast", "base", "cut", "error", "geom", "goal", "hollow", "job", "mass", "mesh",
-            "run", "voids",
+            "printer", "run", "voids",
         ],
     ),
     (

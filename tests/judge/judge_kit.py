@@ -5,7 +5,7 @@
 
 Reads the parts (STL or 3MF) and hollowed.stl, and from checklist.json only where each part belongs (print_from_model), the ballast
 (shape, mass and place of each part), the rods of hardware, dowels and films of glue, the goal, the density, the wall, the build
-volume, the volumes of pins and sockets, the cuts and the cleaning rule, and what was promised. Puts the parts together,
+volume, the volumes of pins and sockets, the drain holes, the cuts and the cleaning rule, and what was promised. Puts the parts together,
 integrates them again, and prints promise against measurement. Exit code 0: all agree; 1: something does not; 2: no kit.
 """
 
@@ -72,6 +72,8 @@ ON_SURFACE_MM = 2e-3
 SAME_PLACE_MM = 1e-4
 # Triangles that are cut are looked at in points at most this far apart, mm.
 SAMPLE_MM = 1.0
+# Triangles around drain holes are cut into pieces at most this large, mm.
+HOLE_RIM_MM = 0.1
 # What is farther off than this is not measured.
 FAR_OFF_MM = 0.1
 # The strokes of a seven-segment character: left, right, bottom and top, in strokes; and which strokes a character has.
@@ -937,6 +939,8 @@ def judge_voids(table, sheet, voids, parts):
     rotations = [np.array(part["print_from_model"], float)[:3, :3] for part in sheet["parts"]]
     table.line("voids on the sheet", len(sheet["voids"]), len(voids), len(sheet["voids"]) == len(voids))
     for row, corners in zip(sheet["voids"], voids):
+        if row.get("drained_by"):
+            continue
         cavity = welded(corners)
         widest = max([width for cut in sheet["cuts"] for width, _ in mouths_of(cavity, cut, 0.0)], default=0.0)
         # The stated opening is that of the piece where it is least: no mouth need be wider than the widest.
@@ -1259,6 +1263,92 @@ def mark_body(mark):
     return np.array(surface), np.array(mouth)
 
 
+def hole_sides(hole):
+    """The axis of a drain hole, two directions across it, its length, and the inward unit normals of its 48 flats."""
+    start, end = np.array(hole["from_mm"], float), np.array(hole["to_mm"], float)
+    length = np.linalg.norm(end - start)
+    _, axes = frame({"axis": end - start, "origin_mm": start})
+    middles = (np.arange(PEG_SIDES) + 0.5) * math.tau / PEG_SIDES
+    return start, axes, length, np.stack([-np.cos(middles), -np.sin(middles)], 1)
+
+
+def within_hole(points, hole, by=0.0):
+    """Whether points lie in the prism of a drain hole, deeper than this under its flats, mm."""
+    start, axes, length, inward = hole_sides(hole)
+    local = (points - start) @ axes.T
+    depth = (local[:, :2] @ inward.T).min(axis=1) + hole["diameter_mm"] / 2
+    return (depth > by) & (local[:, 2] > -by) & (local[:, 2] < length + by)
+
+
+def near_hole(corners, hole):
+    """The triangles that come near a drain hole."""
+    start, axes, length, _ = hole_sides(hole)
+    reach = length + 2 * hole["diameter_mm"]
+    low, high = corners.min(axis=1) - start, corners.max(axis=1) - start
+    return corners[((low < reach) & (high > -reach)).all(axis=1)]
+
+
+def hole_walls(hole, body):
+    """Points on the flats of a drain hole that bound material: on its way through the uncut body, off its rims."""
+    start, axes, length, inward = hole_sides(hole)
+    around = start - hole["diameter_mm"] / 2 * (inward @ axes[:2])
+    points = []
+    for foot, met in zip(around, lines_through(near_hole(body, hole), around, axes[2])):
+        met = met[(met > 0) & (met < length)]
+        for low, high in zip(met[0::2], met[1::2]):
+            points.append(foot + np.linspace(low, high, 12)[1:-1, None] * axes[2])
+    return np.concatenate(points) if points else np.full((1, 3), np.inf)
+
+
+def hole_surface(hole):
+    """The whole mantle of a drain hole, facing its axis."""
+    start, axes, length, _ = hole_sides(hole)
+    radius = hole["diameter_mm"] / 2 / math.cos(math.pi / PEG_SIDES)
+    angles = np.arange(PEG_SIDES) * math.tau / PEG_SIDES
+    low = start + radius * (np.cos(angles)[:, None] * axes[0] + np.sin(angles)[:, None] * axes[1])
+    high, after = low + length * axes[2], lambda ring: np.roll(ring, -1, axis=0)
+    return np.concatenate([np.stack(t, 1) for t in ((low, after(high), after(low)), (low, high, after(high)))])
+
+
+def hole_volume(hole, body):
+    """The material in a drain hole, mm³: lines along it through a grid of points across it."""
+    start, axes, length, inward = hole_sides(hole)
+    radius = hole["diameter_mm"] / 2 / math.cos(math.pi / PEG_SIDES)
+    side = np.linspace(-radius, radius, 81)
+    x, y = (grid.ravel() for grid in np.meshgrid((side[1:] + side[:-1]) / 2, (side[1:] + side[:-1]) / 2))
+    flat = np.stack([x, y], 1)
+    flat = flat[((flat @ inward.T).min(axis=1) + hole["diameter_mm"] / 2) > 0]
+    points, total = start + flat @ axes[:2], 0.0
+    for met in lines_through(near_hole(body, hole), points, axes[2]):
+        met = met[(met > 0) & (met < length)]
+        total += met[1::2].sum() - met[0::2].sum() if len(met) % 2 == 0 else math.nan
+    return total * (side[1] - side[0]) ** 2
+
+
+def judge_holes(table, sheet, parts, whole, voids):
+    """Every drain hole begins in the open, ends in its void, is free by its diameter, and takes the stated volume."""
+    for hole in sheet.get("drains", []):
+        start, end = np.array(hole["from_mm"], float), np.array(hole["to_mm"], float)
+        index = [void["id"] for void in sheet["voids"]].index(hole["void"])
+        leads = bool(welded(voids[index][:, ::-1]).contains([end])[0]) and not whole.contains([start])[0]
+        table.line(f"{hole['id']} leads from the open to {hole['void']}", True, leads, leads)
+        # A ball is pushed along the axis: what is nearest to its middle anywhere decides.
+        way = start + (end - start) * np.linspace(0, 1, 101)[:, None]
+        near = near_hole(np.concatenate(parts), hole)
+        soup = welded_soup(near)
+        free = 2 * trimesh.proximity.closest_point(soup, way)[1].min()
+        blocked = any(((met > 0) & (met < np.linalg.norm(end - start))).any() for met in lines_through(near, start[None], (end - start) / np.linalg.norm(end - start)))
+        table.at_least(f"{hole['id']} free, mm", hole["diameter_mm"] - 0.01, 0.0 if blocked else free)
+        table.same(f"{hole['id']} volume, mm³", hole["volume_mm3"], hole_volume(hole, whole.triangles), 0.01)
+    for void in sheet["voids"]:
+        holes = [hole for hole in sheet.get("drains", []) if hole["void"] == void["id"]]
+        if holes and "cleaning" in sheet["printer"]:
+            rule, wide = sheet["printer"]["cleaning"], void["least_opening_mm"] - 0.01
+            single = sum(hole["diameter_mm"] >= wide for hole in holes) >= (2 if sheet["printer"].get("process") == "sla" else 1)
+            pair = sum(hole["diameter_mm"] >= rule.get("pair_opening_mm", math.inf) for hole in holes) >= 2
+            table.line(f"{void['id']} has the holes it needs", True, single or pair, single or pair)
+
+
 def same_triangles(corners, known):
     """For each triangle the known one with the same corners in the same order about it, or -1."""
     from scipy.spatial import cKDTree
@@ -1385,11 +1475,13 @@ def judge_surfaces(table, sheet, parts, outer, voids):
     in_cut = lambda corners, cut: (np.abs((corners - cut["point_mm"]) @ cut["normal"]) <= ON_SURFACE_MM).all(axis=1)
     faces = [c[np.any([in_cut(c, cut) for cut in sheet["cuts"]], axis=0)] if sheet["cuts"] else c[:0] for c in parts]
     walls, left = ([], []), np.ones(len(body), bool)
+    holes = sheet.get("drains", [])
+    bores = np.concatenate([np.empty((0, 3, 3)), *map(hole_surface, holes)])
     for index, (row, corners) in enumerate(zip(sheet["parts"], parts)):
         same = same_triangles(corners, body)
         left[same[same >= 0]] = False
         others = [i for i in range(len(parts)) if i != index]
-        sheets = np.concatenate([body, own[index], *(mouths[i] for i in others), *(faces[i][:, ::-1] for i in others)])
+        sheets = np.concatenate([body, own[index], bores, *(mouths[i] for i in others), *(faces[i][:, ::-1] for i in others)])
         cut = np.flatnonzero(same < 0)
         off, nearest = farthest_off(corners[cut], sheets)
         same[cut] = nearest
@@ -1399,7 +1491,21 @@ def judge_surfaces(table, sheet, parts, outer, voids):
         table.at_most(f"{row['id']} lacks of pins and ids, mm", ON_SURFACE_MM, farthest_off(own[index], corners)[0].max(initial=0.0))
         volumes = [moments(welded(corners).triangles[group])[0] for group in groups_of(welded(corners))]
         table.line(f"{row['id']} bodies", 1, sum(v > 0 for v in volumes), sum(v > 0 for v in volumes) == 1)
-    off, _ = farthest_off(body[left], np.concatenate(parts))
+    rest = body[left]
+    if holes:
+        # What a hole takes off a triangle is no loss: around the holes it is looked at in small pieces.
+        reach = lambda hole: hole["diameter_mm"] / 2 + np.linalg.norm(np.subtract(hole["to_mm"], hole["from_mm"]))
+        near = np.any([np.linalg.norm(trimesh.triangles.closest_point(rest, np.tile(hole["from_mm"], (len(rest), 1))) - hole["from_mm"], axis=1) < reach(hole) + 1 for hole in holes], axis=0)
+        pieces, _ = cut_up(rest[near], HOLE_RIM_MM)
+        kept = ~np.any([within_hole(pieces.reshape(-1, 3), hole, -ON_SURFACE_MM).reshape(-1, 3).any(axis=1) for hole in holes], axis=0)
+        rest = np.concatenate([rest[~near], pieces[kept]])
+        # Nothing of what a part has of the body lies in a hole.
+        inside = [within_hole(np.concatenate(parts).mean(axis=1), hole, ON_SURFACE_MM).sum() for hole in holes]
+        table.none("triangles in the drain holes", int(sum(inside)))
+        soup = lambda hole: welded_soup(near_hole(np.concatenate(parts), hole))
+        lack = [trimesh.proximity.closest_point(soup(hole), hole_walls(hole, body))[1].max(initial=0.0) for hole in holes]
+        table.at_most("walls of the drain holes, off by mm", ON_SURFACE_MM, max(lack))
+    off, _ = farthest_off(rest, np.concatenate(parts))
     table.at_most("missing of the uncut body, mm", ON_SURFACE_MM, off.max(initial=0.0))
     return walls
 
@@ -1517,6 +1623,7 @@ def judge(kit):
     judge_slack(table, sheet, parts, np.concatenate(outer).reshape(-1, 3), density)
     judge_jigs(table, sheet, kit, parts, outer)
     judge_voids(table, sheet, voids, parts)
+    judge_holes(table, sheet, parts, whole, voids)
     judge_dowels(table, sheet, parts)
     judge_films(table, sheet, parts)
     judge_marks(table, sheet, parts)
@@ -1582,7 +1689,8 @@ def judge_goal(table, goal, promise, found):
 def judge_whole(table, sheet, volume, hollowed):
     pegs = lambda key: sum(peg["volume_mm3"] for part in sheet["parts"] for peg in part[key])
     marks = sum(mark["volume_mm3"] for part in sheet["parts"] for mark in part.get("marks", []))
-    error = abs(volume - hollowed - pegs("pins") + pegs("sockets") + marks) / hollowed
+    holes = sum(hole["volume_mm3"] for hole in sheet.get("drains", []))
+    error = abs(volume - hollowed - pegs("pins") + pegs("sockets") + marks + holes) / hollowed
     table.at_most("parts against hollowed, pins, sockets", VOLUME_SUM_LIMIT_RATIO, error)
 
 

@@ -9,8 +9,8 @@ use clap::Args;
 use super::values::{share, words};
 use crate::cut::{CutOrder, KeepClear, LeastPart, SeamStyle};
 use crate::job::{
-    CutMode, DensityOrder, Effort, IdStyle, InfillDensity, Interior, KeptShare, LevelCount,
-    PinStyle, PlanError,
+    CutMode, DensityOrder, DrainOrder, Effort, IdStyle, InfillDensity, Interior, KeptShare,
+    LevelCount, PinStyle, PlanError,
 };
 
 /// The arguments for cutting the object and joining its parts.
@@ -21,6 +21,11 @@ pub struct CutArgs {
     /// Such a plan is a kit's cuts.toml, edited [default: auto]
     #[arg(long, value_name = "auto|never|FILE")]
     pub cut: Option<CutArg>,
+    /// Drain the voids of a piece that is never cut: through holes of the least width that does
+    /// (auto), or of this diameter. Never leaves them closed. For powder, resin and wax [default:
+    /// auto]
+    #[arg(long, value_name = "auto|never|LENGTH", allow_hyphen_values = true)]
+    pub drain: Option<DrainOrder>,
     /// Hollow the inside (hollow), or print one uncut piece whose inside is sparse infill where
     /// that helps (graded). Graded is for filament printers [default: hollow]
     #[arg(long, value_parser = words::<Interior>(Interior::WORDS))]

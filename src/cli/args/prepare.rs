@@ -189,7 +189,7 @@ pub struct PrepareArgs {
 pub const DEFAULT_PLANS: u8 = 3;
 
 /// The arguments that a replayed job decides.
-const DECIDED_BY_JOB: [&str; 44] = [
+const DECIDED_BY_JOB: [&str; 45] = [
     "slicer",
     "printer",
     "material",
@@ -218,6 +218,7 @@ const DECIDED_BY_JOB: [&str; 44] = [
     "unit",
     "pitch",
     "cut",
+    "drain",
     "seam",
     "keep_clear",
     "least_part",
@@ -325,6 +326,7 @@ impl PrepareArgs {
             pitch: self.pitch,
             cut,
             plan,
+            drain: self.cutting.drain.unwrap_or_default(),
             interior: self.cutting.interior.unwrap_or(default.interior),
             density: self.cutting.density,
             infill: self.cutting.infill,

@@ -46,7 +46,8 @@ pub fn find_hollow_cups(
     request: &PlanRequest,
 ) -> Result<Vec<HollowCup>, CutError> {
     let tree = plan.tree()?;
-    if request.pose != PosePreference::Tilted || tree.planes.is_empty() {
+    let is_closed = tree.planes.is_empty() && plan.drains.is_empty();
+    if request.pose != PosePreference::Tilted || is_closed {
         return Ok(Vec::new());
     }
     let pieces = pieces_for_trial(hollowed, plan, &tree, &request.watch)?;

@@ -8,6 +8,7 @@ use rayon::prelude::*;
 use crate::{
     base::{verdict::Verdict, watch::Watch},
     cut::{
+        drains::hole::bored,
         error::{CutError, Obstacle, verdict},
         geometry::{chart::Chart, tree::CutTree},
         hollowed::Hollowed,
@@ -68,8 +69,8 @@ struct PinPieces<'a> {
 }
 
 /// Cuts the hollowed body by the plan and returns its parts, with pins, sockets and labels. Every
-/// part is closed, oriented and 2-manifold. No part encloses a cavity, unless the plan has no cuts
-/// at all.
+/// part is closed, oriented and 2-manifold. No part encloses a cavity, unless the plan has neither
+/// cuts nor drain holes.
 ///
 /// The body may differ a little from the one that was planned, for example after its voids were
 /// solved again. Cuts, pins and parts keep their names.
@@ -109,15 +110,15 @@ fn make_parts(
     Ok((parts, update_faces(&pieces, &tree, plan.clone())))
 }
 
-/// Returns the pieces that the plan leaves. If there are cuts, a piece with a closed cavity is an
-/// error.
+/// Returns the pieces that the plan leaves. If there are cuts or drain holes, a piece with a closed
+/// cavity is an error.
 pub(crate) fn pieces(
     hollowed: &Hollowed,
     plan: &CutPlan,
     tree: &CutTree,
     watch: &Watch,
 ) -> Result<Vec<Piece>, CutError> {
-    let pieces = split(&hollowed.to_mesh(), tree, watch)?;
+    let pieces = split(&bored(hollowed, &plan.drains)?, tree, watch)?;
     rejoin_planned(pieces, plan, tree, watch)
 }
 
@@ -128,12 +129,12 @@ pub(crate) fn pieces_for_trial(
     tree: &CutTree,
     watch: &Watch,
 ) -> Result<Vec<Piece>, CutError> {
-    let pieces = split_for_trial(&hollowed.to_mesh(), tree, watch)?;
+    let pieces = split_for_trial(&bored(hollowed, &plan.drains)?, tree, watch)?;
     rejoin_planned(pieces, plan, tree, watch)
 }
 
-/// Returns the pieces, those united that the plan keeps joined. If there are cuts, a piece with a
-/// closed cavity is an error.
+/// Returns the pieces, those united that the plan keeps joined. If there are cuts or drain holes, a
+/// piece with a closed cavity is an error.
 fn rejoin_planned(
     pieces: Vec<Piece>,
     plan: &CutPlan,
@@ -142,7 +143,7 @@ fn rejoin_planned(
 ) -> Result<Vec<Piece>, CutError> {
     let bridges = plan.bridges(&tree.planes);
     let pieces = rejoin(pieces, tree, &bridges, watch)?;
-    if !tree.planes.is_empty() {
+    if !(tree.planes.is_empty() && plan.drains.is_empty()) {
         check_no_cavity(&pieces)?;
     }
     Ok(pieces)

@@ -26,6 +26,7 @@ use crate::{
     base::verdict::Verdict,
     cut::{
         access::void_access::{accesses, report},
+        drains::measure_drained,
         error::{CutError, Obstacle, verdict},
         geometry::tree::{CutTree, Limit},
         hollowed::Hollowed,
@@ -227,12 +228,15 @@ enum UnorderedJoints {
 }
 
 /// Returns the plan with its voids measured again on a body that was solved again. Volumes,
-/// openings, depths and visible shares change; cuts, pins and joints stay.
+/// openings, depths and visible shares change; cuts, pins, joints and drain holes stay.
 pub fn measure_voids_again(
     hollowed: &Hollowed,
     plan: CutPlan,
     request: &PlanRequest,
 ) -> Result<CutPlan, CutError> {
+    if !plan.drains.is_empty() {
+        return measure_drained(hollowed, plan);
+    }
     Ok(CutPlan {
         voids: report(hollowed, &plan.tree()?, request)?,
         ..plan

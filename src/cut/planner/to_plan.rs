@@ -69,6 +69,7 @@ pub(crate) fn to_plan(
         voids: voids.clone(),
         notes,
         solid: Vec::new(),
+        drains: Vec::new(),
         moves: Vec::new(),
     })
 }
@@ -99,6 +100,7 @@ pub(crate) fn to_draft(
         voids: voids.clone(),
         notes,
         solid: Vec::new(),
+        drains: Vec::new(),
         moves: Vec::new(),
     })
 }

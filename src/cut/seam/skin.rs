@@ -120,6 +120,12 @@ impl Skin {
         self.up
     }
 
+    /// Returns the weight of what is seen about a place; 1 on average over the outside.
+    pub(crate) fn weight_at(&self, at: &Point) -> f64 {
+        let samples: Vec<&Sample> = self.samples.iter().collect();
+        Held::default().weight(&samples, at, REACH_RATIO * self.size_mm)
+    }
+
     /// Estimates the price of a plane's seam, in circles about the model of average weight.
     ///
     /// The length of a section is the integral over the surface of the sine between the two

@@ -1,11 +1,11 @@
 //! The rows of voids and cuts, and the rounds in which voids were made smaller.
 
 use super::facts::Facts;
-use crate::cut::{Cut, CutPlan, CutSide, VoidAccess, VoidId};
+use crate::cut::{Cut, CutPlan, CutSide, DrainHole, VoidAccess, VoidId};
 use crate::geom::Point;
 use crate::run::{CleaningRound, KeptSolid, Made, Placed, WrittenPart};
 use crate::sheet::{CleaningRow, CutRow, KeptRow, SideRow, VoidRow, is_clean};
-use crate::verify::{PromisedCut, PromisedVoid, VoidFacts};
+use crate::verify::{PromisedCut, PromisedHole, PromisedVoid, VoidFacts};
 
 /// Distance up to which a vertex lies on a void's wall, mm; booleans keep vertices to 1e-6 mm.
 const SAME_MM: f64 = 1e-5;
@@ -23,11 +23,12 @@ pub fn void_rows(facts: &Facts) -> Vec<VoidRow> {
         VoidRow {
             volume_mm3: access.volume_mm3,
             opened_by: access.opened_by.iter().map(ToString::to_string).collect(),
+            drained_by: holes_of(made, access.void).map(|hole| hole.id).collect(),
             parts: holders(facts.made, access.void),
             opening_mm: measured_mm(access.void).unwrap_or(access.opening_mm),
             least_opening_mm: least_opening_mm(placed, access),
             depth_mm: access.depth_mm,
-            sight_ratio: Some(access.sight_ratio),
+            sight_ratio: sight_ratio(made, access),
             method: placed.shop.printer.cleaning_method().to_owned(),
             is_clean: is_clean(&facts.judgement.checks, &id),
             clean: placed.shop.printer.cleaning.clone(),
@@ -56,7 +57,33 @@ fn holders(made: &Made, void: VoidId) -> Vec<String> {
         .collect()
 }
 
-/// Returns the opening that a void needs, mm: for its ballast, else the printer's least.
+/// Returns the drain holes as the judge reads them.
+pub fn drain_holes(made: &Made) -> Vec<PromisedHole> {
+    let hole = |hole: &DrainHole| PromisedHole {
+        id: hole.id.to_string(),
+        void: hole.void.to_string(),
+        from_mm: hole.from_mm,
+        to_mm: hole.to_mm,
+        diameter_mm: hole.diameter_mm,
+        volume_mm3: hole.volume_mm3,
+    };
+    made.plan.drains.iter().map(hole).collect()
+}
+
+/// Returns the drain holes of a void.
+fn holes_of(made: &Made, void: VoidId) -> impl Iterator<Item = PromisedHole> + use<> {
+    let holes = drain_holes(made).into_iter();
+    holes.filter(move |hole| hole.void == void.to_string())
+}
+
+/// Returns the share of a void's wall in sight; `None` if it drains, for which nobody looks in.
+fn sight_ratio(made: &Made, access: &VoidAccess) -> Option<f64> {
+    let is_drained = holes_of(made, access.void).next().is_some();
+    (!is_drained).then_some(access.sight_ratio)
+}
+
+/// Returns the opening that a void needs, mm: for its ballast, else the printer's least. Two drain
+/// holes may be smaller, where the process says so.
 fn least_opening_mm(placed: &Placed, access: &VoidAccess) -> f64 {
     let printer = &placed.shop.printer;
     access
@@ -68,7 +95,7 @@ fn least_opening_mm(placed: &Placed, access: &VoidAccess) -> f64 {
 pub fn promised_voids(placed: &Placed, made: &Made) -> Vec<PromisedVoid> {
     let promised = |access: &VoidAccess| PromisedVoid {
         id: access.void.to_string(),
-        sight_ratio: Some(access.sight_ratio),
+        sight_ratio: sight_ratio(made, access),
         least_opening_mm: Some(least_opening_mm(placed, access)),
     };
     made.plan.voids.iter().map(promised).collect()
