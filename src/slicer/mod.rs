@@ -1,13 +1,16 @@
 //! Slicers of other makers: finding one, and asking it what a plate takes.
 //!
-//! * `program` finds a slicer and asks for its version.
-//! * `settings` words a printer's profile as a slicer's settings.
+//! * `program` finds a slicer and asks for its version and its family.
+//! * `settings` holds what a slicer must know of a printer's profile.
 //! * `run` runs it in a folder of its own, with limits of time and memory.
+//! * `prusa` and `cura` have a plate sliced by a slicer of their family.
 //! * `estimate` reads the time and the filament from the toolpaths.
 
+mod cura;
 mod error;
 mod estimate;
 mod program;
+mod prusa;
 mod run;
 mod settings;
 

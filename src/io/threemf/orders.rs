@@ -8,6 +8,7 @@ use super::error::ThreeMfError;
 use super::settings::PRUSA_PART;
 use super::write::PRUSA_VERSION;
 use super::xml::{Requirement, Scanner, Tag};
+use crate::base::dialect::Dialect;
 
 /// Settings by their names, as text. Of a name that is there twice, the last counts, as for the
 /// slicer.
@@ -16,6 +17,8 @@ pub type Orders = BTreeMap<String, String>;
 /// What a package orders of PrusaSlicer.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct SlicerOrders {
+    /// The dialect in which it orders.
+    pub dialect: Dialect,
     /// True if all volumes of an object go to its place. In files of the first version the slicer
     /// moves the first volume alone.
     pub moves_volumes: bool,
@@ -73,6 +76,7 @@ pub fn decode_orders(bytes: &[u8]) -> Result<Option<SlicerOrders>, ThreeMfError>
     let root = archive.root_part()?;
     let moves_volumes = has_version(&root, &archive.text(&root)?)?;
     Ok(Some(SlicerOrders {
+        dialect: Dialect::Prusa,
         moves_volumes,
         objects,
     }))

@@ -84,6 +84,8 @@ const PRUSA_NAMESPACE: &str = "http://schemas.slic3r.org/3mf/2017/06";
 /// The attribute of a triangle that PrusaSlicer keeps free of support: a whole triangle (no low
 /// bits) in the second state of its painting tool.
 const BLOCKER: &str = " slic3rpe:custom_supports=\"8\"";
+/// The value of that attribute.
+pub(super) const BLOCKED: &str = "8";
 /// PrusaSlicer's metadata for the version of a file. Without it, it moves the first volume of an
 /// object to its place and leaves the others behind.
 pub(super) const PRUSA_VERSION: [&str; 2] = ["slic3rpe:Version3mf", "1"];

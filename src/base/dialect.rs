@@ -1,0 +1,32 @@
+//! The families of slicers, by the words in which a package gives them orders.
+
+use crate::base::words::choice;
+
+choice! {
+    /// A family of slicers, by the words in which a package gives them orders.
+    Dialect, "dialect of slicers" {
+        /// PrusaSlicer and SuperSlicer.
+        Prusa = "prusa",
+        /// OrcaSlicer and Bambu Studio.
+        Orca = "orca",
+        /// Cura.
+        Cura = "cura",
+    }
+}
+
+impl Default for Dialect {
+    fn default() -> Self {
+        Self::Prusa
+    }
+}
+
+impl Dialect {
+    /// Returns the names of the slicers that read it.
+    pub fn slicers(self) -> &'static str {
+        match self {
+            Self::Prusa => "PrusaSlicer and SuperSlicer",
+            Self::Orca => "OrcaSlicer and Bambu Studio",
+            Self::Cura => "Cura",
+        }
+    }
+}
