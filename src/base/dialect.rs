@@ -21,6 +21,11 @@ impl Default for Dialect {
 }
 
 impl Dialect {
+    /// Returns whether it is the one that is not named.
+    pub fn is_usual(&self) -> bool {
+        *self == Self::default()
+    }
+
     /// Returns the names of the slicers that read it.
     pub fn slicers(self) -> &'static str {
         match self {

@@ -3,7 +3,7 @@
 use crate::base::setting::{Key, Setting};
 use crate::base::watch::Cancelled;
 use crate::io::gcode::GcodeError;
-use crate::io::threemf::ThreeMfError;
+use crate::io::threemf::{PackageError, ThreeMfError};
 
 /// The packages of Debian that have a slicer.
 const PACKAGE: &str = "apt-get install --no-install-recommends prusa-slicer, or cura-engine";
@@ -61,6 +61,14 @@ pub enum SlicerError {
         plate: String,
         /// The fault.
         source: ThreeMfError,
+    },
+    /// The plate cannot be put into the words of this slicer.
+    #[error("{plate} cannot be put into the words of this slicer")]
+    Reworded {
+        /// The plate.
+        plate: String,
+        /// The fault.
+        source: PackageError,
     },
     /// The printer is not one whose plates this slicer slices.
     #[error(

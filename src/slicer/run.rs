@@ -203,7 +203,14 @@ pub(super) mod tests {
 
     #[test]
     fn a_lack_of_memory_is_a_fault() {
-        let run = |said: &str| work(|work| work.run(&Watch::silent(), |it| drop(it.arg(said))));
+        let run = |said: &str| {
+            let said = said.to_owned();
+            work(|work| {
+                work.run(&Watch::silent(), |command| {
+                    command.arg(said);
+                })
+            })
+        };
         assert_eq!(run("Slicing").unwrap().trim(), "Slicing");
         let large = run("terminate called after throwing 'std::bad_alloc'").unwrap_err();
         assert!(large.to_string().contains("more than 8 GiB"), "{large}");

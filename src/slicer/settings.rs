@@ -13,6 +13,9 @@ const LINE_PER_NOZZLE: f64 = 1.125;
 /// The diameter of nearly all filament that is sold, mm.
 pub(super) const FILAMENT_MM: f64 = 1.75;
 
+/// Steps to which slicers state a mass, in a gram.
+const MASS_DECIMALS: f64 = 100.0;
+
 /// The keys for the widths of the lines of parts, besides the usual width.
 const LINE_KEYS: [&str; 5] = [
     "perimeter_extrusion_width",
@@ -69,7 +72,8 @@ impl SliceSettings {
     /// Returns the mass of a length of filament in mm, g.
     pub(super) fn filament_g(&self, length_mm: f64) -> f64 {
         let section_mm2 = FRAC_PI_4 * FILAMENT_MM * FILAMENT_MM;
-        length_mm * section_mm2 * self.density_g_cm3 / MM3_PER_CM3
+        let mass_g = length_mm * section_mm2 * self.density_g_cm3 / MM3_PER_CM3;
+        (mass_g * MASS_DECIMALS).round() / MASS_DECIMALS
     }
 
     /// Returns the width, depth and height of the build volume, mm.

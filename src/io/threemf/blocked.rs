@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::archive::Archive;
 use super::error::ThreeMfError;
-use super::write::BLOCKED;
+use super::triangles::BLOCKED;
 use super::xml::Scanner;
 
 /// The attribute of a triangle that is painted for supports, without its prefix.

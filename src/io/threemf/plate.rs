@@ -42,7 +42,9 @@ pub struct PlateObject {
 /// # Errors
 /// The bytes are no package, or an object has no orders by which it can be printed.
 pub fn decode_plate(bytes: &[u8]) -> Result<Vec<PlateObject>, ThreeMfError> {
-    let orders = decode_orders(bytes)?.unwrap_or_default();
+    // All dialects of a package say the same.
+    let orders = decode_orders(bytes)?.into_iter().next();
+    let orders = orders.unwrap_or_default();
     let mut blocked = decode_blocked(bytes)?;
     let objects = decode_objects(bytes)?.into_iter();
     let objects = objects.map(|object| {

@@ -27,6 +27,10 @@ pub struct Words {
     pub modifier: &'static str,
     /// Settings with which a slicer would lay walls or solid layers around a region.
     pub walls: &'static [&'static str],
+    /// Settings without which an object would have skins that no region cuts, or a region walls.
+    pub bare: &'static [(&'static str, &'static str)],
+    /// The setting that says which of two regions holds; `None` if it is their order.
+    pub order: Option<&'static str>,
 }
 
 impl Words {
@@ -53,6 +57,8 @@ const PRUSA: Words = Words {
     printed: "ModelPart",
     modifier: "ParameterModifier",
     walls: &["perimeters", "interface_shells", "extra_perimeters"],
+    bare: &[],
+    order: None,
 };
 
 /// The words of OrcaSlicer and Bambu Studio.
@@ -68,6 +74,8 @@ const ORCA: Words = Words {
     printed: "normal_part",
     modifier: "modifier_part",
     walls: &["wall_loops", "interface_shells"],
+    bare: &[],
+    order: None,
 };
 
 /// Cura's words. Its angle of overhangs is that to the vertical.
@@ -83,4 +91,6 @@ const CURA: Words = Words {
     printed: "false",
     modifier: "true",
     walls: &[],
+    bare: &[("top_layers", "0"), ("bottom_layers", "0")],
+    order: Some("infill_mesh_order"),
 };

@@ -12,7 +12,16 @@ use crate::slicer::run::Work;
 /// The line after which the engine says the true head of its file.
 const TRUE_HEAD: &str = "Gcode header after slicing:";
 /// The comments of the head that are placeholders in the file.
-const UNKNOWN: [&str; 2] = [";TIME:", ";Filament used:"];
+const UNKNOWN: [&str; 8] = [
+    ";TIME:",
+    ";Filament used:",
+    ";MINX:",
+    ";MINY:",
+    ";MINZ:",
+    ";MAXX:",
+    ";MAXY:",
+    ";MAXZ:",
+];
 /// The comment that names what follows.
 const NAME: &str = ";MESH:";
 /// The comment that begins a layer.
@@ -57,7 +66,7 @@ pub(super) fn finish(
 }
 
 /// Returns the lines of the head that the engine knows after its work.
-fn true_head(said: &str) -> [Option<&str>; 2] {
+fn true_head(said: &str) -> [Option<&str>; UNKNOWN.len()] {
     let head = said.split_once(TRUE_HEAD).map_or("", |(_, head)| head);
     UNKNOWN.map(|key| {
         let mut lines = head.lines().map(str::trim);

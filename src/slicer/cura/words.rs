@@ -1,6 +1,6 @@
 //! A printer and the orders of a plate, in Cura's words.
 
-use crate::io::threemf::{PlateObject, SparseRegion};
+use crate::io::threemf::{CURA_OVERLAP_LINES, PlateObject, SparseRegion};
 use crate::slicer::error::SlicerError;
 use crate::slicer::settings::{FILAMENT_MM, SliceSettings};
 
@@ -11,9 +11,6 @@ pub(super) type Pair = (String, String);
 const SUPPORT_LINES: f64 = 100.0 / 15.0;
 /// Dense layers at the top of a support, as other slicers lay for the same plate.
 const ROOF_LAYERS: f64 = 2.0;
-/// Share of a line by which solid infill reaches into the walls. Cura's own is none for solid
-/// print, which leaves slits that weigh: a sphere of 40 mm lacks a fiftieth.
-const OVERLAP_LINES: f64 = 0.1;
 /// A right angle, degrees: Cura's angle of overhangs is that to the vertical.
 const RIGHT_DEG: f64 = 90.0;
 /// Per cent of solid print.
@@ -103,7 +100,7 @@ pub(super) fn of_plate(settings: &SliceSettings, objects: &[PlateObject]) -> Vec
         pair("infill_pattern", "lines"),
         pair("infill_sparse_density", SOLID_PERCENT),
         pair("infill_line_distance", mm(line_mm)),
-        pair("infill_overlap_mm", mm(OVERLAP_LINES * line_mm)),
+        pair("infill_overlap_mm", mm(CURA_OVERLAP_LINES * line_mm)),
         pair("support_line_distance", mm(SUPPORT_LINES * line_mm)),
         pair(
             "support_initial_layer_line_distance",
