@@ -286,3 +286,65 @@ fn prusaslicer_prints_the_regions_of_a_plate_in_other_words() {
     // A solid print would weigh a third more.
     assert!((laid_g / sheet_g - 1.0).abs() < 0.05, "{laid_g} {sheet_g}");
 }
+
+/// Runs these lines in place of OrcaSlicer.
+#[cfg(unix)]
+fn write_orca(file: &Path, lines: &str) {
+    use std::os::unix::fs::PermissionsExt;
+    let text = format!(
+        "#!/bin/sh\nif [ \"$1\" = --help ]; then echo OrcaSlicer-2.3.2:; exit; fi\n{lines}\n"
+    );
+    fs::write(file, text).unwrap();
+    fs::set_permissions(file, fs::Permissions::from_mode(0o755)).unwrap();
+}
+
+#[cfg(unix)]
+#[test]
+fn orcaslicer_gets_a_plate_in_its_own_words_with_three_presets() {
+    let bench = folder("orca-command");
+    let [kit, seen] = ["kit", "seen"].map(|name| bench.join(name));
+    let options = format!("{GRADED} --printer prusa-mk4");
+    let usual = ["--json", "prepare", ELLIPSOID, "--out", path(&kit)];
+    assert_exit(
+        &common::equipoise(&[&usual[..], &words(&options)].concat()),
+        0,
+    );
+    let orca = bench.join("orca-slicer");
+    let slice = || common::equipoise(&["slice", path(&kit), "--slicer", path(&orca)]);
+    // It keeps what it was given, and lays nothing.
+    write_orca(
+        &orca,
+        &format!("cp -r . '{}'; echo \"$@\"; exit 0", path(&seen)),
+    );
+    let output = slice();
+    assert_exit(&output, 2);
+    let said = printed(&output);
+    assert!(
+        said.contains("OrcaSlicer 2.3.2 wrote no toolpaths"),
+        "{said}"
+    );
+    for option in [
+        "--slice 0",
+        "--arrange 0",
+        "--outputdir",
+        "machine.json;process.json",
+    ] {
+        assert!(said.contains(option), "{option}: {said}");
+    }
+    let read = |file: &str| -> serde_json::Value {
+        serde_json::from_slice(&fs::read(seen.join(file)).unwrap()).unwrap()
+    };
+    let [machine, process, filament] = ["machine.json", "process.json", "filament.json"].map(read);
+    assert_eq!(machine["printable_area"][2], "250x210");
+    assert_eq!(
+        (&process["type"], &process["line_width"]),
+        (&"process".into(), &"0.45".into())
+    );
+    assert_eq!(filament["filament_density"][0], "1.24");
+    let bytes = fs::read(seen.join("plate.3mf")).unwrap();
+    let orders = equipoise::io::threemf::decode_orders(&bytes).unwrap();
+    assert_eq!(orders.len(), 1);
+    assert_eq!(orders[0].dialect, equipoise::base::dialect::Dialect::Orca);
+    let object = orders[0].objects.values().next().unwrap();
+    assert_eq!(object.volumes.len(), 2, "the body and its region");
+}

@@ -25,7 +25,7 @@ pub enum SlicerError {
     },
     /// The program is no slicer that is understood.
     #[error(
-        "{command} does not name itself as PrusaSlicer, SuperSlicer or CuraEngine; remedy: name one of these with `{}`",
+        "{command} does not name itself as PrusaSlicer, SuperSlicer, CuraEngine or OrcaSlicer; remedy: name one of these with `{}`",
         Setting::open(Key::Slicer)
     )]
     Unknown {

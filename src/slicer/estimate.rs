@@ -7,7 +7,7 @@ use super::error::SlicerError;
 use super::program::{Family, Slicer};
 use super::run::{PlateFile, Scratch, Work};
 use super::settings::SliceSettings;
-use super::{cura, prusa};
+use super::{cura, orca, prusa};
 use crate::base::watch::Watch;
 use crate::io::gcode::{Options, Toolpath, read_text};
 
@@ -88,6 +88,7 @@ impl Slicer {
         };
         match self.family() {
             Family::Prusa => prusa::slice(&work, watch),
+            Family::Orca => orca::slice(&work, watch),
             Family::Cura => cura::slice(&work, watch),
         }
     }

@@ -17,15 +17,19 @@ const QUESTIONS: [&str; 2] = ["--help", "help"];
 pub enum Family {
     /// PrusaSlicer and SuperSlicer.
     Prusa,
+    /// OrcaSlicer and Bambu Studio.
+    Orca,
     /// Cura's engine.
     Cura,
 }
 
 /// The names by which slicers call themselves, before their version, with the names that people
 /// know.
-const KNOWN: [(&str, &str, Family); 3] = [
+const KNOWN: [(&str, &str, Family); 5] = [
     ("PrusaSlicer-", "PrusaSlicer", Family::Prusa),
     ("SuperSlicer-", "SuperSlicer", Family::Prusa),
+    ("OrcaSlicer-", "OrcaSlicer", Family::Orca),
+    ("BambuStudio-", "Bambu Studio", Family::Orca),
     ("Cura_SteamEngine version ", "CuraEngine", Family::Cura),
 ];
 
@@ -88,6 +92,11 @@ impl Slicer {
             version: "PrusaSlicer 2.5.0".to_owned(),
             family: Family::Prusa,
         }
+    }
+
+    /// Returns whether this program was tried with a slicer of its family.
+    pub fn is_tried(&self) -> bool {
+        self.family != Family::Orca
     }
 
     /// Returns its family.
@@ -168,6 +177,7 @@ mod tests {
                 "SuperSlicer 2.4.58",
                 Family::Prusa,
             ),
+            ("OrcaSlicer-2.3.2:", "OrcaSlicer 2.3.2", Family::Orca),
             (
                 "Cura_SteamEngine version 4.13.0",
                 "CuraEngine 4.13.0",

@@ -4,15 +4,11 @@ use std::fs::{self, File};
 use std::path::Path;
 
 use super::error::SlicerError;
+use super::reword::reword;
 use super::run::Work;
 use crate::base::dialect::Dialect;
 use crate::base::watch::Watch;
-use crate::io::threemf::{
-    Build, Object, Package, PrintSettings, Transform, decode_orders, decode_plate,
-};
 
-/// The colour of parts that nobody sees.
-const GREY: [u8; 3] = [150; 3];
 /// What they say of a layer without lines, at exit code 0.
 const EMPTY_LAYER: &str = "mpty layer";
 /// What they say of a value that they do not know, at exit code 0.
@@ -22,7 +18,7 @@ const SUBSTITUTED: &str = "substituted = ";
 pub(super) fn slice(work: &Work, watch: &Watch) -> Result<File, SlicerError> {
     let [package, ini, base, toolpaths] =
         ["plate.3mf", "settings.ini", "base.ini", "plate.gcode"].map(|file| work.file(file));
-    let own = in_own_words(work)?;
+    let own = reword(work, Dialect::Prusa)?;
     let bytes = own.as_deref().unwrap_or(work.plate.bytes);
     fs::write(&package, bytes).map_err(SlicerError::Folder)?;
     fs::write(&ini, work.settings.to_ini()).map_err(SlicerError::Folder)?;
@@ -46,45 +42,6 @@ pub(super) fn slice(work: &Work, watch: &Watch) -> Result<File, SlicerError> {
         return Err(fault);
     }
     File::open(&toolpaths).map_err(|_| work.no_toolpaths(&said))
-}
-
-/// Returns a plate in PrusaSlicer's words that has those of others alone, since its regions would
-/// be solid parts there. `None` if it has PrusaSlicer's.
-fn in_own_words(work: &Work) -> Result<Option<Vec<u8>>, SlicerError> {
-    let fault = |source| SlicerError::Plate {
-        plate: work.plate.name.to_owned(),
-        source,
-    };
-    let orders = decode_orders(work.plate.bytes).map_err(fault)?;
-    if orders.is_empty() || orders.iter().any(|it| it.dialect == Dialect::Prusa) {
-        return Ok(None);
-    }
-    let plate = decode_plate(work.plate.bytes).map_err(fault)?;
-    let settings = plate.first().map(|first| PrintSettings {
-        dialect: Dialect::Prusa,
-        layer_mm: work.settings.layer_mm(),
-        line_mm: work.settings.line_mm(),
-        perimeters: first.perimeters,
-        overhang_deg: first.overhang_deg,
-    });
-    let objects = plate
-        .iter()
-        .map(|it| Object::with_regions(&it.name, GREY, &it.outside, &it.regions));
-    let objects: Vec<Object> = objects.collect();
-    let places = (0..objects.len()).map(|index| (index, Transform::default()));
-    let package = Package {
-        title: work.plate.name.to_owned(),
-        description: String::new(),
-        job: String::new(),
-        objects: &objects,
-        build: Build::Items(places.collect()),
-        settings,
-    };
-    let bytes = package.encode().map_err(|source| SlicerError::Reworded {
-        plate: work.plate.name.to_owned(),
-        source,
-    })?;
-    Ok(Some(bytes))
 }
 
 /// Returns the fault that the slicer names, whatever files it wrote; `None` if it names none.

@@ -15,8 +15,8 @@ pub struct SliceArgs {
     /// sl1) [default: gcode]
     #[arg(long, value_name = "FORMAT")]
     pub format: Option<SliceFormat>,
-    /// The command of the slicer, PrusaSlicer, SuperSlicer or CuraEngine (or: cura) [default:
-    /// prusa-slicer]
+    /// The command of the slicer, PrusaSlicer, SuperSlicer, CuraEngine (or: cura), or
+    /// OrcaSlicer (not tried) [default: prusa-slicer]
     #[arg(long, value_name = "CMD")]
     pub slicer: Option<String>,
     /// A configuration exported by the slicer (.ini), for speeds, temperatures and the start

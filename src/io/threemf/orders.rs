@@ -82,37 +82,39 @@ const TRIANGLES: [Requirement; 2] = [
 pub fn decode_orders(bytes: &[u8]) -> Result<Vec<SlicerOrders>, ThreeMfError> {
     let mut archive = Archive::open(bytes)?;
     let root = archive.root_part()?;
+    let text = archive.text(&root)?;
     let mut all = Vec::new();
-    if let Some(text) = text_of(&mut archive, PRUSA_PART)? {
+    if let Some(orders) = text_of(&mut archive, PRUSA_PART)? {
         all.push(SlicerOrders {
             dialect: Dialect::Prusa,
-            moves_volumes: has_version(&root, &archive.text(&root)?)?,
-            objects: read_objects(PRUSA_PART, &text)?,
+            moves_volumes: has_version(&root, &text)?,
+            objects: read_objects(PRUSA_PART, &orders)?,
         });
     }
-    let orca = text_of(&mut archive, ORCA_PART)?;
-    let model = archive.text(&root)?;
-    let has_cura = model.contains(CURA_PREFIX);
-    if orca.is_none() && !has_cura {
-        return Ok(all);
-    }
-    let model = read_model(&root, &model)?;
-    if let Some(text) = orca {
-        let mut objects = read_objects(ORCA_PART, &text)?;
-        let own = objects.values_mut();
-        own.for_each(|object| number_triangles(object, &model));
+    if let Some(orders) = text_of(&mut archive, ORCA_PART)? {
+        let mut objects = read_objects(ORCA_PART, &orders)?;
+        // The model of a large part takes its time, and parts without regions need none.
+        if objects.values().any(|object| !object.volumes.is_empty()) {
+            let model = read_model(&root, &text)?;
+            let own = objects.values_mut();
+            own.for_each(|object| number_triangles(object, &model));
+        }
         all.push(SlicerOrders {
             dialect: Dialect::Orca,
             moves_volumes: true,
             objects,
         });
     }
-    if has_cura {
-        all.push(SlicerOrders {
-            dialect: Dialect::Cura,
-            moves_volumes: true,
-            objects: cura_objects(&model),
-        });
+    if text.contains(CURA_PREFIX) {
+        let objects = cura_objects(&read_model(&root, &text)?);
+        // A name may have the prefix, too.
+        if objects.values().any(|object| !object.settings.is_empty()) {
+            all.push(SlicerOrders {
+                dialect: Dialect::Cura,
+                moves_volumes: true,
+                objects,
+            });
+        }
     }
     Ok(all)
 }
