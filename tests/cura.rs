@@ -173,7 +173,10 @@ fn an_engine_that_lays_nothing_is_found_whatever_its_exit_code_says() {
             "wrote no toolpaths for plate.3mf: no mesh",
         ),
         ("echo ';TIME:6666' >$out; exit 0", "wrote no toolpaths"),
-        ("echo ';LAYER:0' >$out; exit 0", "names no print time"),
+        (
+            "printf ';LAYER:0\\nG1 X1 Y1 E1\\n' >$out; exit 0",
+            "names no print time",
+        ),
         ("echo 'std::bad_alloc' >&2; exit 0", "more than 8 GiB"),
     ] {
         write_engine(&engine, lines);
@@ -194,14 +197,14 @@ fn a_graded_kit_is_made_again_with_what_the_engine_lays() {
     };
     let options = format!("{GRADED} --printer prusa-mk4 --slice --slicer cura");
     let kit = prepare(&definitions, "rounds", &options);
-    let sheet = common::checklist(&kit);
-    let misses: Vec<f64> = list(&sheet["infill"], "misses_mm")
-        .iter()
-        .map(|miss| miss.as_f64().unwrap())
-        .collect();
-    eprintln!("misses: {misses:?} mm");
-    assert!(misses.len() >= 2 && misses[0] > 0.02, "{misses:?}");
-    assert!(misses.iter().any(|miss| *miss < 0.01), "{misses:?}");
+    let misses = list(&common::checklist(&kit)["infill"], "misses_mm").to_vec();
+    let first_mm = misses[0].as_f64().unwrap();
+    let job = fs::read_to_string(kit.join("job.toml")).unwrap();
+    let (_, own) = job.split_once("[toolpaths]").unwrap();
+    let last = own.lines().find_map(|line| line.strip_prefix("miss_mm = "));
+    let last_mm: f64 = last.unwrap().parse().unwrap();
+    eprintln!("{first_mm} mm beside the promise before, {last_mm} mm after");
+    assert!(first_mm > 0.02 && last_mm < 0.01, "{first_mm} {last_mm}");
     let output = slice(&definitions, &kit, &[]);
     assert_exit(&output, 0);
     let (code, said) = common::verify(&kit);
@@ -240,7 +243,8 @@ fn the_plate_of_every_dialect_is_printed_alike() {
             !is_tried
         );
         let mut row = |output: Output| {
-            assert_exit(&output, 0);
+            // What an engine lays in a region for the first time may break a limit (1).
+            assert_ne!(output.status.code(), Some(2), "{}", printed(&output));
             let found = json(&output);
             let center = found.pointer("/judgement/toolpaths/center_mm").unwrap();
             let at = |axis: usize| center[axis].as_f64().unwrap();
