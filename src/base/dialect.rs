@@ -4,19 +4,15 @@ use crate::base::words::choice;
 
 choice! {
     /// A family of slicers, by the words in which a package gives them orders.
+    #[derive(Default)]
     Dialect, "dialect of slicers" {
         /// PrusaSlicer and SuperSlicer.
+        #[default]
         Prusa = "prusa",
         /// OrcaSlicer and Bambu Studio.
         Orca = "orca",
         /// Cura.
         Cura = "cura",
-    }
-}
-
-impl Default for Dialect {
-    fn default() -> Self {
-        Self::Prusa
     }
 }
 

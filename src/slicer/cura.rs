@@ -28,7 +28,7 @@ pub(super) fn slice(work: &Work, watch: &Watch) -> Result<File, SlicerError> {
     let plate = || work.plate.name.to_owned();
     let objects = decode_plate(work.plate.bytes).map_err(|source| SlicerError::Plate {
         plate: plate(),
-        source,
+        source: Box::new(source),
     })?;
     let meshes = meshes::write(&objects, work)?;
     let whole = words::of_plate(work.settings, &objects);

@@ -60,7 +60,7 @@ pub enum SlicerError {
         /// The plate.
         plate: String,
         /// The fault.
-        source: ThreeMfError,
+        source: Box<ThreeMfError>,
     },
     /// The plate cannot be put into the words of this slicer.
     #[error("{plate} cannot be put into the words of this slicer")]
@@ -68,7 +68,7 @@ pub enum SlicerError {
         /// The plate.
         plate: String,
         /// The fault.
-        source: PackageError,
+        source: Box<PackageError>,
     },
     /// The printer is not one whose plates this slicer slices.
     #[error(

@@ -18,7 +18,7 @@ const GREY: [u8; 3] = [150; 3];
 pub(super) fn reword(work: &Work, dialect: Dialect) -> Result<Option<Vec<u8>>, SlicerError> {
     let fault = |source| SlicerError::Plate {
         plate: work.plate.name.to_owned(),
-        source,
+        source: Box::new(source),
     };
     let orders = decode_orders(work.plate.bytes).map_err(fault)?;
     if orders.is_empty() || orders.iter().any(|it| it.dialect == dialect) {
@@ -47,7 +47,7 @@ pub(super) fn reword(work: &Work, dialect: Dialect) -> Result<Option<Vec<u8>>, S
     };
     let bytes = package.encode().map_err(|source| SlicerError::Reworded {
         plate: work.plate.name.to_owned(),
-        source,
+        source: Box::new(source),
     })?;
     Ok(Some(bytes))
 }
