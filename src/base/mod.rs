@@ -5,11 +5,13 @@
 //! * [`words`]: values that are written as single words.
 //! * [`toml_text`]: TOML with faults that name line, column and the nearest known name.
 //! * [`digest`]: SHA-256 of files.
+//! * [`dialect`]: the families of slicers that a package gives orders to.
 //! * `random`: random numbers from a seed, for searches.
 //! * [`verdict`]: an answer that may be no, with the reason.
 //! * [`sourced`]: values with their sources and their certainty.
 //! * [`watch`]: progress and cancellation of a run.
 
+pub mod dialect;
 pub mod digest;
 pub mod numbers;
 pub(crate) mod random;

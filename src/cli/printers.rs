@@ -180,6 +180,8 @@ fn plate(printer: &Printer) -> Vec<[String; 4]> {
     }
     let flag = printer.compensates_shrinkage.iter();
     rows.extend(flag.map(|flag| number_row("compensates_shrinkage", flag.value.to_string(), flag)));
+    let dialect = printer.dialect.iter();
+    rows.extend(dialect.map(|it| number_row("dialect", it.value.to_string(), it)));
     rows.extend(printer.infill.as_ref().map(infill_row));
     rows
 }

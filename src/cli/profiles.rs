@@ -103,9 +103,16 @@ fn inheriting_profile(from: &str, id: &str, target: &Path) -> Result<String, Pro
     let mut text = format!(
         "# A shop's own profile: what it does not say is as in the profile it inherits from.\n\
          # Take the # off a line to state a number of your own; every number needs its source.\n\
-         id = \"{id}\"\nname = {name}\ninherits = {}\n\n[numbers]\n",
+         id = \"{id}\"\nname = {name}\ninherits = {}\n",
         toml_string(&parent)
     );
+    if let Some(dialect) = &printer.dialect {
+        text += &format!(
+            "# dialect = {{ value = \"{}\", source = \"…\", sure = \"own-choice\" }}\n",
+            dialect.value
+        );
+    }
+    text += "\n[numbers]\n";
     for (quantity, number) in printer.numbers() {
         text += &format!(
             "# {quantity} = {{ value = {}, source = \"…\", sure = \"measured\" }}\n",

@@ -254,7 +254,11 @@ fn text(slices: &Slices, judgement: &PrintedJudgement, folder: &Path, manner: Ma
         quantity(slices.support_g(), "g"),
         slices.slicer
     );
-    let sliced = table(&rows) + &sum;
+    let untried = match slices.is_untried {
+        true => format!("not tried: look at the layers in {} first\n", slices.slicer),
+        false => String::new(),
+    };
+    let sliced = table(&rows) + &sum + &untried;
     sliced.replace('\u{a0}', " ") + "\n" + &toolpaths_text(judgement, manner)
 }
 

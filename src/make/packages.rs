@@ -259,6 +259,7 @@ fn is_in(socket: &PinSite, at: &Point) -> bool {
 pub fn print_settings(printer: &Printer) -> Option<PrintSettings> {
     let overhang_deg = printer.number(Quantity::OverhangDeg).map(|deg| deg.value);
     (printer.process.as_deref() == Some(FILAMENT)).then_some(PrintSettings {
+        dialect: printer.dialect(),
         layer_mm: printer.layer_mm.value,
         line_mm: printer.pixel_x_mm.value,
         perimeters: PERIMETERS,

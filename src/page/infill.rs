@@ -3,6 +3,7 @@
 use maud::{Markup, html};
 
 use super::fields::file_name;
+use crate::base::dialect::Dialect;
 use crate::base::numbers::{measured, quantity};
 use crate::base::units::MM3_PER_CM3;
 use crate::sheet::Checklist;
@@ -26,8 +27,8 @@ pub(super) fn orders(sheet: &Checklist, infill: &InfillOrder) -> Markup {
             ". Do not change them: the balance depends on them."
         }
         li {
-            strong { "PrusaSlicer only: " }
-            "other slicers do not read the region. "
+            strong { (printer.dialect.slicers()) " only: " }
+            (readers(printer.dialect)) " "
             @if infill.file.is_some() {
                 "Not tried: load the part file, add "
                 @for (index, file) in regions.iter().filter_map(|it| it.file.as_ref()).enumerate() {
@@ -37,6 +38,22 @@ pub(super) fn orders(sheet: &Checklist, infill: &InfillOrder) -> Markup {
                 @if regions.len() > 1 { " to it as modifiers" } @else { " to it as a modifier" }
                 " without moving, and set the infills by hand."
             }
+        }
+    }
+}
+
+/// Words who reads the region as the plate orders it, and what was tried.
+fn readers(dialect: Dialect) -> &'static str {
+    match dialect {
+        Dialect::Prusa => "other slicers do not read the region.",
+        Dialect::Orca => {
+            "the plate has the region as a modifier part in their words. No such program was tried \
+             with it. Look at the preview: the infill must change inside."
+        }
+        Dialect::Cura => {
+            "the plate has the region as an infill mesh, in one group with the part. Cura itself \
+             was not tried with it, its engine was. Look at the preview: the infill must change \
+             inside. Set the height of layers and the brim by hand."
         }
     }
 }

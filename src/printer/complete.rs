@@ -117,6 +117,7 @@ pub(super) fn complete(
         excluded_corners: layer.excluded_corners,
         walls_by_part_size: layer.walls_by_part_size,
         compensates_shrinkage: layer.compensates_shrinkage,
+        dialect: layer.dialect,
         infill: layer.infill,
         min_wall_mm: min_wall_mm?,
         min_feature_mm: min_feature_mm?,

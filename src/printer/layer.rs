@@ -8,6 +8,7 @@ use super::{
     ExcludedCorner, Grid, InfillPattern, Material, PrintPose, Quantity, SizedWall, Sourced,
     Support, profile::ProfileText, reader::Reader,
 };
+use crate::base::dialect::Dialect;
 
 /// An id that a profile refers to.
 #[derive(Debug)]
@@ -35,6 +36,7 @@ pub(super) struct Layer {
     pub excluded_corners: Vec<ExcludedCorner>,
     pub walls_by_part_size: Vec<SizedWall>,
     pub compensates_shrinkage: Option<Sourced<bool>>,
+    pub dialect: Option<Sourced<Dialect>>,
     pub infill: Option<InfillPattern>,
     pub numbers: BTreeMap<Quantity, Sourced<f64>>,
     pub materials: Option<Vec<Reference>>,
@@ -51,6 +53,7 @@ impl Layer {
         let (cleaning, glue) = (words("cleaning", &text.cleaning), words("glue", &text.glue));
         let glue_safety = words("glue_safety", &text.glue_safety);
         let infill = reader.infill(text);
+        let dialect = text.dialect.as_ref().and_then(|it| reader.dialect(it));
         Self {
             id: reader.id(&text.id),
             name: reader.words("name", &text.name),
@@ -84,6 +87,7 @@ impl Layer {
                 .compensates_shrinkage
                 .as_ref()
                 .and_then(|flag| reader.flag("compensates_shrinkage", flag)),
+            dialect,
             infill,
             numbers: numbers
                 .filter_map(|(&key, number)| Some((key, reader.number(key, number)?)))
@@ -113,6 +117,9 @@ impl Layer {
         }
         if let Some(flag) = &mut self.compensates_shrinkage {
             flag.process_default_of = Some(id.clone());
+        }
+        if let Some(dialect) = &mut self.dialect {
+            dialect.process_default_of = Some(id.clone());
         }
         if let Some(infill) = &mut self.infill {
             infill.core_ratio.process_default_of = Some(id.clone());
@@ -153,6 +160,7 @@ impl Layer {
                 parent.walls_by_part_size
             },
             compensates_shrinkage: self.compensates_shrinkage.or(parent.compensates_shrinkage),
+            dialect: self.dialect.or(parent.dialect),
             infill: self.infill.or(parent.infill),
             default_material: self.default_material.or(self
                 .materials

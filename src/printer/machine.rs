@@ -4,6 +4,8 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
+use crate::base::dialect::Dialect;
+
 use super::{
     ExcludedCorner, InfillPattern, Material, MaterialError, Quantity, Sourced, error::suggest,
 };
@@ -151,6 +153,9 @@ pub struct Printer {
     /// True if the machine or its software compensates shrinkage; `None` if that is unknown, which
     /// counts as true.
     pub compensates_shrinkage: Option<Sourced<bool>>,
+    /// The family of slicers that its plates give orders to; `None` for a printer without slicers.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub dialect: Option<Sourced<Dialect>>,
     /// The pattern of sparse infill; `None` for a printer without infill.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub infill: Option<InfillPattern>,
@@ -190,6 +195,14 @@ pub struct Printer {
 }
 
 impl Printer {
+    /// Returns the family of slicers that its plates give orders to: PrusaSlicer's if none is
+    /// stated.
+    pub fn dialect(&self) -> Dialect {
+        self.dialect
+            .as_ref()
+            .map_or_else(Dialect::default, |dialect| dialect.value)
+    }
+
     /// Returns every known number of the profile's `[numbers]`, in the order of [`Quantity`].
     pub fn numbers(&self) -> Vec<(Quantity, &Sourced<f64>)> {
         Quantity::ALL

@@ -6,6 +6,7 @@ use serde::Deserialize;
 use toml::{Spanned, value::Datetime};
 
 use super::{Corner, Grid, PrintPose, Quantity, Support, Sure};
+use crate::base::dialect::Dialect;
 
 /// The file of a printer or a process.
 #[derive(Debug, Deserialize)]
@@ -25,6 +26,7 @@ pub(super) struct ProfileText {
     pub build_volume_mm: Option<Spanned<ValueText<[f64; 3]>>>,
     pub largest_part_mm: Option<Spanned<ValueText<[f64; 3]>>>,
     pub compensates_shrinkage: Option<Spanned<ValueText<bool>>>,
+    pub dialect: Option<Spanned<ValueText<Dialect>>>,
     pub infill_pattern: Option<Spanned<String>>,
     pub infill_core_ratio: Option<Spanned<ValueText<Vec<[f64; 2]>>>>,
     #[serde(default)]

@@ -9,6 +9,7 @@ use super::{
     profile::{CornerText, MaterialText, ProfileText, ValueText, WallText},
     quantity::INFILL_RATIOS,
 };
+use crate::base::dialect::Dialect;
 use crate::base::toml_text::{self, Place, TextFault};
 use crate::base::units::MM_PER_INCH;
 
@@ -123,6 +124,16 @@ impl<'a> Reader<'a> {
     ) -> Option<Sourced<bool>> {
         let entry = Entry {
             key,
+            at: text.span().start,
+            range: BUILD_VOLUME_MM,
+        };
+        self.check(entry, text.get_ref().clone())
+    }
+
+    /// Returns the family of slicers that a plate gives orders to.
+    pub fn dialect(&mut self, text: &Spanned<ValueText<Dialect>>) -> Option<Sourced<Dialect>> {
+        let entry = Entry {
+            key: "dialect",
             at: text.span().start,
             range: BUILD_VOLUME_MM,
         };
@@ -354,6 +365,12 @@ impl<const N: usize> Numbers for [f64; N] {
 impl Numbers for Vec<[f64; 2]> {
     fn numbers(&self) -> &[f64] {
         self.as_flattened()
+    }
+}
+
+impl Numbers for Dialect {
+    fn numbers(&self) -> &[f64] {
+        &[]
     }
 }
 

@@ -258,6 +258,7 @@ mod tests {
             schema: Slices::SCHEMA,
             job: sheet.job.clone(),
             slicer: "PrusaSlicer 2.5.0".to_owned(),
+            is_untried: false,
             profile_sha256: None,
             plates: vec![plate.clone(), plate],
         };

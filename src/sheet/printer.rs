@@ -4,6 +4,7 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
+use crate::base::dialect::Dialect;
 use crate::verify::Cleaning;
 
 /// The printer, as far as the shop and the judge need it.
@@ -22,6 +23,9 @@ pub struct PrinterRow {
     pub pixel_mm: [f64; 2],
     /// Height of a layer, mm.
     pub layer_mm: f64,
+    /// Family of slicers that its plates give orders to; PrusaSlicer's if it is missing.
+    #[serde(default, skip_serializing_if = "Dialect::is_usual")]
+    pub dialect: Dialect,
     /// Edges of the build volume, mm; unknown for some machines.
     pub build_volume_mm: Option<[f64; 3]>,
     /// Factors by which files are enlarged along x, y and z to make up for shrinkage; `None` if

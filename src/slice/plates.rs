@@ -87,6 +87,7 @@ pub fn slice_kit(order: &SliceOrder, watch: &Watch) -> Result<Sliced, SliceError
         schema: Slices::SCHEMA,
         job: job.name(),
         slicer: slicer.version().to_owned(),
+        is_untried: !slicer.is_tried(),
         profile_sha256,
         plates,
     };

@@ -16,6 +16,9 @@ pub struct Slices {
     pub job: String,
     /// The slicer's name and version, such as `PrusaSlicer 2.5.0`.
     pub slicer: String,
+    /// Whether this program was never tried with this slicer.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub is_untried: bool,
     /// The SHA-256 of the slicer's profile that was loaded first; `None` without one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub profile_sha256: Option<String>,

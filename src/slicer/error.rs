@@ -3,9 +3,10 @@
 use crate::base::setting::{Key, Setting};
 use crate::base::watch::Cancelled;
 use crate::io::gcode::GcodeError;
+use crate::io::threemf::{PackageError, ThreeMfError};
 
-/// The package of Debian that has a slicer.
-const PACKAGE: &str = "apt-get install --no-install-recommends prusa-slicer";
+/// The packages of Debian that have a slicer.
+const PACKAGE: &str = "apt-get install --no-install-recommends prusa-slicer, or cura-engine";
 
 /// A reason why a slicer gives no figures.
 #[derive(Debug, thiserror::Error)]
@@ -24,12 +25,50 @@ pub enum SlicerError {
     },
     /// The program is no slicer that is understood.
     #[error(
-        "{command} does not name itself as PrusaSlicer or SuperSlicer; remedy: name one of these with `{}`",
+        "{command} does not name itself as PrusaSlicer, SuperSlicer, CuraEngine or OrcaSlicer; remedy: name one of these with `{}`",
         Setting::open(Key::Slicer)
     )]
     Unknown {
         /// The command asked for.
         command: String,
+    },
+    /// Cura's list of settings is not there.
+    #[error(
+        "CuraEngine needs Cura's list of settings (fdmprinter.def.json), which is not here; remedy: \
+         install Cura (on Debian: apt-get install cura), or name the folder of that file in \
+         CURA_ENGINE_SEARCH_PATH"
+    )]
+    NoDefinitions,
+    /// A profile names a setting that Cura does not have.
+    #[error("Cura has no setting {key}; remedy: leave it out of the profile")]
+    UnknownSetting {
+        /// The setting.
+        key: String,
+    },
+    /// Cura has no such pattern of infill.
+    #[error(
+        "Cura has no infill like {pattern}; remedy: state another infill_pattern in the printer's \
+         profile, such as gyroid"
+    )]
+    NoPattern {
+        /// The pattern.
+        pattern: String,
+    },
+    /// The plate cannot be read.
+    #[error("{plate} cannot be taken apart")]
+    Plate {
+        /// The plate.
+        plate: String,
+        /// The fault.
+        source: Box<ThreeMfError>,
+    },
+    /// The plate cannot be put into the words of this slicer.
+    #[error("{plate} cannot be put into the words of this slicer")]
+    Reworded {
+        /// The plate.
+        plate: String,
+        /// The fault.
+        source: Box<PackageError>,
     },
     /// The printer is not one whose plates this slicer slices.
     #[error(

@@ -1,11 +1,13 @@
 //! The time and the filament of a plate, as a slicer states them.
 
+use std::fs::File;
 use std::io::{BufReader, Read};
 
 use super::error::SlicerError;
-use super::program::Slicer;
-use super::run::PlateFile;
+use super::program::{Family, Slicer};
+use super::run::{PlateFile, Scratch, Work};
 use super::settings::SliceSettings;
+use super::{cura, orca, prusa};
 use crate::base::watch::Watch;
 use crate::io::gcode::{Options, Toolpath, read_text};
 
@@ -46,7 +48,7 @@ impl Slicer {
             .read_to_end(&mut bytes)
             .map_err(SlicerError::Folder)?;
         let read = read_plate(plate, bytes.as_slice(), watch)?;
-        let estimate = self.estimate_of(plate, &read)?;
+        let estimate = self.estimate_of(plate, &read, settings)?;
         Ok(SlicedPlate {
             bytes,
             read,
@@ -66,16 +68,49 @@ impl Slicer {
         watch: &Watch,
     ) -> Result<Estimate, SlicerError> {
         let written = self.slice(plate, settings, watch)?;
-        self.estimate_of(plate, &read_plate(plate, written, watch)?)
+        let read = read_plate(plate, written, watch)?;
+        self.estimate_of(plate, &read, settings)
     }
 
-    fn estimate_of(&self, plate: &PlateFile, read: &Toolpath) -> Result<Estimate, SlicerError> {
+    /// Slices a plate in a folder of its own.
+    fn slice(
+        &self,
+        plate: &PlateFile,
+        settings: &SliceSettings,
+        watch: &Watch,
+    ) -> Result<File, SlicerError> {
+        let folder = Scratch::new().map_err(SlicerError::Folder)?;
+        let work = Work {
+            slicer: self,
+            plate,
+            settings,
+            folder: folder.path(),
+        };
+        match self.family() {
+            Family::Prusa => prusa::slice(&work, watch),
+            Family::Orca => orca::slice(&work, watch),
+            Family::Cura => cura::slice(&work, watch),
+        }
+    }
+
+    fn estimate_of(
+        &self,
+        plate: &PlateFile,
+        read: &Toolpath,
+        settings: &SliceSettings,
+    ) -> Result<Estimate, SlicerError> {
         let facts = &read.facts;
         let seconds = facts.print_time_s.ok_or_else(|| SlicerError::NoTime {
             version: self.version().to_owned(),
             plate: plate.name.to_owned(),
         })?;
-        let filament_g: f64 = facts.filament_used_g.iter().sum();
+        let stated_g: f64 = facts.filament_used_g.iter().sum();
+        // Cura states lengths.
+        let length_mm: f64 = facts.filament_used_mm.iter().sum();
+        let filament_g = match stated_g > 0.0 {
+            true => stated_g,
+            false => settings.filament_g(length_mm),
+        };
         Ok(Estimate {
             seconds,
             filament_g: (filament_g > 0.0).then_some(filament_g),

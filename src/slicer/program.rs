@@ -7,8 +7,31 @@ use super::error::SlicerError;
 
 /// The command by which the slicer is known if none is asked for.
 const USUAL: &str = "prusa-slicer";
-/// The names of the slicers whose options are known.
-const KNOWN: [&str; 2] = ["PrusaSlicer", "SuperSlicer"];
+/// The names by which a slicer may be asked for, beside its own command.
+const NICKNAMES: [(&str, &str); 2] = [("cura", "CuraEngine"), ("curaengine", "CuraEngine")];
+/// The words by which programs tell what they are. CuraEngine has no option for it.
+const QUESTIONS: [&str; 2] = ["--help", "help"];
+
+/// A family of slicers that are run alike.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Family {
+    /// PrusaSlicer and SuperSlicer.
+    Prusa,
+    /// OrcaSlicer and Bambu Studio.
+    Orca,
+    /// Cura's engine.
+    Cura,
+}
+
+/// The names by which slicers call themselves, before their version, with the names that people
+/// know.
+const KNOWN: [(&str, &str, Family); 5] = [
+    ("PrusaSlicer-", "PrusaSlicer", Family::Prusa),
+    ("SuperSlicer-", "SuperSlicer", Family::Prusa),
+    ("OrcaSlicer-", "OrcaSlicer", Family::Orca),
+    ("BambuStudio-", "Bambu Studio", Family::Orca),
+    ("Cura_SteamEngine version ", "CuraEngine", Family::Cura),
+];
 
 /// A slicer that is installed here.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -17,26 +40,38 @@ pub struct Slicer {
     command: String,
     /// Its name and version, such as `PrusaSlicer 2.5.0`.
     version: String,
+    family: Family,
 }
 
 impl Slicer {
-    /// Finds the slicer of a command, or the usual one, and asks for its version.
+    /// Finds the slicer of a command or a name, or the usual one, and asks for its version.
     ///
     /// # Errors
     /// It cannot be started, or does not name itself as a known one.
     pub fn find(command: Option<&str>) -> Result<Self, SlicerError> {
-        let command = command.unwrap_or(USUAL).to_owned();
-        let output = quiet(command.as_ref()).arg("--help").output();
-        let output = output.map_err(|source| SlicerError::Absent {
-            command: command.clone(),
-            source,
-        })?;
-        let said = String::from_utf8_lossy(&output.stdout).into_owned();
-        let version = said.lines().find_map(version_of);
-        match version {
-            Some(version) => Ok(Self { command, version }),
-            None => Err(SlicerError::Unknown { command }),
+        let asked = command.unwrap_or(USUAL);
+        let nickname = NICKNAMES
+            .iter()
+            .find(|(name, _)| name.eq_ignore_ascii_case(asked));
+        let command = nickname.map_or(asked, |(_, command)| command).to_owned();
+        for question in QUESTIONS {
+            let output = quiet(command.as_ref()).arg(question).output();
+            let output = output.map_err(|source| SlicerError::Absent {
+                command: command.clone(),
+                source,
+            })?;
+            // Some say it as an error.
+            let said = [output.stdout, output.stderr].concat();
+            let said = String::from_utf8_lossy(&said).into_owned();
+            if let Some((version, family)) = said.lines().find_map(version_of) {
+                return Ok(Self {
+                    command,
+                    version,
+                    family,
+                });
+            }
         }
+        Err(SlicerError::Unknown { command })
     }
 
     /// Returns its name and version, such as `PrusaSlicer 2.5.0`.
@@ -47,6 +82,26 @@ impl Slicer {
     /// Returns the command that starts it.
     pub fn command(&self) -> &str {
         &self.command
+    }
+
+    /// Makes one of a command that nobody asks.
+    #[cfg(test)]
+    pub(super) fn test(command: &str) -> Self {
+        Self {
+            command: command.to_owned(),
+            version: "PrusaSlicer 2.5.0".to_owned(),
+            family: Family::Prusa,
+        }
+    }
+
+    /// Returns whether this program was tried with a slicer of its family.
+    pub fn is_tried(&self) -> bool {
+        self.family != Family::Orca
+    }
+
+    /// Returns its family.
+    pub(super) fn family(&self) -> Family {
+        self.family
     }
 }
 
@@ -90,13 +145,19 @@ pub(super) fn limited(program: &OsStr) -> Command {
     command
 }
 
-/// Returns the name and version in a line such as `PrusaSlicer-2.5.0+dfsg based on Slic3r`.
-fn version_of(line: &str) -> Option<String> {
-    let first = line.split_whitespace().next()?;
-    let (name, version) = first.split_once('-')?;
-    let is_number = |c: char| c.is_ascii_digit() || c == '.';
-    let number: String = version.chars().take_while(|c| is_number(*c)).collect();
-    (KNOWN.contains(&name) && !number.is_empty()).then(|| format!("{name} {number}"))
+/// Returns the name and version in a line such as `PrusaSlicer-2.5.0+dfsg based on Slic3r`, with
+/// the family.
+fn version_of(line: &str) -> Option<(String, Family)> {
+    let line = line.trim();
+    let known = KNOWN.iter();
+    let mut known = known.filter_map(|(own, name, family)| {
+        let version = line.strip_prefix(own)?;
+        Some((version, name, *family))
+    });
+    let (version, name, family) = known.next()?;
+    let is_number = |c: &char| c.is_ascii_digit() || *c == '.';
+    let number: String = version.chars().take_while(is_number).collect();
+    (!number.is_empty()).then(|| (format!("{name} {number}"), family))
 }
 
 #[cfg(test)]
@@ -104,14 +165,31 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_slicer_is_known_by_the_first_line_of_its_help() {
-        let line = "PrusaSlicer-2.5.0+UNKNOWN based on Slic3r (with GUI support)";
-        assert_eq!(version_of(line).as_deref(), Some("PrusaSlicer 2.5.0"));
-        let line = "SuperSlicer-2.4.58 based on Slic3r";
-        assert_eq!(version_of(line).as_deref(), Some("SuperSlicer 2.4.58"));
+    fn a_slicer_is_known_by_a_line_of_its_help() {
+        for (line, version, family) in [
+            (
+                "PrusaSlicer-2.5.0+UNKNOWN based on Slic3r (with GUI support)",
+                "PrusaSlicer 2.5.0",
+                Family::Prusa,
+            ),
+            (
+                "SuperSlicer-2.4.58 based on Slic3r",
+                "SuperSlicer 2.4.58",
+                Family::Prusa,
+            ),
+            ("OrcaSlicer-2.3.2:", "OrcaSlicer 2.3.2", Family::Orca),
+            (
+                "Cura_SteamEngine version 4.13.0",
+                "CuraEngine 4.13.0",
+                Family::Cura,
+            ),
+        ] {
+            assert_eq!(version_of(line), Some((version.to_owned(), family)));
+        }
         for line in [
             "",
             "Cura-4.13",
+            "Cura_SteamEngine version master",
             "PrusaSlicer",
             "PrusaSlicer-beta",
             "usage: x",

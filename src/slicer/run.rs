@@ -3,7 +3,7 @@
 use std::fs::{self, File};
 use std::io;
 use std::path::{Path, PathBuf};
-use std::process::{Child, Stdio};
+use std::process::{Child, Command, Stdio};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
@@ -16,13 +16,8 @@ use crate::base::watch::Watch;
 const LIMIT: Duration = Duration::from_secs(300);
 /// Time between two looks at a run.
 const LOOK: Duration = Duration::from_millis(20);
-/// The word that the slicer says if it gets no more memory.
+/// The word that a slicer says if it gets no more memory.
 const NO_MEMORY: &str = "bad_alloc";
-/// What the slicer says of a layer without lines, at exit code 0.
-const EMPTY_LAYER: &str = "mpty layer";
-
-/// What the slicer says of a value that it does not know, at exit code 0.
-const SUBSTITUTED: &str = "substituted = ";
 
 /// The file of a plate: a 3MF package whose parts lie in their places.
 #[derive(Debug, Clone, Copy)]
@@ -33,46 +28,61 @@ pub struct PlateFile<'a> {
     pub bytes: &'a [u8],
 }
 
-impl Slicer {
-    /// Slices a plate and returns its toolpaths.
-    pub(super) fn slice(
-        &self,
-        plate: &PlateFile,
-        settings: &SliceSettings,
-        watch: &Watch,
-    ) -> Result<File, SlicerError> {
-        let folder = Scratch::new().map_err(SlicerError::Folder)?;
-        let [package, ini, log, toolpaths] =
-            ["plate.3mf", "settings.ini", "said.txt", "plate.gcode"]
-                .map(|file| folder.0.join(file));
-        fs::write(&package, plate.bytes).map_err(SlicerError::Folder)?;
-        fs::write(&ini, settings.to_ini()).map_err(SlicerError::Folder)?;
-        let base = folder.0.join("base.ini");
-        if let Some(profile) = settings.profile() {
-            fs::write(&base, profile).map_err(SlicerError::Folder)?;
+/// A plate to be sliced, in a folder of its own.
+pub(super) struct Work<'a> {
+    /// The slicer.
+    pub slicer: &'a Slicer,
+    /// The plate.
+    pub plate: &'a PlateFile<'a>,
+    /// What the slicer must know besides.
+    pub settings: &'a SliceSettings,
+    /// The folder.
+    pub folder: &'a Path,
+}
+
+impl Work<'_> {
+    /// Returns the path of a file in its folder.
+    pub fn file(&self, name: &str) -> PathBuf {
+        self.folder.join(name)
+    }
+
+    /// Returns the names of the slicer and of the plate, for messages.
+    pub fn names(&self) -> (String, String) {
+        (self.slicer.version().to_owned(), self.plate.name.to_owned())
+    }
+
+    /// Makes the fault that no toolpaths were written, with the last line that was said.
+    pub fn no_toolpaths(&self, words: &str) -> SlicerError {
+        let (version, plate) = self.names();
+        SlicerError::NoToolpaths {
+            version,
+            plate,
+            said: last_line(words),
         }
-        // Of two values of a key, the later one holds.
-        let over: &[&Path] = match settings.profile() {
-            Some(_) => &[Path::new("--load"), &base],
-            None => &[],
-        };
+    }
+
+    /// Runs the slicer in its folder, with limits of time and memory. Returns what it said.
+    pub fn run(
+        &self,
+        watch: &Watch,
+        add_arguments: impl FnOnce(&mut Command),
+    ) -> Result<String, SlicerError> {
+        let log = self.file("said.txt");
         let said = File::create(&log).map_err(SlicerError::Folder)?;
         let also = said.try_clone().map_err(SlicerError::Folder)?;
-        let started = limited(self.command().as_ref())
-            .args(["--export-gcode", "--dont-arrange", "--loglevel", "1"])
-            .args(over)
-            .args([Path::new("--load"), ini.as_path()])
-            .args([Path::new("-o"), &toolpaths, &package])
-            .env("HOME", &folder.0)
-            .current_dir(&folder.0)
+        let mut command = limited(self.slicer.command().as_ref());
+        add_arguments(&mut command);
+        let started = command
+            .env("HOME", self.folder)
+            .current_dir(self.folder)
             .stdout(Stdio::from(said))
             .stderr(Stdio::from(also))
             .spawn();
         let child = started.map_err(|source| SlicerError::Absent {
-            command: self.command().to_owned(),
+            command: self.slicer.command().to_owned(),
             source,
         })?;
-        let (version, plate) = (self.version().to_owned(), plate.name.to_owned());
+        let (version, plate) = self.names();
         if !Running(child).wait(watch)? {
             let limit_s = LIMIT.as_secs();
             return Err(SlicerError::Slow {
@@ -81,43 +91,17 @@ impl Slicer {
                 limit_s,
             });
         }
-        // The exit code says little: 0 may come without a file, and with empty layers.
-        let words = fs::read_to_string(&log).unwrap_or_default();
-        if let Some(fault) = fault_in(&words, &version, &plate) {
-            return Err(fault);
+        let words = fs::read(&log).map_err(SlicerError::Folder)?;
+        let words = String::from_utf8_lossy(&words).into_owned();
+        if words.contains(NO_MEMORY) {
+            return Err(SlicerError::Large {
+                version,
+                plate,
+                limit_gib: MOST_GIB,
+            });
         }
-        File::open(&toolpaths).map_err(|_| SlicerError::NoToolpaths {
-            version,
-            plate,
-            said: last_line(&words),
-        })
+        Ok(words)
     }
-}
-
-/// Returns the fault that a slicer names, whatever files it wrote; `None` if it names none.
-fn fault_in(words: &str, version: &str, plate: &str) -> Option<SlicerError> {
-    let (version, plate) = (version.to_owned(), plate.to_owned());
-    if let Some(line) = words.lines().find(|line| line.contains(EMPTY_LAYER)) {
-        let said = line.trim().to_owned();
-        return Some(SlicerError::EmptyLayer {
-            version,
-            plate,
-            said,
-        });
-    }
-    if let Some(line) = words.lines().find(|line| line.contains(SUBSTITUTED)) {
-        let said = line.trim().to_owned();
-        return Some(SlicerError::Substituted {
-            version,
-            plate,
-            said,
-        });
-    }
-    words.contains(NO_MEMORY).then_some(SlicerError::Large {
-        version,
-        plate,
-        limit_gib: MOST_GIB,
-    })
 }
 
 /// Returns the last line that a program said.
@@ -188,8 +172,25 @@ impl Drop for Scratch {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
+    use crate::printer::Printer;
+
+    /// Calls back with a plate to be sliced by a program that says what it was called with.
+    pub fn work<T>(then: impl FnOnce(&Work) -> T) -> T {
+        let printer = Printer::find("prusa-mk4").unwrap();
+        let settings = SliceSettings::of(&printer, &printer.materials[0]).unwrap();
+        let folder = Scratch::new().unwrap();
+        then(&Work {
+            slicer: &Slicer::test("echo"),
+            plate: &PlateFile {
+                name: "plate.3mf",
+                bytes: &[],
+            },
+            settings: &settings,
+            folder: folder.path(),
+        })
+    }
 
     #[test]
     fn the_folder_of_a_run_is_gone_after_it() {
@@ -201,17 +202,17 @@ mod tests {
     }
 
     #[test]
-    fn empty_layers_and_a_lack_of_memory_are_faults() {
-        let fault = |words: &str| fault_in(words, "PrusaSlicer 2.5.0", "plate.3mf");
-        assert!(fault("Slicing\nDone").is_none());
-        let empty = fault("Slicing\n Empty layer at 2.3 mm\n");
-        assert!(
-            matches!(empty, Some(SlicerError::EmptyLayer { said, .. }) if said.starts_with("Empty"))
-        );
-        let line = "\tkey = \"fill_pattern\"\t loaded = \"wavy\tsubstituted = \"stars\"";
-        let other = fault(line).unwrap().to_string();
-        assert!(other.contains("fill_pattern"), "{other}");
-        let large = fault("terminate called after throwing 'std::bad_alloc'").unwrap();
+    fn a_lack_of_memory_is_a_fault() {
+        let run = |said: &str| {
+            let said = said.to_owned();
+            work(|work| {
+                work.run(&Watch::silent(), |command| {
+                    command.arg(said);
+                })
+            })
+        };
+        assert_eq!(run("Slicing").unwrap().trim(), "Slicing");
+        let large = run("terminate called after throwing 'std::bad_alloc'").unwrap_err();
         assert!(large.to_string().contains("more than 8 GiB"), "{large}");
     }
 

@@ -1,7 +1,9 @@
 //! A printer's profile in a slicer's words.
 
+use std::f64::consts::FRAC_PI_4;
 use std::fmt::Write as _;
 
+use crate::base::units::MM3_PER_CM3;
 use crate::printer::{Material, Printer};
 
 /// The process whose plates are sliced.
@@ -9,7 +11,10 @@ const FILAMENT: &str = "fdm";
 /// Width of a line over the nozzle's diameter: what slicers lay by default.
 const LINE_PER_NOZZLE: f64 = 1.125;
 /// The diameter of nearly all filament that is sold, mm.
-const FILAMENT_MM: f64 = 1.75;
+pub(super) const FILAMENT_MM: f64 = 1.75;
+
+/// Steps to which slicers state a mass, in a gram.
+const MASS_DECIMALS: f64 = 100.0;
 
 /// The keys for the widths of the lines of parts, besides the usual width.
 const LINE_KEYS: [&str; 5] = [
@@ -64,6 +69,33 @@ impl SliceSettings {
         self.density_g_cm3
     }
 
+    /// Returns the mass of a length of filament in mm, g.
+    pub(super) fn filament_g(&self, length_mm: f64) -> f64 {
+        let section_mm2 = FRAC_PI_4 * FILAMENT_MM * FILAMENT_MM;
+        let mass_g = length_mm * section_mm2 * self.density_g_cm3 / MM3_PER_CM3;
+        (mass_g * MASS_DECIMALS).round() / MASS_DECIMALS
+    }
+
+    /// Returns the width, depth and height of the build volume, mm.
+    pub(super) fn room_mm(&self) -> [f64; 3] {
+        self.room_mm
+    }
+
+    /// Returns the height of a layer, mm.
+    pub(super) fn layer_mm(&self) -> f64 {
+        self.layer_mm
+    }
+
+    /// Returns the width of a line, mm.
+    pub(super) fn line_mm(&self) -> f64 {
+        self.line_mm
+    }
+
+    /// Returns the diameter of the nozzle, mm.
+    pub(super) fn nozzle_mm(&self) -> f64 {
+        self.line_mm / LINE_PER_NOZZLE
+    }
+
     /// Returns the profile of the slicer over which they hold.
     pub(super) fn profile(&self) -> Option<&str> {
         self.profile.as_deref()
@@ -72,7 +104,7 @@ impl SliceSettings {
     /// Returns the settings as PrusaSlicer and SuperSlicer read them.
     pub(super) fn to_ini(&self) -> String {
         let [width, depth, height] = self.room_mm;
-        let nozzle_mm = self.line_mm / LINE_PER_NOZZLE;
+        let nozzle_mm = self.nozzle_mm();
         let pairs = [
             (
                 "bed_shape",

@@ -1,5 +1,6 @@
 //! The checklist, the pictures and the view of a sound kit: the hollow box of the judge's tests.
 
+use crate::base::dialect::Dialect;
 use crate::base::watch::Watch;
 use crate::geom::{Parting, Plane, Point, Vector};
 use crate::page::{CutFace, Mouth, Picture, Region, Subject, View, draw_figures, render_pictures};
@@ -250,6 +251,7 @@ fn printer() -> PrinterRow {
         process: Process::Polyjet,
         pixel_mm: [0.0423, 0.0423],
         layer_mm: 0.016,
+        dialect: Dialect::Prusa,
         build_volume_mm: Some([100.0, 100.0, 6.0]),
         print_scale_ratio: None,
         support: SupportMethod::WaterJet,

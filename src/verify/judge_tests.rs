@@ -61,6 +61,7 @@ fn promise(poses: &[Pose]) -> Promise {
         certificate: None,
         schema: SCHEMA,
         printer: PrinterLimits {
+            dialect: Default::default(),
             process: Some("polyjet".into()),
             build_volume_mm: Some([100.0, 100.0, 6.0]),
             print_scale_ratio: None,

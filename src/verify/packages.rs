@@ -83,7 +83,7 @@ pub fn packages_check(folder: &Path, evidence: &Evidence) -> Result<Option<Check
                 let package = Ordered {
                     file,
                     objects: &objects,
-                    orders: orders.as_ref(),
+                    orders: &orders,
                 };
                 let is_printed = file != ASSEMBLY_FILE;
                 faults.extend(
@@ -114,7 +114,7 @@ pub fn packages_check(folder: &Path, evidence: &Evidence) -> Result<Option<Check
 }
 
 /// Returns the objects of a package, and its orders for a slicer.
-fn decode(bytes: &[u8]) -> Result<(Vec<PlacedObject>, Option<SlicerOrders>), ThreeMfError> {
+fn decode(bytes: &[u8]) -> Result<(Vec<PlacedObject>, Vec<SlicerOrders>), ThreeMfError> {
     Ok((decode_objects(bytes)?, decode_orders(bytes)?))
 }
 

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::Cleaning;
+use crate::base::dialect::Dialect;
 
 /// The limits of a printer and its process.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
@@ -27,6 +28,9 @@ pub struct PrinterLimits {
     /// The largest step at the rim of a seam, mm; `None` if that is not judged.
     #[serde(default)]
     pub seam_step_mm: Option<f64>,
+    /// The family of slicers that its plates give orders to.
+    #[serde(default, skip_serializing)]
+    pub dialect: Dialect,
     /// The height of a layer, mm; `None` if it is not known.
     #[serde(default, skip_serializing)]
     pub layer_mm: Option<f64>,

@@ -178,8 +178,9 @@ const ARROWS: &[(&str, &[&str])] = &[
         ],
     ),
     ("kit", &["base"]),
-    // A slicer is another program: it gets a plate and a profile, and gives toolpaths.
-    ("slicer", &["base", "io", "printer"]),
+    // A slicer is another program: it gets a plate and a profile, and gives toolpaths. For one that
+    // reads no packages, the plate is taken apart into meshes.
+    ("slicer", &["base", "geom", "io", "mesh", "printer"]),
     // Slicing a kit reads its job and its plates, and draws them as layers for machines of pixels.
     // The judge looks at the slices afterwards.
     (

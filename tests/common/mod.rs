@@ -55,6 +55,28 @@ pub fn equipoise_in(folder: &Path, arguments: &[&str]) -> Output {
     command.output().unwrap()
 }
 
+/// Returns the folder of Cura's definitions, which its engine needs; `None`, with a message, if
+/// they or the engine are not here.
+pub fn cura_definitions() -> Option<PathBuf> {
+    let resources = std::env::var_os("EQUIPOISE_CURA_RESOURCES");
+    let resources = resources.map_or("/usr/share/cura/resources".into(), PathBuf::from);
+    let definitions = resources.join("definitions");
+    if !definitions.join("fdmprinter.def.json").exists() {
+        eprintln!(
+            "SKIPPED: no Cura definitions here; set EQUIPOISE_CURA_RESOURCES to their folder"
+        );
+        return None;
+    }
+    let engine = std::process::Command::new("CuraEngine")
+        .arg("help")
+        .output();
+    if engine.is_err() {
+        eprintln!("SKIPPED: no CuraEngine here; apt-get install cura-engine");
+        return None;
+    }
+    Some(definitions)
+}
+
 /// Runs `prepare` on the shipped model and prints the result as JSON.
 pub fn prepare(out: &Path, options: &[&str]) -> Output {
     let usual = ["--json", "prepare", ELLIPSOID, "--out", path(out)];

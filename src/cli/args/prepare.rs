@@ -170,8 +170,8 @@ pub struct PrepareArgs {
     /// both]
     #[arg(long, value_parser = words::<PartFormat>(PartFormat::WORDS), help_heading = "Kit")]
     pub format: Option<PartFormat>,
-    /// Ask this slicer (PrusaSlicer or SuperSlicer, by name or path) what the plates take, and put
-    /// its time and filament on the sheet
+    /// Ask this slicer (PrusaSlicer, SuperSlicer or cura, by name or path) what the plates take,
+    /// and put its time and filament on the sheet
     #[arg(long, value_name = "CMD", help_heading = "Kit")]
     pub slicer: Option<String>,
     /// Slice the kit, and make it again with what its toolpaths lay until they keep the promise

@@ -15,11 +15,13 @@ pub struct SliceArgs {
     /// sl1) [default: gcode]
     #[arg(long, value_name = "FORMAT")]
     pub format: Option<SliceFormat>,
-    /// The command of the slicer, PrusaSlicer or SuperSlicer [default: prusa-slicer]
+    /// The command of the slicer, PrusaSlicer, SuperSlicer, CuraEngine (or: cura), or
+    /// OrcaSlicer (not tried) [default: prusa-slicer]
     #[arg(long, value_name = "CMD")]
     pub slicer: Option<String>,
     /// A configuration exported by the slicer (.ini), for speeds, temperatures and the start
     ///
+    /// For CuraEngine it is a text with lines of setting = value, by the names of Cura's settings.
     /// Sizes, lines, layers and density stay those of the kit's printer. An sl1 takes its display
     /// and its exposure from it.
     #[arg(long, value_name = "FILE")]

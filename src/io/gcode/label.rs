@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 
 use super::error::Limit;
+use crate::io::threemf::REGION;
 
 /// Letters of a name that are kept.
 const KEPT: usize = 200;
@@ -82,7 +83,8 @@ impl Labels {
                 }),
             )?;
         } else if let Some(name) = comment.strip_prefix("MESH:") {
-            let name = name.trim();
+            // Cura has a region of other infill as a mesh of its own.
+            let name = name.split(REGION).next().unwrap_or(name).trim();
             let label = (name != "NONMESH").then(|| Label::named(name));
             self.begin(Scheme::Mesh, label)?;
         } else {
@@ -247,6 +249,7 @@ mod tests {
             "; printing object left id:half id:3 copy 1",
             "; stop printing object left id:half id:3 copy 1",
             ";MESH:a b.stl",
+            ";MESH:a b.stl sparse infill 1",
             ";MESH:NONMESH",
             "; start printing object, unique label id: 15",
             "; stop printing object, unique label id: 15",
@@ -254,6 +257,7 @@ mod tests {
         let want = said(&[
             "left id:half (3), copy 1",
             "",
+            "a b.stl",
             "a b.stl",
             "",
             "object 15",

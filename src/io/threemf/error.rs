@@ -161,6 +161,14 @@ pub enum ThreeMfError {
     /// The build holds no triangles.
     #[error("its build holds no triangles; put the model on the plate and export it again")]
     NoTriangles,
+    /// A plate does not order what a slicer must know of an object.
+    #[error("it does not say {key} of {object} as a slicer reads it; prepare the kit again")]
+    NoOrder {
+        /// The object's name.
+        object: String,
+        /// The setting.
+        key: &'static str,
+    },
     /// The package exceeds a bound.
     #[error("{}; do not trust this file, or export the model again as STL", limit.words())]
     TooMuch {

@@ -2,30 +2,43 @@
 //!
 //! * Reading: `archive` unpacks the parts, `xml` scans their tags, `read` builds one model, and
 //!   `place` puts its objects where the build says.
-//! * Writing: [`Package`] in `write`, with [`PrintSettings`] for slicers in `settings`,
-//!   and regions of other infill in `sparse`. `orders` reads those settings again.
+//! * Writing: [`Package`] in `write`, with meshes in `triangles`, [`PrintSettings`] for slicers in
+//!   `settings`, `orca` and `cura`, and regions of other infill in `sparse` and `nested`.
+//! * Judging: `orders` reads those settings again, in the `words` of each family of slicers, and
+//!   `plate` puts objects, orders and `blocked` triangles together.
 //! * Both: [`Transform`], the `names` of the standard, and the faults in `error`.
 
 mod archive;
+mod blocked;
+mod cura;
 mod error;
 mod names;
+mod nested;
+mod orca;
 mod orders;
 mod place;
+mod plate;
 mod read;
 mod settings;
 mod sparse;
 #[cfg(test)]
 mod tests;
 mod transform;
+mod triangles;
+mod words;
 mod write;
 mod xml;
 
+pub use cura::CURA_OVERLAP_LINES;
 pub use error::{Limit, ThreeMfError};
+pub use nested::REGION;
 pub use orders::{ObjectOrders, Orders, SlicerOrders, VolumeOrders, decode_orders};
 pub use place::PlacedObject;
+pub use plate::{PlateObject, decode_plate};
 pub use settings::PrintSettings;
 pub use sparse::SparseRegion;
 pub use transform::Transform;
+pub use words::Words;
 pub use write::{Build, Object, Package, PackageError};
 
 use crate::mesh::TriMesh;

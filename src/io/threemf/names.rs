@@ -10,3 +10,5 @@ pub const RELATIONSHIPS: &str = "http://schemas.openxmlformats.org/package/2006/
 pub const MODEL_TYPE: &str = "http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel";
 /// The usual name of the part that holds the model.
 pub const MODEL_PART: &str = "3D/3dmodel.model";
+/// The metadata by which this program names the job of a package.
+pub const OUR_JOB: &str = "equipoise:Job";

@@ -1,10 +1,11 @@
 //! Places the objects of a package as its build says: resolves components, applies units and
 //! transforms.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::archive::Archive;
 use super::error::{Limit, ThreeMfError};
+use super::orders::find_regions;
 use super::read::{Content, Model, Object, Reference, read_model};
 use super::transform::Transform;
 use crate::mesh::TriMesh;
@@ -23,8 +24,15 @@ pub struct PlacedObject {
 /// Returns the objects that the build of the model in part `root` places.
 pub fn place_objects(archive: &mut Archive, root: &str) -> Result<Vec<PlacedObject>, ThreeMfError> {
     let models = read_models(archive, root)?;
+    // Of a strange package, nobody knows what its author meant by a part that is not printed.
+    let is_kit = models.get(root).is_some_and(|model| model.is_kit);
+    let regions = match is_kit {
+        true => find_regions(archive, &models)?,
+        false => BTreeSet::new(),
+    };
     let mut builder = Builder {
         models: &models,
+        regions: &regions,
         path: Vec::new(),
         places: 0,
         triangles: 0,
@@ -74,6 +82,8 @@ fn references(model: &Model) -> impl Iterator<Item = &Reference> {
 /// Places objects and counts them against the limits.
 struct Builder<'a> {
     models: &'a BTreeMap<String, Model>,
+    /// The objects that are regions of other infill within their object.
+    regions: &'a BTreeSet<u32>,
     /// The chain of objects that contain the current one, itself included.
     path: Vec<(&'a str, u32)>,
     places: u64,
@@ -132,9 +142,16 @@ impl<'a> Builder<'a> {
             return Ok(());
         };
         match &object.content {
-            Content::Components(components) => components
-                .iter()
-                .try_for_each(|component| self.place(part, component, map)),
+            Content::Components(components) => {
+                let first = self.found.len();
+                let mut all = components.iter();
+                all.try_for_each(|component| self.place(part, component, map))?;
+                let mut pieces = self.found[first..].iter();
+                if pieces.any(|piece| self.regions.contains(&piece.id)) {
+                    self.join(first, id, &object.name);
+                }
+                Ok(())
+            }
             Content::Mesh(mesh) => {
                 self.triangles += mesh.triangles().len() as u64;
                 check_limit(Limit::Triangles, self.triangles)?;
@@ -154,6 +171,24 @@ impl<'a> Builder<'a> {
                 Ok(())
             }
         }
+    }
+}
+
+impl Builder<'_> {
+    /// Joins the pieces of an object to one, whose regions face inward as cavities do.
+    fn join(&mut self, first: usize, id: u32, name: &str) {
+        let pieces = self.found.drain(first..);
+        let mesh = pieces.fold(TriMesh::default(), |whole, piece| {
+            match self.regions.contains(&piece.id) {
+                true => whole.joined(&piece.mesh.reversed()),
+                false => whole.joined(&piece.mesh),
+            }
+        });
+        self.found.push(PlacedObject {
+            id,
+            name: name.to_owned(),
+            mesh,
+        });
     }
 }
 

@@ -3,7 +3,9 @@
 use std::collections::BTreeMap;
 
 use super::archive::part_name;
+use super::cura::CURA_PREFIX;
 use super::error::{ThreeMfError, xml_fault};
+use super::names::OUR_JOB;
 use super::transform::Transform;
 use super::xml::{Requirement, Scanner, Tag};
 use crate::base::units::MM_PER_INCH;
@@ -19,6 +21,8 @@ pub struct Model {
     pub objects: BTreeMap<u32, Object>,
     /// The items of its build.
     pub items: Vec<Reference>,
+    /// Whether it belongs to a kit of this program.
+    pub is_kit: bool,
 }
 
 /// An object of a model, in the model's unit.
@@ -28,6 +32,8 @@ pub struct Object {
     pub name: String,
     /// True for a support structure and for an object that is not printed.
     pub is_aside: bool,
+    /// Its settings in Cura's words.
+    pub settings: BTreeMap<String, String>,
     /// Its triangles or components.
     pub content: Content,
 }
@@ -123,6 +129,10 @@ pub fn read_model(part: &str, text: &str) -> Result<Model, ThreeMfError> {
             model.items = read_references(scanner, &tag, "item")?;
             Ok(())
         }
+        "metadata" => {
+            model.is_kit |= tag.get("name")?.as_deref() == Some(OUR_JOB);
+            scanner.skip(&tag)
+        }
         _ => scanner.skip(&tag),
     })?;
     Ok(model)
@@ -175,8 +185,10 @@ fn read_object(
         .get("type")?
         .is_some_and(|kind| ASIDE_TYPES.contains(&kind.as_ref()));
     let mut content = Content::Components(Vec::new());
+    let mut settings = BTreeMap::new();
     scanner.children(tag, |scanner, tag| {
         match tag.name() {
+            "metadatagroup" => read_settings(scanner, &tag, &mut settings)?,
             "mesh" => content = Content::Mesh(read_mesh(scanner, &tag, id)?),
             "components" => {
                 content = Content::Components(read_references(scanner, &tag, "component")?)
@@ -190,6 +202,7 @@ fn read_object(
         Object {
             name,
             is_aside,
+            settings,
             content,
         },
     ) {
@@ -199,6 +212,22 @@ fn read_object(
             object: id,
         }),
     }
+}
+
+/// Reads the settings in Cura's words among the metadata of an object.
+fn read_settings(
+    scanner: &mut Scanner,
+    opened: &Tag,
+    settings: &mut BTreeMap<String, String>,
+) -> Result<(), ThreeMfError> {
+    scanner.children(opened, |scanner, tag| {
+        let name = tag.get("name")?.unwrap_or_default();
+        if let Some(key) = name.strip_prefix(CURA_PREFIX) {
+            let value = scanner.text().trim().to_owned();
+            settings.insert(key.to_owned(), value);
+        }
+        scanner.skip(&tag)
+    })
 }
 
 /// Reads the references in the children of `opened` that are called `element`.

@@ -1,5 +1,5 @@
-//! The print settings of each object of a package, as PrusaSlicer, Bambu Studio and OrcaSlicer read
-//! them. Other programs pass over these parts of the package.
+//! The print settings of each object of a package, as PrusaSlicer reads them. Other programs pass
+//! over this part of the package.
 
 use std::fmt::Write as _;
 use std::ops::Range;
@@ -7,16 +7,17 @@ use std::ops::Range;
 use quick_xml::escape::escape;
 
 use super::sparse::{Infill, Pair, around_regions};
+use crate::base::dialect::Dialect;
 use crate::mesh::{BRIM_MM, GOOD_FOOT_MM2};
 
 /// Path of PrusaSlicer's settings; SuperSlicer reads them too.
 pub const PRUSA_PART: &str = "Metadata/Slic3r_PE_model.config";
-/// Path of the settings of Bambu Studio and OrcaSlicer.
-pub const BAMBU_PART: &str = "Metadata/model_settings.config";
 
 /// The settings with which an object must be printed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PrintSettings {
+    /// The family of slicers whose words a package with regions has; others have those of all.
+    pub dialect: Dialect,
     /// Height of a layer, mm.
     pub layer_mm: f64,
     /// Width of a line, mm.
@@ -45,7 +46,7 @@ pub struct Subject<'a> {
 impl Subject<'_> {
     /// Returns the brim that holds it on the plate; none if its foot is large enough. Both dialects
     /// have the same words for it.
-    fn brim(&self) -> Vec<Pair> {
+    pub fn brim(&self) -> Vec<Pair> {
         let brim = [
             ("brim_type", "outer_only".to_owned()),
             ("brim_width", BRIM_MM.to_string()),
@@ -82,13 +83,6 @@ const LEAN_PRUSA: [[&str; 2]; 3] = [
     ["support_material_interface_layers", "2"],
 ];
 
-/// The same in the words of Bambu Studio and OrcaSlicer.
-const LEAN_BAMBU: [[&str; 2]; 3] = [
-    ["support_type", "normal(auto)"],
-    ["support_style", "snug"],
-    ["support_interface_top_layers", "2"],
-];
-
 impl PrintSettings {
     /// Returns the settings in PrusaSlicer's words.
     fn for_prusa(&self) -> Vec<Pair> {
@@ -108,24 +102,9 @@ impl PrintSettings {
         }
         pairs
     }
-
-    /// Returns the settings in the words of Bambu Studio and OrcaSlicer.
-    fn for_bambu(&self) -> Vec<Pair> {
-        let mut pairs = vec![
-            ("sparse_infill_density", "100%".to_owned()),
-            ("layer_height", self.layer_mm.to_string()),
-            ("wall_loops", self.perimeters.to_string()),
-            ("enable_support", on_or_off(self.overhang_deg.is_some())),
-        ];
-        if let Some(angle_deg) = self.overhang_deg {
-            pairs.push(("support_threshold_angle", format!("{angle_deg:.0}")));
-            pairs.extend(LEAN_BAMBU.map(|[key, value]| (key, value.to_owned())));
-        }
-        pairs
-    }
 }
 
-fn on_or_off(is_on: bool) -> String {
+pub(super) fn on_or_off(is_on: bool) -> String {
     u8::from(is_on).to_string()
 }
 
@@ -177,28 +156,13 @@ fn volume_xml(triangles: Range<usize>, pairs: &[Pair]) -> String {
     format!("<volume firstid=\"{first}\" lastid=\"{last}\">\n{pairs}</volume>\n")
 }
 
-/// Returns the objects' settings for Bambu Studio and OrcaSlicer.
-pub fn bambu_xml(objects: &[Subject], settings: &PrintSettings) -> String {
-    let mut xml = String::from("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<config>\n");
-    for subject in objects {
-        let (id, name) = (subject.id, escape(subject.name));
-        let _ = write!(
-            xml,
-            "<object id=\"{id}\">\n<metadata key=\"name\" value=\"{name}\"/>\n"
-        );
-        for (key, value) in settings.for_bambu().into_iter().chain(subject.brim()) {
-            let _ = writeln!(xml, "<metadata key=\"{key}\" value=\"{value}\"/>");
-        }
-        xml.push_str("</object>\n");
-    }
-    xml + "</config>\n"
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::io::threemf::orca::orca_xml;
 
     const SETTINGS: PrintSettings = PrintSettings {
+        dialect: Dialect::Prusa,
         layer_mm: 0.2,
         line_mm: 0.45,
         perimeters: 2,
@@ -219,7 +183,7 @@ mod tests {
     #[test]
     fn every_object_is_printed_solid_with_support_in_both_dialects() {
         let prusa = prusa_xml(&box_and_lid(), &SETTINGS);
-        let bambu = bambu_xml(&box_and_lid(), &SETTINGS);
+        let orca = orca_xml(&box_and_lid(), 9, &SETTINGS);
         for (xml, said) in [
             (&prusa, "key=\"fill_density\" value=\"100%\""),
             (&prusa, "key=\"support_material\" value=\"1\""),
@@ -227,19 +191,19 @@ mod tests {
             (&prusa, "key=\"extrusion_width\" value=\"0.45\""),
             (&prusa, "key=\"infill_overlap\" value=\"25%\""),
             (&prusa, "lastid=\"11\""),
-            (&bambu, "key=\"sparse_infill_density\" value=\"100%\""),
-            (&bambu, "key=\"enable_support\" value=\"1\""),
+            (&orca, "key=\"sparse_infill_density\" value=\"100%\""),
+            (&orca, "key=\"enable_support\" value=\"1\""),
         ] {
             assert_eq!(xml.matches(said).count(), 2, "{said}: {xml}");
         }
-        assert!(prusa.contains("box &lt;&amp;&gt;") && bambu.contains("<object id=\"3\">"));
+        assert!(prusa.contains("box &lt;&amp;&gt;") && orca.contains("<object id=\"3\">"));
     }
 
     #[test]
     fn only_an_object_that_stands_on_a_point_has_a_brim() {
         let xmls = [
             prusa_xml(&box_and_lid(), &SETTINGS),
-            bambu_xml(&box_and_lid(), &SETTINGS),
+            orca_xml(&box_and_lid(), 9, &SETTINGS),
         ];
         for xml in xmls {
             let (cube, lid) = xml.split_once("</object>").unwrap();
@@ -257,7 +221,8 @@ mod tests {
         let prusa = prusa_xml(&box_and_lid(), &settings);
         assert!(prusa.contains("key=\"support_material\" value=\"0\""));
         assert!(
-            !prusa.contains("threshold") && !bambu_xml(&box_and_lid(), &settings).contains("angle")
+            !prusa.contains("threshold")
+                && !orca_xml(&box_and_lid(), 9, &settings).contains("angle")
         );
     }
 }

@@ -21,8 +21,10 @@ pub struct SparseRegion {
 pub struct Infill {
     /// The first of those triangles; they end where the next region begins.
     pub first: usize,
-    pattern: String,
-    percent: f64,
+    /// The pattern, in PrusaSlicer's words.
+    pub pattern: String,
+    /// The density to set, per cent of that of solid print.
+    pub percent: f64,
 }
 
 /// What the slicer lays where the solid print meets a region, in PrusaSlicer's words: its usual

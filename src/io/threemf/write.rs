@@ -1,19 +1,22 @@
 //! Writes 3MF packages: objects with names, colours and places.
 
-use std::fmt::Write as _;
 use std::io::{Cursor, Write as _};
 
 use quick_xml::escape::escape;
 use zip::{CompressionMethod, System, ZipWriter, write::SimpleFileOptions};
 
-use super::names::{CONTENT_TYPES, CORE_NAMESPACE, MODEL_PART, MODEL_TYPE, RELATIONSHIPS};
-use super::settings::{BAMBU_PART, PRUSA_PART, PrintSettings, Subject, bambu_xml, prusa_xml};
+use super::cura::{CURA_NAMESPACE, for_body, group_xml};
+use super::names::{CONTENT_TYPES, CORE_NAMESPACE, MODEL_PART, MODEL_TYPE, OUR_JOB, RELATIONSHIPS};
+use super::nested::{Material, Nested, object_xml};
+use super::orca::{ORCA_PART, orca_xml};
+use super::settings::{PRUSA_PART, PrintSettings, Subject, prusa_xml};
 use super::sparse::{Infill, SparseRegion};
 use super::transform::Transform;
+use super::triangles::{mesh_xml, round, whole_facets};
+use crate::base::dialect::Dialect;
 use crate::base::setting::{Key, Setting};
 use crate::geom::Point;
 use crate::mesh::{TriMesh, foot_area_mm2};
-use crate::repair::weld;
 
 /// A package to be written.
 #[derive(Debug, Clone)]
@@ -58,6 +61,8 @@ pub struct Object {
     triangles: usize,
     /// The infill of its last triangles, which bound regions inside; empty without regions.
     infill: Vec<Infill>,
+    /// Its surface and its regions, each by itself; empty without regions.
+    pieces: Vec<TriMesh>,
     /// Area of its section just above its lowest point, mm².
     foot_mm2: f64,
 }
@@ -81,9 +86,6 @@ const COLORS_ID: usize = 1;
 const COMPRESSION_LEVEL: i64 = 3;
 /// The namespace of PrusaSlicer's attributes.
 const PRUSA_NAMESPACE: &str = "http://schemas.slic3r.org/3mf/2017/06";
-/// The attribute of a triangle that PrusaSlicer keeps free of support: a whole triangle (no low
-/// bits) in the second state of its painting tool.
-const BLOCKER: &str = " slic3rpe:custom_supports=\"8\"";
 /// PrusaSlicer's metadata for the version of a file. Without it, it moves the first volume of an
 /// object to its place and leaves the others behind.
 pub(super) const PRUSA_VERSION: [&str; 2] = ["slic3rpe:Version3mf", "1"];
@@ -110,7 +112,7 @@ impl Object {
         mesh: &TriMesh,
         is_blocked: impl Fn(&[Point; 3]) -> bool,
     ) -> Self {
-        let mesh = weld(&mesh.map_vertices(round_to_single));
+        let mesh = round(mesh);
         let whole = whole_facets(&mesh, is_blocked);
         Self {
             name: name.to_owned(),
@@ -118,29 +120,32 @@ impl Object {
             mesh_xml: mesh_xml(&mesh, &whole),
             triangles: whole.len(),
             infill: Vec::new(),
+            pieces: Vec::new(),
             foot_mm2: foot_area_mm2(&mesh),
         }
     }
 
-    /// Makes an object as [`new`](Self::new), with regions inside that PrusaSlicer fills sparsely.
+    /// Makes an object as [`new`](Self::new), with regions inside that slicers fill sparsely.
     ///
-    /// Where regions overlap the later one holds, so the outermost comes first. All are turned
-    /// inward: a program that knows of no regions finds a cavity in place of one. Corners of
-    /// different regions stay apart, since the slicer takes those of a volume in one run.
+    /// Where regions overlap the later one holds, so the outermost comes first. For PrusaSlicer all
+    /// are turned inward: a program that knows of no regions finds a cavity in place of one.
+    /// Corners of different regions stay apart, since it takes those of a volume in one run.
     pub fn with_regions(
         name: &str,
         color: [u8; 3],
         mesh: &TriMesh,
         regions: &[SparseRegion],
     ) -> Self {
-        let outside = weld(&mesh.map_vertices(round_to_single));
+        let outside = round(mesh);
         let foot_mm2 = foot_area_mm2(&outside);
         let mut facets = whole_facets(&outside, |_| false).len();
+        let mut pieces = vec![outside.clone()];
         let (mut joined, mut infill) = (outside, Vec::new());
         for region in regions {
             infill.push(Infill::of(region, facets));
-            let inward = weld(&region.mesh.reversed().map_vertices(round_to_single));
+            let inward = round(&region.mesh.reversed());
             facets += whole_facets(&inward, |_| false).len();
+            pieces.push(inward.reversed());
             joined = joined.joined(&inward);
         }
         Self {
@@ -149,26 +154,10 @@ impl Object {
             mesh_xml: mesh_xml(&joined, &whole_facets(&joined, |_| false)),
             triangles: facets,
             infill,
+            pieces,
             foot_mm2,
         }
     }
-}
-
-/// Returns the triangles of a mesh that have three corners.
-fn whole_facets(mesh: &TriMesh, is_blocked: impl Fn(&[Point; 3]) -> bool) -> Vec<Facet> {
-    let triangles = mesh.triangles().iter().filter(|t| is_whole(t));
-    let corners = |t: &[u32; 3]| t.map(|corner| mesh.vertices()[corner as usize]);
-    let facet = |t: &[u32; 3]| Facet {
-        corners: *t,
-        is_blocked: is_blocked(&corners(t)),
-    };
-    triangles.map(facet).collect()
-}
-
-/// A triangle to be written.
-struct Facet {
-    corners: [u32; 3],
-    is_blocked: bool,
 }
 
 impl Object {
@@ -180,6 +169,14 @@ impl Object {
             triangles: self.triangles,
             infill: &self.infill,
             foot_mm2: self.foot_mm2,
+        }
+    }
+
+    /// Returns its pieces as nested objects.
+    fn nested(&self, id: usize) -> Nested<'_> {
+        Nested {
+            subject: self.subject(id),
+            pieces: &self.pieces,
         }
     }
 }
@@ -196,12 +193,20 @@ impl Package<'_> {
             (MODEL_PART, self.model_xml()),
         ];
         if let Some(settings) = &self.settings {
-            let objects = self.placed_objects().into_iter();
-            let objects: Vec<Subject> = objects.map(|(id, object)| object.subject(id)).collect();
-            parts.push((PRUSA_PART, prusa_xml(&objects, settings)));
-            // The other dialect has no such regions: its readers would print a cavity.
-            if !self.has_regions() {
-                parts.push((BAMBU_PART, bambu_xml(&objects, settings)));
+            let placed = self.placed_objects();
+            let objects = placed.iter().map(|(id, object)| object.subject(*id));
+            let objects: Vec<Subject> = objects.collect();
+            if !self.is_nested() {
+                parts.push((PRUSA_PART, prusa_xml(&objects, settings)));
+            }
+            let reads_orca = match self.has_regions() {
+                // The readers of the other dialects would print a cavity.
+                true => settings.dialect == Dialect::Orca,
+                false => true,
+            };
+            if reads_orca {
+                let first = self.first_piece();
+                parts.push((ORCA_PART, orca_xml(&objects, first, settings)));
             }
         }
         archive(&parts).map_err(|source| PackageError {
@@ -221,13 +226,17 @@ impl Package<'_> {
     }
 
     fn model_xml(&self) -> String {
-        let objects = self.placed_objects().into_iter();
-        let objects: String = objects.map(|(id, object)| object_xml(id, object)).collect();
+        let objects = self.objects_xml();
         let (joined, build) = self.build_xml();
         let colors: String = self.objects.iter().map(color_xml).collect();
+        let cura = match self.dialect() {
+            Some(Dialect::Cura) => format!(" xmlns:cura=\"{CURA_NAMESPACE}\""),
+            _ => String::new(),
+        };
         let head = format!(
             "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<model unit=\"millimeter\" xml:lang=\"en-US\" \
-             xmlns=\"{CORE_NAMESPACE}\" xmlns:equipoise=\"{OUR_NAMESPACE}\" xmlns:slic3rpe=\"{PRUSA_NAMESPACE}\">\n"
+             xmlns=\"{CORE_NAMESPACE}\" xmlns:equipoise=\"{OUR_NAMESPACE}\" \
+             xmlns:slic3rpe=\"{PRUSA_NAMESPACE}\"{cura}>\n"
         );
         let metadata: String = self
             .metadata()
@@ -240,6 +249,48 @@ impl Package<'_> {
         )
     }
 
+    /// Returns the dialect of its settings; `None` without settings.
+    fn dialect(&self) -> Option<Dialect> {
+        self.settings.as_ref().map(|settings| settings.dialect)
+    }
+
+    /// Returns whether regions are objects of their own within their object.
+    fn is_nested(&self) -> bool {
+        let is_other = |dialect| dialect != Dialect::Prusa;
+        self.has_regions() && self.dialect().is_some_and(is_other)
+    }
+
+    /// Returns the identifier of the first piece: after the objects and the one that holds them.
+    fn first_piece(&self) -> usize {
+        object_id(self.objects.len()) + 1
+    }
+
+    /// Returns the objects that the build places.
+    fn objects_xml(&self) -> String {
+        let mut piece = self.first_piece();
+        let mut xml = String::new();
+        for (id, object) in self.placed_objects() {
+            let material = Material {
+                id: COLORS_ID,
+                index: id - object_id(0),
+            };
+            if self.is_nested() && !object.pieces.is_empty() {
+                let nested = object.nested(id);
+                xml += &nested.to_xml(piece, &material, self.settings.as_ref());
+                piece += object.pieces.len();
+            } else {
+                let settings = self
+                    .settings
+                    .as_ref()
+                    .filter(|it| it.dialect == Dialect::Cura);
+                let group = settings.map_or_else(String::new, |it| group_xml(&for_body(it)));
+                let content = format!("{group}{}", object.mesh_xml);
+                xml += &object_xml(id, &object.name, &material, &content);
+            }
+        }
+        xml
+    }
+
     /// Returns whether an object has a region of another infill.
     fn has_regions(&self) -> bool {
         let mut objects = self.placed_objects().into_iter();
@@ -248,13 +299,14 @@ impl Package<'_> {
 
     fn metadata(&self) -> Vec<(&'static str, String)> {
         let [name, number] = PRUSA_VERSION;
-        let version = self.has_regions().then(|| (name, number.to_owned()));
+        let is_joined = self.has_regions() && !self.is_nested();
+        let version = is_joined.then(|| (name, number.to_owned()));
         let application = format!("{} {}", env!("CARGO_PKG_NAME"), env!("CARGO_PKG_VERSION"));
         let usual = [
             ("Title", self.title.clone()),
             ("Description", self.description.clone()),
             ("Application", application),
-            ("equipoise:Job", self.job.clone()),
+            (OUR_JOB, self.job.clone()),
         ];
         version.into_iter().chain(usual).collect()
     }
@@ -293,14 +345,6 @@ fn color_xml(object: &Object) -> String {
     )
 }
 
-fn object_xml(id: usize, object: &Object) -> String {
-    let (index, name) = (id - object_id(0), escape(object.name.as_str()));
-    format!(
-        "<object id=\"{id}\" type=\"model\" name=\"{name}\" pid=\"{COLORS_ID}\" pindex=\"{index}\">\n{}</object>\n",
-        object.mesh_xml
-    )
-}
-
 /// Writes the places as elements called `element`.
 fn places_xml(element: &str, places: &[(usize, Transform)]) -> String {
     let place = |(index, map): &(usize, Transform)| {
@@ -311,37 +355,6 @@ fn places_xml(element: &str, places: &[(usize, Transform)]) -> String {
         )
     };
     places.iter().map(place).collect()
-}
-
-/// Returns whether a triangle has three corners.
-fn is_whole([a, b, c]: &[u32; 3]) -> bool {
-    a != b && b != c && c != a
-}
-
-/// Writes a mesh in single precision, with these of its triangles.
-fn mesh_xml(mesh: &TriMesh, triangles: &[Facet]) -> String {
-    let mut xml = String::from("<mesh><vertices>");
-    for p in mesh.vertices() {
-        // Writing into a string cannot fail.
-        let _ = write!(
-            xml,
-            "<vertex x=\"{}\" y=\"{}\" z=\"{}\"/>",
-            p.x as f32, p.y as f32, p.z as f32
-        );
-    }
-    xml.push_str("</vertices>\n<triangles>");
-    for facet in triangles {
-        let [a, b, c] = facet.corners;
-        let blocker = if facet.is_blocked { BLOCKER } else { "" };
-        let _ = write!(xml, "<triangle v1=\"{a}\" v2=\"{b}\" v3=\"{c}\"{blocker}/>");
-    }
-    xml.push_str("</triangles></mesh>\n");
-    xml
-}
-
-/// Rounds a point to single precision, without −0.0.
-fn round_to_single(p: &Point) -> Point {
-    p.map(|x| f64::from(x as f32) + 0.0)
 }
 
 fn content_types(has_settings: bool) -> String {

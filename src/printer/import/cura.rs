@@ -11,6 +11,7 @@ use super::{
     ini::Ini,
     text::{self, first_number},
 };
+use crate::base::dialect::Dialect;
 use crate::base::toml_text::Place;
 
 /// Ending of the file name of a definition.
@@ -36,9 +37,20 @@ pub(super) fn read_definition(
         layers_mm: [None, None],
         build_volume_mm: build_volume(&settings),
         elephant_foot_mm: None,
+        dialect: Some(Found {
+            value: Dialect::Cura,
+            source: format!("{} is a definition of Cura's", name_of(path)),
+            is_computed: false,
+        }),
         default_material: None,
     });
     Ok(())
+}
+
+/// Returns the name of a file.
+fn name_of(path: &Path) -> String {
+    let name = path.file_name().unwrap_or_default();
+    name.to_string_lossy().into_owned()
 }
 
 /// Returns the number of a setting, read or computed from its formula; `None` if it is missing or
@@ -94,10 +106,7 @@ fn collect(
     into: &mut Settings,
     heirs: &mut Vec<String>,
 ) -> Result<String, ImportError> {
-    let file = path
-        .file_name()
-        .map(|name| name.to_string_lossy().into_owned())
-        .unwrap_or_default();
+    let file = name_of(path);
     if heirs.contains(&file) {
         let place = Place {
             file: file.clone(),

@@ -1,6 +1,7 @@
 //! Printers and materials as slicers know them.
 
 use super::ImportError;
+use crate::base::dialect::Dialect;
 use crate::base::setting::{Key, Setting};
 use crate::base::toml_text::nearest_name;
 
@@ -51,6 +52,8 @@ pub struct ImportedPrinter {
     pub build_volume_mm: Option<Found<[f64; 3]>>,
     /// The elephant foot for which the slicer compensates.
     pub elephant_foot_mm: Option<Found<f64>>,
+    /// The family of slicers that its plates give orders to; `None` for the usual one.
+    pub dialect: Option<Found<Dialect>>,
     /// The name of its default material.
     pub default_material: Option<String>,
 }

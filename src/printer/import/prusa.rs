@@ -164,6 +164,7 @@ fn import_printer(name: &str, printer: &Preset, print: &Preset) -> ImportedPrint
         elephant_foot_mm: printer
             .number("elefant_foot_compensation")
             .or_else(elephant_foot_mm),
+        dialect: None,
         default_material: default_material.map(|name| first_name(name).to_owned()),
     }
 }

@@ -45,6 +45,9 @@ impl Imported {
         if let Some(volume) = &printer.build_volume_mm {
             text += &line("build_volume_mm", &format!("{:?}", volume.value), volume);
         }
+        if let Some(dialect) = &printer.dialect {
+            text += &line("dialect", &format!("\"{}\"", dialect.value), dialect);
+        }
         text += "\n[numbers]\n";
         text += &numbers(printer);
         for (id, material) in &materials {
@@ -161,6 +164,7 @@ pub fn slug(name: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::base::dialect::Dialect;
     use crate::printer::import::Technology;
 
     fn found<T>(value: T) -> Option<Found<T>> {
@@ -180,6 +184,7 @@ mod tests {
             layers_mm: [found(0.07), found(0.15)],
             build_volume_mm: found([250.0, 210.0, 210.0]),
             elephant_foot_mm: found(0.2),
+            dialect: found(Dialect::Cura),
             default_material: Some("PLA +".into()),
         };
         let material = |name: &str, density: Option<f64>| ImportedMaterial {
@@ -219,6 +224,7 @@ mod tests {
             None,
             "0.15 mm would contradict the layer"
         );
+        assert_eq!(mine.dialect(), Dialect::Cura);
         assert_eq!(mine.min_wall_mm.process_default_of.as_deref(), Some("fdm"));
         let ids: Vec<&str> = mine
             .materials

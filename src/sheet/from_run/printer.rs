@@ -13,6 +13,7 @@ pub fn printer_row(printer: &Printer, minimum_wall_mm: f64) -> PrinterRow {
         process: printer.process.clone().unwrap_or_default().into(),
         pixel_mm: [printer.pixel_x_mm.value, printer.pixel_y_mm.value],
         layer_mm: printer.layer_mm.value,
+        dialect: printer.dialect(),
         build_volume_mm: printer.usable_volume_mm(),
         print_scale_ratio: enlargement(printer.print_scale_ratio()),
         support: support_method(printer.support),

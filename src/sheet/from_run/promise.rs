@@ -30,6 +30,7 @@ pub fn promise(placed: &Placed, made: &Made) -> Promise {
             minimum_opening_mm: Some(printer.min_opening_mm.value),
             cleaning: Some(printer.cleaning_rule()),
             seam_step_mm: placed.seam_step_mm(),
+            dialect: printer.dialect(),
             layer_mm: Some(printer.layer_mm.value),
             pixel_mm: Some([printer.pixel_x_mm.value, printer.pixel_y_mm.value]),
         },

@@ -1,12 +1,19 @@
 //! Orders of packages, right and wrong.
 
 use super::*;
+use crate::base::dialect::Dialect;
 use crate::geom::Point;
 use crate::io::threemf::{
     Build, Object, Package, PrintSettings, SparseRegion, Transform, decode_objects, decode_orders,
 };
 use crate::mesh::primitives::cuboid;
 use crate::verify::judge_tests::sound_kit;
+
+/// The words of PrusaSlicer.
+const DENSITY: &str = "fill_density";
+const PATTERN: &str = "fill_pattern";
+const KIND: &str = "volume_type";
+const LAYER: &str = "layer_height";
 
 /// A kit's package of one part, as it was read, with the kit's own limits and region.
 struct Read {
@@ -17,6 +24,11 @@ struct Read {
 }
 
 fn read() -> Read {
+    read_in(Dialect::Prusa)
+}
+
+/// Returns the package of a printer whose slicer reads a dialect.
+fn read_in(dialect: Dialect) -> Read {
     let body = cuboid(&Point::origin(), &Point::new(30.0, 30.0, 30.0));
     let region = SparseRegion {
         mesh: cuboid(&Point::new(15.0, 5.0, 5.0), &Point::new(25.0, 25.0, 25.0)),
@@ -31,6 +43,7 @@ fn read() -> Read {
         objects: &objects,
         build: Build::Items(vec![(0, Transform::default())]),
         settings: Some(PrintSettings {
+            dialect,
             layer_mm: 0.2,
             line_mm: 0.45,
             perimeters: 2,
@@ -40,10 +53,11 @@ fn read() -> Read {
     let bytes = bytes.encode().unwrap();
     Read {
         objects: decode_objects(&bytes).unwrap(),
-        orders: decode_orders(&bytes).unwrap().unwrap(),
+        orders: decode_orders(&bytes).unwrap().remove(0),
         printer: PrinterLimits {
             process: Some("fdm".to_owned()),
             layer_mm: Some(0.2),
+            dialect,
             ..sound_kit().promise.printer
         },
         infill: InfillOrder {
@@ -70,7 +84,7 @@ impl Read {
         let package = Ordered {
             file: "plate.3mf",
             objects: &self.objects,
-            orders: Some(&self.orders),
+            orders: std::slice::from_ref(&self.orders),
         };
         wanted.faults(&package).join("; ")
     }
@@ -83,7 +97,123 @@ impl Read {
 
 #[test]
 fn a_package_as_it_is_written_orders_what_the_sheet_states() {
-    assert_eq!(read().faults(), "");
+    for dialect in Dialect::ALL {
+        let read = read_in(*dialect);
+        assert_eq!(read.faults(), "", "{dialect}");
+        assert_eq!(read.orders.dialect, *dialect);
+        assert_eq!(read.objects.len(), 1, "{dialect}");
+        let volume_mm3 = read.objects[0].mesh.signed_volume_mm3();
+        assert!(
+            (volume_mm3 - 23_000.0).abs() < 1e-6,
+            "{dialect}: {volume_mm3}"
+        );
+    }
+}
+
+#[test]
+fn each_wrong_order_for_a_region_is_named_in_the_other_dialects() {
+    for (dialect, key, value, said) in [
+        (
+            Dialect::Orca,
+            "sparse_infill_density",
+            "15",
+            "infill of 15, not 15%",
+        ),
+        (
+            Dialect::Orca,
+            "sparse_infill_pattern",
+            "grid",
+            "filled with grid, not gyroid",
+        ),
+        (
+            Dialect::Orca,
+            "subtype",
+            "negative_part",
+            "a negative_part, not a modifier_part",
+        ),
+        (
+            Dialect::Orca,
+            "wall_loops",
+            "2",
+            "walls around its region (wall_loops)",
+        ),
+        (
+            Dialect::Cura,
+            "infill_sparse_density",
+            "20",
+            "infill of 20, not 15%",
+        ),
+        (
+            Dialect::Cura,
+            "infill_pattern",
+            "lightning",
+            "with lightning, not gyroid",
+        ),
+        (Dialect::Cura, "infill_mesh", "false", "a false, not a true"),
+        (
+            Dialect::Cura,
+            "infill_mesh_order",
+            "0",
+            "in their order (0, not 1)",
+        ),
+        (
+            Dialect::Cura,
+            "wall_line_count",
+            "2",
+            "around its region (wall_line_count)",
+        ),
+        (Dialect::Cura, "top_layers", "8", "top_layers is 8, not 0"),
+    ] {
+        let mut read = read_in(dialect);
+        let settings = &mut read.object().volumes[1].settings;
+        assert!(settings.insert(key.to_owned(), value.to_owned()).is_some() || key == "wall_loops");
+        assert!(read.faults().contains(said), "{key}: {}", read.faults());
+    }
+}
+
+#[test]
+fn each_wrong_order_for_a_part_is_named_in_the_other_dialects() {
+    for (dialect, key, value, said) in [
+        (
+            Dialect::Orca,
+            "sparse_infill_density",
+            "15%",
+            "infill of 15%, not 100%",
+        ),
+        (
+            Dialect::Orca,
+            "layer_height",
+            "0.3",
+            "layers of 0.3 mm, not 0.2",
+        ),
+        (
+            Dialect::Cura,
+            "infill_sparse_density",
+            "20",
+            "infill of 20, not 100%",
+        ),
+        (
+            Dialect::Cura,
+            "bottom_layers",
+            "999999",
+            "bottom_layers is 999999",
+        ),
+    ] {
+        let mut read = read_in(dialect);
+        let settings = &mut read.object().settings;
+        settings.insert(key.to_owned(), value.to_owned());
+        assert!(read.faults().contains(said), "{key}: {}", read.faults());
+    }
+}
+
+#[test]
+fn a_plate_in_the_words_of_another_slicer_is_named() {
+    let mut read = read_in(Dialect::Orca);
+    read.printer.dialect = Dialect::Cura;
+    assert_eq!(
+        read.faults(),
+        "plate.3mf does not say to Cura that its parts are solid"
+    );
 }
 
 #[test]

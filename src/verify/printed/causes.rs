@@ -141,7 +141,8 @@ impl Printed<'_> {
         };
         let modifiers: Vec<String> = infill.levels().iter().map(modifier).collect();
         let remedy = format!(
-            "slice the kit's plate with PrusaSlicer, or add {}",
+            "slice the kit's plate with {}, or add {}",
+            self.promise.printer.dialect.slicers(),
             modifiers.join(", then ")
         );
         self.cause(CauseKind::Infill, &parts, finding, remedy)

@@ -9,6 +9,7 @@ use zip::{ZipWriter, write::SimpleFileOptions};
 
 use super::names::{CORE_NAMESPACE, MODEL_PART, MODEL_TYPE};
 use super::*;
+use crate::base::dialect::Dialect;
 use crate::geom::{Matrix, Point, Vector};
 use crate::io::{decode_model, stl};
 use crate::mesh::Solid;
@@ -100,6 +101,7 @@ fn a_package_with_settings_holds_the_same_objects_and_both_files_of_settings() {
         objects: &[object],
         build: Build::Items(places),
         settings: Some(PrintSettings {
+            dialect: Dialect::Prusa,
             layer_mm: 0.2,
             line_mm: 0.45,
             perimeters: 2,
