@@ -9,6 +9,7 @@
 //! * `random`: random numbers from a seed, for searches.
 //! * [`verdict`]: an answer that may be no, with the reason.
 //! * [`sourced`]: values with their sources and their certainty.
+//! * [`walls`]: the lines and layers that slicers lay solid around what they fill.
 //! * [`watch`]: progress and cancellation of a run.
 
 pub mod dialect;
@@ -20,5 +21,6 @@ pub mod sourced;
 pub mod toml_text;
 pub mod units;
 pub mod verdict;
+pub mod walls;
 pub mod watch;
 pub mod words;

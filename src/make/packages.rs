@@ -23,9 +23,6 @@ const ASSEMBLY: &str = "assembly.3mf";
 /// The process whose slicers fill parts sparsely unless they are told not to.
 const FILAMENT: &str = "fdm";
 
-/// Lines along a wall: the slicers' own default, within which everything is filled.
-const PERIMETERS: usize = 2;
-
 /// The colour of jigs: the grey of a tool.
 const JIG_COLOR: Color = [150, 150, 150];
 /// Distance by which a file's coordinates and the sides of a round wall differ from it, mm.
@@ -262,7 +259,7 @@ pub fn print_settings(printer: &Printer) -> Option<PrintSettings> {
         dialect: printer.dialect(),
         layer_mm: printer.layer_mm.value,
         line_mm: printer.pixel_x_mm.value,
-        perimeters: PERIMETERS,
+        walls: printer.walls(),
         overhang_deg: overhang_deg.filter(|_| printer.support != Support::None),
     })
 }

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use crate::base::dialect::Dialect;
+use crate::base::walls::Walls;
 
 use super::{
     ExcludedCorner, InfillPattern, Material, MaterialError, Quantity, Sourced, error::suggest,
@@ -201,6 +202,19 @@ impl Printer {
         self.dialect
             .as_ref()
             .map_or_else(Dialect::default, |dialect| dialect.value)
+    }
+
+    /// Returns the lines and layers that its slicer lays solid; the usual ones where none are
+    /// stated. Numbers of them are rounded.
+    pub fn walls(&self) -> Walls {
+        let usual = Walls::default();
+        let stated = |quantity| self.number(quantity).map(|number| number.value);
+        let count = |quantity| stated(quantity).map(|number| number.round() as usize);
+        Walls {
+            perimeters: count(Quantity::Perimeters).unwrap_or(usual.perimeters),
+            solid_layers: count(Quantity::SolidLayers).unwrap_or(usual.solid_layers),
+            overlap_ratio: stated(Quantity::InfillOverlapRatio).unwrap_or(usual.overlap_ratio),
+        }
     }
 
     /// Returns every known number of the profile's `[numbers]`, in the order of [`Quantity`].

@@ -30,6 +30,10 @@ const HOLD_S: RangeInclusive<f64> = 1.0..=3600.0;
 const CURE_H: RangeInclusive<f64> = 0.01..=336.0;
 /// Densities of infill over that of solid print. Larger values must be in per cent.
 pub(super) const INFILL_RATIOS: RangeInclusive<f64> = 0.01..=1.0;
+/// Numbers of lines along a wall and of solid layers. Larger ones must be lengths.
+const COUNTS: RangeInclusive<f64> = 1.0..=50.0;
+/// Overlaps of infill and walls over a line. Larger values must be in per cent.
+const OVERLAP_RATIOS: RangeInclusive<f64> = 0.0..=1.0;
 /// Tolerances and shrinkages over a length. Larger values must be in per cent.
 const LENGTH_RATIOS: RangeInclusive<f64> = 1e-6..=0.1;
 
@@ -60,6 +64,12 @@ pub enum Quantity {
     MinHoleMm,
     /// The least density of infill that carries what is printed over it, over that of solid print.
     LeastInfillRatio,
+    /// The number of lines along a wall that slicers lay.
+    Perimeters,
+    /// The number of solid layers that slicers lay over and under sparse infill.
+    SolidLayers,
+    /// The share of a line by which infill reaches into the walls, as PrusaSlicer reckons it.
+    InfillOverlapRatio,
     /// The narrowest opening through which a void can be cleaned.
     MinOpeningMm,
     /// The narrowest of two or more openings through which powder escapes.
@@ -115,7 +125,7 @@ pub enum Quantity {
 
 impl Quantity {
     /// Every quantity, in order.
-    pub const ALL: [Self; 36] = [
+    pub const ALL: [Self; 39] = [
         Self::PixelXMm,
         Self::PixelYMm,
         Self::LayerMm,
@@ -127,6 +137,9 @@ impl Quantity {
         Self::MinFeatureMm,
         Self::MinHoleMm,
         Self::LeastInfillRatio,
+        Self::Perimeters,
+        Self::SolidLayers,
+        Self::InfillOverlapRatio,
         Self::MinOpeningMm,
         Self::PairOpeningMm,
         Self::CleaningReachMm,
@@ -168,6 +181,9 @@ impl Quantity {
             Self::MinFeatureMm => "min_feature_mm",
             Self::MinHoleMm => "min_hole_mm",
             Self::LeastInfillRatio => "least_infill_ratio",
+            Self::Perimeters => "perimeters",
+            Self::SolidLayers => "solid_layers",
+            Self::InfillOverlapRatio => "infill_overlap_ratio",
             Self::MinOpeningMm => "min_opening_mm",
             Self::PairOpeningMm => "pair_opening_mm",
             Self::CleaningReachMm => "cleaning_reach_mm",
@@ -207,6 +223,9 @@ impl Quantity {
                 | Self::HorizontalWallMm
                 | Self::MinHoleMm
                 | Self::LeastInfillRatio
+                | Self::Perimeters
+                | Self::SolidLayers
+                | Self::InfillOverlapRatio
                 | Self::PairOpeningMm
                 | Self::CleaningReachMm
                 | Self::OverhangDeg
@@ -243,6 +262,8 @@ impl Quantity {
             | Self::MinFeatureMm
             | Self::MinHoleMm => FINEST_MM..=LARGEST_DETAIL_MM,
             Self::LeastInfillRatio => INFILL_RATIOS,
+            Self::Perimeters | Self::SolidLayers => COUNTS,
+            Self::InfillOverlapRatio => OVERLAP_RATIOS,
             Self::MinOpeningMm | Self::PairOpeningMm => FINEST_MM..=100.0,
             Self::CleaningReachMm => REACH_MM,
             Self::OverhangDeg => OVERHANG_DEG,
@@ -284,6 +305,7 @@ impl Quantity {
             self,
             Self::PinLengthRatio
                 | Self::LeastInfillRatio
+                | Self::InfillOverlapRatio
                 | Self::ToleranceRatio
                 | Self::ShrinkageXyRatio
                 | Self::ShrinkageZRatio

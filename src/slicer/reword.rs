@@ -3,6 +3,7 @@
 use super::error::SlicerError;
 use super::run::Work;
 use crate::base::dialect::Dialect;
+use crate::base::walls::Walls;
 use crate::io::threemf::{
     Build, Object, Package, PrintSettings, Transform, decode_orders, decode_plate,
 };
@@ -29,7 +30,10 @@ pub(super) fn reword(work: &Work, dialect: Dialect) -> Result<Option<Vec<u8>>, S
         dialect,
         layer_mm: work.settings.layer_mm(),
         line_mm: work.settings.line_mm(),
-        perimeters: first.perimeters,
+        walls: Walls {
+            perimeters: first.perimeters,
+            ..work.settings.walls()
+        },
         overhang_deg: first.overhang_deg,
     });
     let objects = plate

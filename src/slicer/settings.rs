@@ -4,6 +4,7 @@ use std::f64::consts::FRAC_PI_4;
 use std::fmt::Write as _;
 
 use crate::base::units::MM3_PER_CM3;
+use crate::base::walls::Walls;
 use crate::printer::{Material, Printer};
 
 /// The process whose plates are sliced.
@@ -38,6 +39,8 @@ pub struct SliceSettings {
     layer_mm: f64,
     /// Width of a line, mm.
     line_mm: f64,
+    /// The lines and layers that are laid solid.
+    walls: Walls,
     /// Density of the filament, g/cm³.
     density_g_cm3: f64,
     /// A profile of the slicer, whose settings hold where these say nothing; `None` for its own.
@@ -53,6 +56,7 @@ impl SliceSettings {
             room_mm,
             layer_mm: printer.layer_mm.value,
             line_mm: printer.pixel_x_mm.value,
+            walls: printer.walls(),
             density_g_cm3: material.density_g_cm3.value,
             profile: None,
         })
@@ -89,6 +93,11 @@ impl SliceSettings {
     /// Returns the width of a line, mm.
     pub(super) fn line_mm(&self) -> f64 {
         self.line_mm
+    }
+
+    /// Returns the lines and layers that are laid solid.
+    pub(super) fn walls(&self) -> Walls {
+        self.walls
     }
 
     /// Returns the diameter of the nozzle, mm.

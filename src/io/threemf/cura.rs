@@ -37,7 +37,7 @@ pub fn for_body(settings: &PrintSettings) -> Vec<Pair> {
     let mut pairs = vec![
         ("infill_sparse_density", "100".to_owned()),
         ("infill_pattern", "lines".to_owned()),
-        ("wall_line_count", settings.perimeters.to_string()),
+        ("wall_line_count", settings.walls.perimeters.to_string()),
         ("support_enable", is_supported.to_string()),
     ];
     let angle_deg = settings.overhang_deg.map(|deg| RIGHT_DEG - deg);

@@ -32,9 +32,7 @@ const WIDTHS: [&str; 6] = [
 ];
 
 /// What is laid where the solid print meets a region, as PrusaSlicer's dialect says it.
-const AROUND_REGIONS: [[&str; 2]; 7] = [
-    ["top_shell_layers", "3"],
-    ["bottom_shell_layers", "3"],
+const AROUND_REGIONS: [[&str; 2]; 5] = [
     ["top_shell_thickness", "0"],
     ["bottom_shell_thickness", "0"],
     ["minimum_sparse_infill_area", "70"],
@@ -47,7 +45,7 @@ fn pairs(subject: &Subject, settings: &PrintSettings) -> Vec<Pair> {
     let mut pairs = vec![
         ("sparse_infill_density", "100%".to_owned()),
         ("layer_height", settings.layer_mm.to_string()),
-        ("wall_loops", settings.perimeters.to_string()),
+        ("wall_loops", settings.walls.perimeters.to_string()),
         ("enable_support", on_or_off(settings.overhang_deg.is_some())),
     ];
     if let Some(angle_deg) = settings.overhang_deg {
@@ -57,6 +55,8 @@ fn pairs(subject: &Subject, settings: &PrintSettings) -> Vec<Pair> {
     pairs.extend(subject.brim());
     if !subject.infill.is_empty() {
         pairs.extend(WIDTHS.map(|key| (key, settings.line_mm.to_string())));
+        let layers = ["top_shell_layers", "bottom_shell_layers"];
+        pairs.extend(layers.map(|key| (key, settings.walls.solid_layers.to_string())));
         pairs.extend(AROUND_REGIONS.map(|[key, value]| (key, value.to_owned())));
     }
     pairs

@@ -8,6 +8,7 @@ use quick_xml::escape::escape;
 
 use super::sparse::{Infill, Pair, around_regions};
 use crate::base::dialect::Dialect;
+use crate::base::walls::Walls;
 use crate::mesh::{BRIM_MM, GOOD_FOOT_MM2};
 
 /// Path of PrusaSlicer's settings; SuperSlicer reads them too.
@@ -22,8 +23,8 @@ pub struct PrintSettings {
     pub layer_mm: f64,
     /// Width of a line, mm.
     pub line_mm: f64,
-    /// Number of lines along a wall.
-    pub perimeters: usize,
+    /// The lines and layers that are laid solid around what is filled.
+    pub walls: Walls,
     /// Angle to the horizontal from which surfaces print without support, degrees; `None` for no
     /// support.
     pub overhang_deg: Option<f64>,
@@ -68,8 +69,7 @@ const WIDTHS: [&str; 6] = [
 
 /// What decides beside widths and densities how much is laid, in PrusaSlicer's words: its usual
 /// values. Presets of machines have others, and the masses of the sheet are those of these.
-const LAID_PRUSA: [[&str; 2]; 4] = [
-    ["infill_overlap", "25%"],
+const LAID_PRUSA: [[&str; 2]; 3] = [
     ["infill_every_layers", "1"],
     ["infill_only_where_needed", "0"],
     ["ensure_vertical_shell_thickness", "0"],
@@ -90,7 +90,8 @@ impl PrintSettings {
             ("fill_density", "100%".to_owned()),
             ("fill_pattern", "rectilinear".to_owned()),
             ("layer_height", self.layer_mm.to_string()),
-            ("perimeters", self.perimeters.to_string()),
+            ("perimeters", self.walls.perimeters.to_string()),
+            ("infill_overlap", percent(self.walls.overlap_ratio)),
             ("support_material", on_or_off(self.overhang_deg.is_some())),
         ];
         pairs.extend(WIDTHS.map(|key| (key, self.line_mm.to_string())));
@@ -102,6 +103,11 @@ impl PrintSettings {
         }
         pairs
     }
+}
+
+/// Returns a ratio in per cent, to a hundredth.
+fn percent(ratio: f64) -> String {
+    format!("{}%", (ratio * 1e4).round() / 1e2)
 }
 
 pub(super) fn on_or_off(is_on: bool) -> String {
@@ -123,7 +129,7 @@ pub fn prusa_xml(objects: &[Subject], settings: &PrintSettings) -> String {
         let around = subject
             .infill
             .first()
-            .map_or_else(Vec::new, |_| around_regions());
+            .map_or_else(Vec::new, |_| around_regions(&settings.walls));
         let pairs = settings.for_prusa().into_iter().chain(subject.brim());
         for (key, value) in pairs.chain(around) {
             let _ = writeln!(
@@ -161,11 +167,17 @@ mod tests {
     use super::*;
     use crate::io::threemf::orca::orca_xml;
 
+    const WALLS: Walls = Walls {
+        perimeters: 2,
+        solid_layers: 3,
+        overlap_ratio: 0.25,
+    };
+
     const SETTINGS: PrintSettings = PrintSettings {
         dialect: Dialect::Prusa,
         layer_mm: 0.2,
         line_mm: 0.45,
-        perimeters: 2,
+        walls: WALLS,
         overhang_deg: Some(45.0),
     };
 

@@ -1,5 +1,6 @@
 //! A region inside an object that is filled sparsely, as PrusaSlicer reads it: a modifier.
 
+use crate::base::walls::Walls;
 use crate::mesh::TriMesh;
 
 /// A setting: its name and its value.
@@ -30,9 +31,7 @@ pub struct Infill {
 /// What the slicer lays where the solid print meets a region, in PrusaSlicer's words: its usual
 /// values. Presets of machines have others. Six layers for a shell moved the centre of a bunny of
 /// 60 mm by 0.05 mm. Thin bridges moved it by 0.03 mm.
-const AROUND_REGIONS: [[&str; 2]; 7] = [
-    ["top_solid_layers", "3"],
-    ["bottom_solid_layers", "3"],
+const AROUND_REGIONS: [[&str; 2]; 5] = [
     ["top_solid_min_thickness", "0"],
     ["bottom_solid_min_thickness", "0"],
     ["solid_infill_below_area", "70"],
@@ -42,10 +41,11 @@ const AROUND_REGIONS: [[&str; 2]; 7] = [
 
 /// Returns the settings that an object with a region has besides those of solid objects, in
 /// PrusaSlicer's words.
-pub(super) fn around_regions() -> Vec<Pair> {
-    AROUND_REGIONS
-        .map(|[key, value]| (key, value.to_owned()))
-        .to_vec()
+pub(super) fn around_regions(walls: &Walls) -> Vec<Pair> {
+    let layers = ["top_solid_layers", "bottom_solid_layers"];
+    let layers = layers.map(|key| (key, walls.solid_layers.to_string()));
+    let others = AROUND_REGIONS.map(|[key, value]| (key, value.to_owned()));
+    layers.into_iter().chain(others).collect()
 }
 
 impl Infill {

@@ -37,6 +37,10 @@ pub(super) fn read_definition(
         layers_mm: [None, None],
         build_volume_mm: build_volume(&settings),
         elephant_foot_mm: None,
+        // Its formulas ask for more of Cura's settings than widths and layers do.
+        perimeters: None,
+        solid_layers: None,
+        overlap_ratio: None,
         dialect: Some(Found {
             value: Dialect::Cura,
             source: format!("{} is a definition of Cura's", name_of(path)),

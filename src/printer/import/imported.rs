@@ -52,6 +52,12 @@ pub struct ImportedPrinter {
     pub build_volume_mm: Option<Found<[f64; 3]>>,
     /// The elephant foot for which the slicer compensates.
     pub elephant_foot_mm: Option<Found<f64>>,
+    /// Lines along a wall.
+    pub perimeters: Option<Found<f64>>,
+    /// Solid layers over and under sparse infill, the lesser number of both.
+    pub solid_layers: Option<Found<f64>>,
+    /// The share of a line by which infill reaches into the walls.
+    pub overlap_ratio: Option<Found<f64>>,
     /// The family of slicers that its plates give orders to; `None` for the usual one.
     pub dialect: Option<Found<Dialect>>,
     /// The name of its default material.

@@ -43,6 +43,12 @@ impl Preset {
         Some(self.with_source(first_number(self.word(key)?)?, key))
     }
 
+    /// Returns a share that is set in per cent.
+    fn percent(&self, key: &str) -> Option<Found<f64>> {
+        let percent: f64 = self.word(key)?.strip_suffix('%')?.trim().parse().ok()?;
+        Some(self.with_source(percent / 100.0, key))
+    }
+
     fn with_source<T>(&self, value: T, key: &str) -> Found<T> {
         Found {
             value,
@@ -164,9 +170,19 @@ fn import_printer(name: &str, printer: &Preset, print: &Preset) -> ImportedPrint
         elephant_foot_mm: printer
             .number("elefant_foot_compensation")
             .or_else(elephant_foot_mm),
+        perimeters: print.number("perimeters"),
+        solid_layers: solid_layers(print),
+        overlap_ratio: print.percent("infill_overlap"),
         dialect: None,
         default_material: default_material.map(|name| first_name(name).to_owned()),
     }
+}
+
+/// Returns the lesser number of solid layers at the top and at the bottom.
+fn solid_layers(print: &Preset) -> Option<Found<f64>> {
+    let layers = ["top_solid_layers", "bottom_solid_layers"].map(|key| print.number(key));
+    let known = layers.into_iter().flatten();
+    known.min_by(|a, b| a.value.total_cmp(&b.value))
 }
 
 /// Returns the width of a line: as set, in per cent of the layer, or the slicer's default for the

@@ -99,6 +99,9 @@ fn numbers(printer: &ImportedPrinter) -> String {
         (Quantity::LayerLeastMm, least),
         (Quantity::LayerMostMm, most),
         (Quantity::ElephantFootMm, printer.elephant_foot_mm.as_ref()),
+        (Quantity::Perimeters, printer.perimeters.as_ref()),
+        (Quantity::SolidLayers, printer.solid_layers.as_ref()),
+        (Quantity::InfillOverlapRatio, printer.overlap_ratio.as_ref()),
     ];
     let plausible = found.into_iter().filter_map(|(quantity, found)| {
         let found = found?;
@@ -184,6 +187,9 @@ mod tests {
             layers_mm: [found(0.07), found(0.15)],
             build_volume_mm: found([250.0, 210.0, 210.0]),
             elephant_foot_mm: found(0.2),
+            perimeters: found(3.0),
+            solid_layers: found(5.0),
+            overlap_ratio: found(0.2),
             dialect: found(Dialect::Cura),
             default_material: Some("PLA +".into()),
         };
@@ -225,6 +231,9 @@ mod tests {
             "0.15 mm would contradict the layer"
         );
         assert_eq!(mine.dialect(), Dialect::Cura);
+        let walls = mine.walls();
+        assert_eq!((walls.perimeters, walls.solid_layers), (3, 5));
+        assert_eq!(walls.overlap_ratio, 0.2);
         assert_eq!(mine.min_wall_mm.process_default_of.as_deref(), Some("fdm"));
         let ids: Vec<&str> = mine
             .materials

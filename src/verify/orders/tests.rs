@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::base::dialect::Dialect;
+use crate::base::walls::Walls;
 use crate::geom::Point;
 use crate::io::threemf::{
     Build, Object, Package, PrintSettings, SparseRegion, Transform, decode_objects, decode_orders,
@@ -46,7 +47,7 @@ fn read_in(dialect: Dialect) -> Read {
             dialect,
             layer_mm: 0.2,
             line_mm: 0.45,
-            perimeters: 2,
+            walls: Walls::default(),
             overhang_deg: None,
         }),
     };

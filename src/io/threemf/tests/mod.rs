@@ -10,6 +10,7 @@ use zip::{ZipWriter, write::SimpleFileOptions};
 use super::names::{CORE_NAMESPACE, MODEL_PART, MODEL_TYPE};
 use super::*;
 use crate::base::dialect::Dialect;
+use crate::base::walls::Walls;
 use crate::geom::{Matrix, Point, Vector};
 use crate::io::{decode_model, stl};
 use crate::mesh::Solid;
@@ -104,7 +105,7 @@ fn a_package_with_settings_holds_the_same_objects_and_both_files_of_settings() {
             dialect: Dialect::Prusa,
             layer_mm: 0.2,
             line_mm: 0.45,
-            perimeters: 2,
+            walls: Walls::default(),
             overhang_deg: Some(45.0),
         }),
     };

@@ -5,6 +5,7 @@ use std::io::Read;
 use zip::ZipArchive;
 
 use super::*;
+use crate::base::walls::Walls;
 
 /// Packs a box of 30 mm with a region in it, on a plate.
 fn packed() -> Vec<u8> {
@@ -40,7 +41,7 @@ fn packed_in(dialect: Dialect, regions: &[SparseRegion]) -> Vec<u8> {
             dialect,
             layer_mm: 0.2,
             line_mm: 0.45,
-            perimeters: 2,
+            walls: Walls::default(),
             overhang_deg: None,
         }),
     };
@@ -211,7 +212,7 @@ fn triangles_without_support_are_found_again() {
             dialect: Dialect::Prusa,
             layer_mm: 0.2,
             line_mm: 0.45,
-            perimeters: 2,
+            walls: Walls::default(),
             overhang_deg: Some(45.0),
         }),
     };
