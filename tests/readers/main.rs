@@ -18,12 +18,14 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 
 use damage::damaged;
+use equipoise::base::dialect::Dialect;
 use equipoise::base::watch::Watch;
 use equipoise::cutter::AnyProfile;
 use equipoise::field::read_text;
 use equipoise::geom::Point;
 use equipoise::io::gcode::{Options, read_plates};
 use equipoise::io::layers::read_layers;
+use equipoise::io::threemf::{decode_orders, decode_plate};
 use equipoise::io::{
     DrawnLine, DrawnShape, decode_curve, decode_cut_svg, decode_dxf, decode_model, decode_points,
 };
@@ -105,6 +107,25 @@ fn models_as_stl_obj_ply_and_3mf() {
 }
 
 #[test]
+fn orders_of_plates_in_the_words_of_every_slicer() {
+    for dialect in [Dialect::Prusa, Dialect::Orca, Dialect::Cura] {
+        let plate = seeds::plate(dialect);
+        for (name, part) in seeds::text_parts(&plate) {
+            fuzz(&format!("plate, {dialect}, {name}"), &[part], |part| {
+                let plate = seeds::repacked(&plate, &name, part);
+                let orders = decode_orders(&plate);
+                let Ok(objects) = decode_plate(&plate) else {
+                    return false;
+                };
+                let percents = objects.iter().flat_map(|it| &it.regions);
+                assert!(percents.into_iter().all(|it| it.percent.is_finite()));
+                orders.is_ok()
+            });
+        }
+    }
+}
+
+#[test]
 fn curves_as_points_lines_and_edges() {
     let is_finite = |points: &[Point]| {
         assert!(points.iter().all(|p| p.iter().all(|x| x.is_finite())));
@@ -133,6 +154,7 @@ fn toolpaths_and_layer_images() {
         })
     };
     fuzz("g-code", &[seeds::gcode()], reads_gcode);
+    fuzz("bgcode", &[seeds::binary_gcode()], reads_gcode);
     let reads_images = |path: &Path| {
         read_layers(path, &Watch::silent()).is_ok_and(|plates| {
             let moments = plates.iter().flat_map(|plate| plate.whole.moments.0);

@@ -3,14 +3,18 @@
 use std::io::{Cursor, Read, Write};
 use std::path::Path;
 
+use equipoise::base::dialect::Dialect;
 use equipoise::base::units::Length;
+use equipoise::base::walls::Walls;
 use equipoise::geom::{Point, Vector};
 use equipoise::goal::{GoalKind, Request};
 use equipoise::io::layers::{
     STACK_FILE, StackPlate, StackRow, encode_grey, encode_sl1, image_name,
 };
 use equipoise::io::stl;
-use equipoise::io::threemf::{Build, Object, Package, Transform};
+use equipoise::io::threemf::{
+    Build, Object, Package, PrintSettings, SparseRegion, Transform, decode_plate,
+};
 use equipoise::io::{CutDrawing, CutLayer, DrawnLine, DrawnShape, encode_cut_svg, encode_dxf};
 use equipoise::job::core_kit::{CoreJob, CutChoice};
 use equipoise::job::telescope::TelescopeJob;
@@ -128,9 +132,74 @@ pub fn model_part() -> Vec<u8> {
     part
 }
 
+/// Returns a plate that orders sparse infill in the words of a dialect.
+pub fn plate(dialect: Dialect) -> Vec<u8> {
+    let region = SparseRegion {
+        mesh: tetrahedron(),
+        pattern: "gyroid".to_owned(),
+        percent: 15.0,
+    };
+    let objects = [Object::with_regions(
+        "P01",
+        [200, 100, 50],
+        &tetrahedron(),
+        &[region],
+    )];
+    let package = Package {
+        title: "a".to_owned(),
+        description: "A tetrahedron.".to_owned(),
+        job: "a".to_owned(),
+        objects: &objects,
+        build: Build::Items(vec![(0, Transform::default())]),
+        settings: Some(PrintSettings {
+            dialect,
+            layer_mm: 0.2,
+            line_mm: 0.45,
+            walls: Walls::default(),
+            overhang_deg: Some(45.0),
+        }),
+    };
+    let bytes = package.encode().unwrap();
+    assert_eq!(decode_plate(&bytes).unwrap()[0].regions.len(), 1);
+    bytes
+}
+
+/// Returns the parts of a package that hold text, by name.
+pub fn text_parts(package: &[u8]) -> Vec<(String, Vec<u8>)> {
+    let mut zip = zip::ZipArchive::new(Cursor::new(package)).unwrap();
+    let parts = (0..zip.len()).map(|index| {
+        let mut file = zip.by_index(index).unwrap();
+        let mut bytes = Vec::new();
+        file.read_to_end(&mut bytes).unwrap();
+        (file.name().unwrap().into_owned(), bytes)
+    });
+    parts.collect()
+}
+
+/// Returns a program in Prusa's binary container, in one plain block without a sum.
+pub fn binary_gcode() -> Vec<u8> {
+    let block = |kind: u16, data: &[u8]| {
+        let mut bytes = [kind.to_le_bytes(), 0_u16.to_le_bytes()].concat();
+        bytes.extend((data.len() as u32).to_le_bytes());
+        bytes.extend(0_u16.to_le_bytes());
+        bytes.extend(data);
+        bytes
+    };
+    let mut file = [b"GCDE".as_slice(), &[1, 0, 0, 0, 0, 0]].concat();
+    file.extend(block(0, b"Producer=PrusaSlicer 2.6.0\n"));
+    file.extend(block(2, b"filament_diameter=1.75\n"));
+    file.extend(block(1, &gcode()));
+    file
+}
+
 /// Returns a sound package around this part.
 pub fn package_of(part: &[u8]) -> Vec<u8> {
-    let mut sound = zip::ZipArchive::new(Cursor::new(package())).unwrap();
+    repacked(&package(), MODEL_PART, part)
+}
+
+/// Returns a package with one of its parts replaced.
+pub fn repacked(package: &[u8], changed: &str, part: &[u8]) -> Vec<u8> {
+    let mut sound = zip::ZipArchive::new(Cursor::new(package)).unwrap();
     let mut zip = zip::ZipWriter::new(Cursor::new(Vec::new()));
     for index in 0..sound.len() {
         let mut file = sound.by_index(index).unwrap();
@@ -139,7 +208,7 @@ pub fn package_of(part: &[u8]) -> Vec<u8> {
         file.read_to_end(&mut bytes).unwrap();
         zip.start_file(&name, zip::write::SimpleFileOptions::default())
             .unwrap();
-        zip.write_all(if name == MODEL_PART { part } else { &bytes })
+        zip.write_all(if name == changed { part } else { &bytes })
             .unwrap();
     }
     zip.finish().unwrap().into_inner()
