@@ -5,6 +5,7 @@ pub mod core_kit;
 mod densities;
 mod effort;
 mod filling;
+mod like;
 mod model;
 mod sliced;
 mod slicer;
@@ -18,6 +19,7 @@ pub use choices::{CutMode, IdStyle, Interior, ModelUnit, PartFormat, PinStyle};
 pub use densities::{DensityError, DensityOrder, InfillDensity, LevelCount};
 pub use effort::Effort;
 pub use filling::Filling;
+pub use like::Like;
 pub use model::ModelChoice;
 pub use sliced::{SlicedKit, SlicedPart, SlicedPlate, SlicedRound};
 pub use slicer::SlicerChoice;
@@ -122,6 +124,9 @@ pub struct Job {
     /// The goal.
     #[serde(deserialize_with = "read_goal")]
     pub goal: Request,
+    /// The body that a match is like; none if its numbers were typed, and for other goals.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub like: Option<Like>,
     /// The balls that no seam enters; none if the key is missing.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub keep_clear: Vec<KeepClear>,
@@ -266,6 +271,7 @@ impl Job {
             model,
             printer,
             goal,
+            like: None,
             keep_clear: Vec::new(),
             sliced: Vec::new(),
             toolpaths: None,

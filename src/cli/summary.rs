@@ -11,7 +11,7 @@ use super::voice::Manner;
 use crate::base::numbers::{measured, measured_extent, quantity as figure, rough};
 use crate::base::units::format_count;
 use crate::base::watch::Phase;
-use crate::page::{bought, pieces, promise, shortfall, spins_on};
+use crate::page::{bought, pieces, promise, properties, shortfall, spins_on, wanted_figures};
 use crate::sheet::{Checklist, Course, LogRow, PassRow, Taker};
 use crate::verify::{Check, SHEET_FILE};
 
@@ -24,6 +24,8 @@ const STEP_NUMBERS: [&str; 4] = ["passes", "value", "bound", "residual"];
 pub fn ten_lines(checklist: &Checklist, request: &Request, manner: Manner) -> String {
     let lines = [
         Some(("what it does", deed(checklist))),
+        wanted_figures(checklist).map(|wanted| ("wanted", properties(&wanted))),
+        reached(checklist).map(|words| ("reached", words)),
         Some(("if solid", solid_words(checklist))),
         Some(("how good", bound_words(checklist))),
         shortfall_words(checklist, &request.typed).map(|words| ("short of best", words)),
@@ -110,6 +112,12 @@ fn shortfall_words(checklist: &Checklist, typed: &[String]) -> Option<String> {
 fn to_other_plans(typed: &[String]) -> String {
     let command = again(typed, "cuts", "").unwrap_or_else(|| OTHER_PLANS.to_owned());
     format!("To see other plans and choose one: {command}")
+}
+
+/// Returns the mass properties that a match reaches; `None` for other goals.
+fn reached(checklist: &Checklist) -> Option<String> {
+    let is_match = checklist.goal.aim.wanted.is_some();
+    is_match.then(|| properties(&checklist.assembly))
 }
 
 fn balance(checklist: &Checklist) -> Option<String> {

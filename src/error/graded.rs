@@ -66,6 +66,13 @@ pub enum GradedError {
         hollow()
     )]
     FloatUnsliced,
+    /// A match was ordered of a hollow print.
+    #[error(
+        "what handles like another body needs infill of several densities, and a hollow print has \
+         none; remedy: print one piece with graded infill (`{}`)",
+        graded()
+    )]
+    HollowMatch,
     /// Densities were ordered for a hollow print.
     #[error(
         "a hollow print is solid but for its voids, and `{order}` is ordered; remedy: order one \

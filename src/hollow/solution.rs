@@ -75,6 +75,7 @@ impl Figure {
             Objective::MetacentricHeight => Self::MetacentricHeightMm,
             Objective::LeastRemoved => Self::VolumeMm3,
             Objective::LeastUnbalance => Self::BalanceGradeMmS,
+            Objective::LeastChange => Self::InfillChange,
         }
     }
 

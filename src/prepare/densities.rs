@@ -34,7 +34,7 @@ pub fn nested(job: &Job, printer: &Printer) -> Result<Nested, GradedError> {
             .value,
     };
     let order = order(job, printer, &stock)?;
-    let nested = match job.infill {
+    let nested = match wished(job, order) {
         Some(wished) => near(job, &stock, order, wished)?,
         None => two(&stock, order),
     };
@@ -72,7 +72,8 @@ fn order(job: &Job, printer: &Printer, stock: &Stock) -> Result<DensityOrder, Gr
             least,
         });
     }
-    if let (Some(levels), None) = (job.levels, job.infill) {
+    let is_match = job.goal.kind == GoalKind::Match;
+    if let (Some(levels), None, false) = (job.levels, job.infill, is_match) {
         return Err(GradedError::LevelsAlone { levels });
     }
     match job.infill {
@@ -87,6 +88,16 @@ fn order(job: &Job, printer: &Printer, stock: &Stock) -> Result<DensityOrder, Gr
         }
         _ => Ok(order),
     }
+}
+
+/// Returns the infill that all is to be near to; `None` if the goal alone decides.
+///
+/// A match always has several levels: only they reach all that densities reach. Its usual infill is
+/// in the middle, so that there is as much room above as below.
+fn wished(job: &Job, order: DensityOrder) -> Option<InfillDensity> {
+    let middle = || InfillDensity::of_ratio(0.5 * (order.low().ratio() + order.high().ratio()));
+    let is_match = job.goal.kind == GoalKind::Match;
+    job.infill.or_else(|| middle().filter(|_| is_match))
 }
 
 impl Stock<'_> {
@@ -239,6 +250,19 @@ mod tests {
         let sparse = ordered(&job(Some("15%..75%"), Some("40%"), Some("3"))).unwrap();
         assert_eq!(percents(&sparse), [75.0, 40.0, 15.0]);
         assert_eq!(sparse.levels[0].extent, Extent::Interior);
+    }
+
+    #[test]
+    fn a_match_has_levels_about_the_middle_though_none_are_ordered() {
+        let matched = |levels| Job {
+            goal: Request::new(GoalKind::Match),
+            ..job(Some("20%..80%"), None, levels)
+        };
+        let nested = ordered(&matched(None)).unwrap();
+        assert!(percents(&nested).contains(&50.0), "{nested:?}");
+        assert_eq!(nested.levels.len(), LevelCount::USUAL.count());
+        assert!(nested.near.is_some());
+        assert_eq!(ordered(&matched(Some("6"))).unwrap().levels.len(), 6);
     }
 
     #[test]

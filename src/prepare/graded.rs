@@ -5,6 +5,7 @@ use crate::base::setting::{Key, Setting};
 use crate::base::verdict::Verdict;
 use crate::base::watch::Watch;
 use crate::error::{Error, GradedError, SlicedError};
+use crate::goal::GoalKind;
 use crate::hollow::Fill;
 use crate::job::{Interior, Job, PartFormat, SlicedRound};
 use crate::mass::moments_of_mesh;
@@ -21,6 +22,9 @@ use super::levels::with_load;
 /// # Errors
 /// The printer has no infill, or the job orders what one closed piece cannot have.
 pub fn sparse_print(job: &Job, printer: &Printer) -> Result<Option<Nested>, GradedError> {
+    if job.interior.is_hollow() && job.goal.kind == GoalKind::Match {
+        return Err(GradedError::HollowMatch);
+    }
     if job.interior.is_hollow() {
         return ordered_density(job)
             .map_or(Ok(None), |order| Err(GradedError::NotGraded { order }));
@@ -83,7 +87,7 @@ pub fn refuse_rounds(placed: &Placed) -> Result<(), SlicedError> {
 
 /// Returns the hint that voids do what sparse infill does not, if a solve confirms it.
 pub fn hollow_hint(placed: &Placed, watch: &Watch) -> Result<Option<String>, Error> {
-    if placed.sparse.is_none() {
+    if placed.sparse.is_none() || placed.goal().kind == GoalKind::Match {
         return Ok(None);
     }
     let hollow = Placed {

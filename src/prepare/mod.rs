@@ -9,6 +9,7 @@ mod hardware;
 mod hints;
 mod judge;
 mod levels;
+mod like;
 mod load;
 mod outcome;
 mod papers;

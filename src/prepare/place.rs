@@ -1,6 +1,6 @@
 //! Place: the goal in the model, with its axis, its waterline and its hardware.
 
-use super::{advise, densities, graded, hardware, rotor, upright, waterline};
+use super::{advise, densities, graded, hardware, like, rotor, upright, waterline};
 use crate::advice::{Case, best_orientation, is_possible};
 use crate::base::watch::Watch;
 use crate::error::Error;
@@ -14,6 +14,7 @@ use crate::run::{AxisChoice, Model, NaturalUp, Placed, Policy, Shop};
 
 /// Places the job's goal in the model and settles what the job leaves open.
 pub fn goal(job: &Job, model: Model, shop: Shop, watch: &Watch) -> Result<Placed, Error> {
+    let job = &like::resolved(job, &model)?;
     let choice = choose_axis(job, &model, &shop, watch)?;
     let request = match &choice {
         Some(AxisChoice::Best { request, .. }) => **request,

@@ -351,6 +351,7 @@ fn figures_of(kind: GoalKind, objective: &str) -> &'static [FigureName] {
         (GoalKind::Float, "metacentric_height") => &[F::MetacentricHeightMm],
         (GoalKind::Balance, "least_removed") => &[F::MassG, F::BalanceGradeMmS],
         (GoalKind::Balance, "least_unbalance") => &[F::BalanceGradeMmS],
+        (GoalKind::Match, "least_change") => &[F::InfillChangeRatio],
         _ => &[],
     }
 }

@@ -38,6 +38,12 @@ pub enum CheckKind {
     Righting,
     /// Balance quality grade of a rotor.
     BalanceQuality,
+    /// Deviation of a match from the wanted mass.
+    MatchMass,
+    /// Distance of the centre of mass of a match from the wanted one.
+    MatchCenter,
+    /// Deviation of a match from the wanted inertia.
+    MatchInertia,
     /// The figure promised to the buyer.
     PromisedFigure {
         /// The figure.
@@ -248,6 +254,9 @@ impl fmt::Display for CheckKind {
             Self::Stability => "stability",
             Self::Righting => "righting",
             Self::BalanceQuality => "balance quality",
+            Self::MatchMass => "mass of the match",
+            Self::MatchCenter => "centre of the match",
+            Self::MatchInertia => "inertia of the match",
             Self::PromisedFigure { figure } => figure.name(),
             Self::Bound => "bound",
             Self::Wall => "wall",
@@ -298,7 +307,18 @@ mod tests {
     use serde_json::json;
 
     /// The keys and names of all kinds without data.
-    const KEYS: [(CheckKind, &str, &str); 76] = [
+    const KEYS: [(CheckKind, &str, &str); 79] = [
+        (CheckKind::MatchMass, "match-mass", "mass of the match"),
+        (
+            CheckKind::MatchCenter,
+            "match-center",
+            "centre of the match",
+        ),
+        (
+            CheckKind::MatchInertia,
+            "match-inertia",
+            "inertia of the match",
+        ),
         (CheckKind::Papers, "papers", "papers"),
         (CheckKind::Replay, "replay", "replay"),
         (CheckKind::AxisOffset, "axis-offset", "axis offset"),

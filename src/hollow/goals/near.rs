@@ -3,16 +3,15 @@
 //! The goal counts with its equations and with what it promises of its stand, each a linear row.
 //! Its figure is left as it comes.
 
-use nalgebra::DVector;
-
+use super::found::{Found, solution};
+use super::matching;
 use crate::base::verdict::Verdict;
 use crate::geom::Quadric;
 use crate::goal::{Goal, GoalKind, Objective};
 use crate::hollow::Problem;
-use crate::hollow::dual::programme::DualPoint;
 use crate::hollow::graded::{Graded, Row, Sense, Separation};
 use crate::hollow::levels::{LevelChange, PrintLevels, least_level_change};
-use crate::hollow::solution::{Certificate, Figure, Solution, Warm};
+use crate::hollow::solution::{Certificate, Figure, Solution};
 use crate::hollow::status::{Obstacle, Status};
 use crate::interior::moments_where_positive;
 use crate::mass::Moments;
@@ -75,7 +74,7 @@ impl NearWished {
         let sum = |moments: &Moments| dot(&proof.quadric, moments);
         let densest = sum(&graded.shell) + range.high() * sum(&columns.moments());
         let most = range.span() * sum(&moments_where_positive(columns, &proof.quadric));
-        let status = Status::ConstraintsInfeasible {
+        let unmet = || Status::ConstraintsInfeasible {
             obstacle: match (problem.goal.kind, problem.goal.objective) {
                 (GoalKind::Stand, Objective::LowestCenter) => Obstacle::Center,
                 (GoalKind::Stand, _) => Obstacle::Tilt,
@@ -84,6 +83,10 @@ impl NearWished {
             // The rows are of unit length for a body of unit volume.
             least_miss: (densest - most) / problem.fixed.volume(),
             separator: proof.quadric,
+        };
+        let status = match problem.goal.kind {
+            GoalKind::Match => matching::refused(graded, range, proof.quadric),
+            _ => unmet(),
         };
         let certificate = Certificate {
             figure: Figure::InfillChange,
@@ -105,15 +108,6 @@ impl NearWished {
             },
         )
     }
-}
-
-/// The parts of a solution that differ from case to case.
-struct Found {
-    status: Status,
-    quadric: Quadric,
-    certificate: Certificate,
-    moments: Moments,
-    passes: usize,
 }
 
 fn found(problem: &Problem, change: LevelChange) -> Solution {
@@ -149,35 +143,6 @@ fn found(problem: &Problem, change: LevelChange) -> Solution {
     )
 }
 
-fn solution(problem: &Problem, found: Found) -> Solution {
-    let Found {
-        status,
-        quadric,
-        certificate,
-        moments,
-        passes,
-    } = found;
-    Solution {
-        status,
-        objective: problem.goal.objective,
-        quadric,
-        certificate,
-        moments,
-        passes,
-        log: Vec::new(),
-        course: Vec::new(),
-        warm: Warm {
-            point: DualPoint {
-                y: DVector::zeros(0),
-                lambda: DVector::zeros(0),
-                tau: 0.0,
-            },
-            height: None,
-            lever: None,
-        },
-    }
-}
-
 fn dot(quadric: &Quadric, moments: &Moments) -> f64 {
     let pairs = quadric.0.iter().zip(moments.0);
     pairs
@@ -188,7 +153,7 @@ fn dot(quadric: &Quadric, moments: &Moments) -> f64 {
 /// Returns the rows of a goal: its equations, and for what stands the tilt that it must bear.
 ///
 /// A tilt about an edge of the support is borne while the centre is far enough inside of it for its
-/// height. Floating objects have no rows.
+/// height. Floating objects have no rows, a match has one for each moment.
 pub fn rows(goal: &Goal, least_angle_rad: f64) -> Vec<Row> {
     let zero = |index: usize| {
         Row::zero(Quadric(std::array::from_fn(|i| {
@@ -201,6 +166,7 @@ pub fn rows(goal: &Goal, least_angle_rad: f64) -> Vec<Row> {
         GoalKind::Stand if goal.objective == Objective::LowestCenter => [X, Y].map(zero).to_vec(),
         GoalKind::Stand => edge_rows(&goal.support, least_angle_rad),
         GoalKind::Float => Vec::new(),
+        GoalKind::Match => matching::rows(goal),
     }
 }
 

@@ -102,6 +102,7 @@ pub fn aim(placed: &Placed) -> Aim {
     Aim {
         rotor,
         water,
+        wanted: placed.request.target,
         least_lean_deg: placed.request.promised_lean_deg(),
         least_angle_deg: placed.request.promised_angle_deg(),
         ..Aim::new(
