@@ -73,6 +73,16 @@ pub enum GradedError {
         graded()
     )]
     HollowMatch,
+    /// Solid print was ordered for the inside of a match.
+    #[error(
+        "a match may need a dense core in sparse infill, and solid print is no infill; remedy: \
+         order less (`{}`)",
+        Setting::new(Key::Density, usual)
+    )]
+    SolidMatch {
+        /// The usual densities of a match.
+        usual: DensityOrder,
+    },
     /// Densities were ordered for a hollow print.
     #[error(
         "a hollow print is solid but for its voids, and `{order}` is ordered; remedy: order one \

@@ -1,6 +1,7 @@
 //! Advice: remedies for an impossible goal, each carried out before it is reported.
 
 use super::graded::hollow_hint;
+use super::materials::material_hints;
 use super::outcome::Impossible;
 use super::solve::workshop;
 use super::thresholds::density_hints;
@@ -46,6 +47,7 @@ pub fn remedies(
             .hints
             .into_iter()
             .chain(density_hints(placed, watch)?)
+            .chain(material_hints(placed, watch)?)
             .chain(hollow_hint(placed, watch)?);
         return Ok(Impossible {
             hints: hints.collect(),

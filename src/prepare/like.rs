@@ -2,12 +2,15 @@
 
 use crate::base::digest::sha256_hex;
 use crate::base::units::MM3_PER_CM3;
+use crate::base::watch::Watch;
 use crate::error::Error;
 use crate::goal::{GoalError, GoalKind, Request, RequestError, Target};
 use crate::io;
 use crate::job::{Job, JobError, Like};
 use crate::mass::{Body, moments_of_mesh};
-use crate::mesh::{Solid, scaled};
+use crate::mend::{MendError, mend};
+use crate::mesh::{Defects, Solid, scaled};
+use crate::repair::RepairOrder;
 use crate::run::Model;
 
 /// Returns the job with the numbers of the body that it is to be like. Its file is read unless they
@@ -15,7 +18,7 @@ use crate::run::Model;
 ///
 /// # Errors
 /// The file cannot be read, has changed or bounds no solid, or the goal is no match.
-pub fn resolved(job: &Job, model: &Model) -> Result<Job, Error> {
+pub fn resolved(job: &Job, model: &Model, watch: &Watch) -> Result<Job, Error> {
     let Some(like) = &job.like else {
         return Ok(job.clone());
     };
@@ -27,12 +30,24 @@ pub fn resolved(job: &Job, model: &Model) -> Result<Job, Error> {
     }
     let bytes = io::read_bytes(&like.path)?;
     let like = bind(like, &bytes)?;
-    let target = Some(measure(&like, &bytes, model.scale_ratio)?);
+    let as_in = Mending {
+        model,
+        order: job.repair,
+        watch,
+    };
+    let target = Some(measure(&like, &bytes, &as_in)?);
     Ok(Job {
         goal: Request { target, ..job.goal },
         like: Some(like),
         ..job.clone()
     })
+}
+
+/// The way in which the model was read.
+struct Mending<'a> {
+    model: &'a Model,
+    order: RepairOrder,
+    watch: &'a Watch,
 }
 
 /// Binds the body to the bytes of its file. Refuses if it was bound to others.
@@ -51,17 +66,31 @@ fn bind(like: &Like, bytes: &[u8]) -> Result<Like, JobError> {
     }
 }
 
-/// Measures the mass properties of a file's solid, scaled as the model.
-fn measure(like: &Like, bytes: &[u8], scale_ratio: f64) -> Result<Target, Error> {
+/// Measures the mass properties of a file's solid, mended and scaled as the model.
+fn measure(like: &Like, bytes: &[u8], as_in: &Mending) -> Result<Target, Error> {
+    let Mending {
+        model,
+        order,
+        watch,
+    } = *as_in;
     let path = || like.path.clone();
     let content = |source| io::ReadError::Content {
         path: path(),
         source,
     };
-    let mesh = io::decode_model(bytes).map_err(content)?;
-    let solid = Solid::new(scaled(&mesh, scale_ratio)).map_err(|defects| Error::NotSolid {
+    let read = io::decode_model(bytes).map_err(content)?;
+    let factor = |_| model.scale_ratio;
+    let mended = mend(read, order, factor, watch).map_err(|error| match error {
+        MendError::Cancelled(cancelled) => cancelled.into(),
+        source => Error::Mend {
+            path: path(),
+            source: Box::new(source),
+        },
+    })?;
+    let scaled = scaled(&mended.mesh, model.scale_ratio);
+    let solid = Solid::new(scaled).map_err(|defects| Error::NotSolid {
         path: path(),
-        source: Box::new(defects),
+        source: Box::new(Defects::of(&mended.mesh).unwrap_or(defects)),
     })?;
     let moments = moments_of_mesh(solid.mesh());
     Ok(Target::of(&Body::new(

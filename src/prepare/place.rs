@@ -14,7 +14,7 @@ use crate::run::{AxisChoice, Model, NaturalUp, Placed, Policy, Shop};
 
 /// Places the job's goal in the model and settles what the job leaves open.
 pub fn goal(job: &Job, model: Model, shop: Shop, watch: &Watch) -> Result<Placed, Error> {
-    let job = &like::resolved(job, &model)?;
+    let job = &like::resolved(job, &model, watch)?;
     let choice = choose_axis(job, &model, &shop, watch)?;
     let request = match &choice {
         Some(AxisChoice::Best { request, .. }) => **request,
