@@ -73,6 +73,15 @@ pub enum GradedError {
         graded()
     )]
     HollowMatch,
+    /// The mass of a match decides its mean infill.
+    #[error(
+        "a match has one right mean infill, and `{}` asks for another; remedy: leave it out",
+        Setting::new(Key::Infill, wished)
+    )]
+    WishedMatch {
+        /// The wished infill.
+        wished: InfillDensity,
+    },
     /// Solid print was ordered for the inside of a match.
     #[error(
         "a match may need a dense core in sparse infill, and solid print is no infill; remedy: \

@@ -74,10 +74,10 @@ impl MatchMiss {
         let now = Body::new(&self.nearest, density);
         let off = (now.inertia_g_mm2 - then.inertia_g_mm2).amax();
         format!(
-            "Impossible: {why}. The nearest weighs {:.2} g, its centre of mass is {:.3} mm off. \
-             Its moments of inertia are up to {off:.0} g·mm² off, {:.2} % of their sum. It is \
-             proved that all miss by {:.2} % or more.",
-            now.mass_g,
+            "Impossible: {why}. The nearest is {:.2} g off, its centre of mass {:.3} mm. Its \
+             moments of inertia are up to {off:.0} g·mm² off, {:.2} % of their sum. It is proved \
+             that all miss by {:.2} % or more, in mass, centre and inertia together.",
+            now.mass_g - mass_g,
             (now.center - then.center).norm(),
             100.0 * off / then.inertia_g_mm2.trace(),
             100.0 * self.least_miss,

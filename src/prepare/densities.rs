@@ -93,8 +93,8 @@ fn order(job: &Job, printer: &Printer, stock: &Stock) -> Result<DensityOrder, Gr
 
 /// Returns the infill that all is to be near to; `None` if the goal alone decides.
 ///
-/// A match always has several levels: only they reach all that densities reach. Its usual infill is
-/// in the middle, so that there is as much room above as below.
+/// A match always has several levels: only they reach all that densities reach. They are about the
+/// middle until it is placed, and its mean is known.
 fn wished(job: &Job, order: DensityOrder) -> Option<InfillDensity> {
     let middle = || InfillDensity::of_ratio(0.5 * (order.low().ratio() + order.high().ratio()));
     let is_match = job.goal.kind == GoalKind::Match;

@@ -29,6 +29,9 @@ pub fn sparse_print(job: &Job, printer: &Printer) -> Result<Option<Nested>, Grad
         return ordered_density(job)
             .map_or(Ok(None), |order| Err(GradedError::NotGraded { order }));
     }
+    if let (Some(wished), GoalKind::Match) = (job.infill, job.goal.kind) {
+        return Err(GradedError::WishedMatch { wished });
+    }
     if job.plan.is_some() {
         return Err(GradedError::Cuts);
     }

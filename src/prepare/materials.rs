@@ -1,6 +1,7 @@
 //! Materials: those of the printer that would make a match possible.
 
 use super::levels::with_load;
+use super::mean::with_levels;
 use crate::ballast::Load;
 use crate::base::setting::{Key, Setting};
 use crate::base::verdict::Verdict;
@@ -44,6 +45,7 @@ fn works(placed: &Placed, material: &Material, watch: &Watch) -> Result<bool, Er
         },
         ..placed.clone()
     };
+    let other = with_levels(other, watch)?;
     let found = with_load(&other, Load::default(), watch)?;
     Ok(matches!(found, Verdict::Found(_)))
 }

@@ -12,6 +12,7 @@ mod levels;
 mod like;
 mod load;
 mod materials;
+mod mean;
 mod outcome;
 mod papers;
 mod place;

@@ -2,6 +2,7 @@
 
 use super::densities::nested;
 use super::levels::{COARSE_COLUMNS, with_load};
+use super::mean::with_levels;
 use crate::ballast::Load;
 use crate::base::setting::{Key, Setting};
 use crate::base::verdict::Verdict;
@@ -121,6 +122,7 @@ impl Search<'_> {
             sparse: Some(sparse),
             ..self.placed.clone()
         };
+        let other = with_levels(other, watch)?;
         let found = with_load(&other, Load::default(), watch)?;
         Ok(matches!(found, Verdict::Found(_)))
     }

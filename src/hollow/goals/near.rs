@@ -57,7 +57,14 @@ impl NearWished {
             rows: &rows,
         };
         match least_level_change(&graded, &self.levels, self.wished) {
-            Verdict::Found(change) => found(problem, change),
+            Verdict::Found(change) => {
+                let unmet = Some(change.residual).filter(|residual| *residual > NEARLY_MET);
+                let proof = unmet.and_then(|_| matching::proof(&graded, self.levels.range()));
+                proof.map_or_else(
+                    || found(problem, change),
+                    |proof| self.refused(problem, &graded, &proof),
+                )
+            }
             Verdict::No(proof) => self.refused(problem, &graded, &proof),
         }
     }
