@@ -106,8 +106,10 @@
 //!   costs at most an eighth of the square of a step more ([`crate::hollow::least_level_change`]).
 //!
 //! A match prescribes all ten moments. Two densities across one quadric reach only the rim of the
-//! set of moments; three levels and more reach all of its inside. What lies outside has a nearest
-//! point on the rim, and its distance is proved ([`crate::hollow::match_moments`]).
+//! set of moments. Three levels and more reach its inside, if the mean of what is wanted is one of
+//! them. A body of nearly uniform density between two levels would need a mixture of both. What
+//! lies outside has a nearest point on the rim, and its distance is proved
+//! ([`crate::hollow::match_moments`]).
 //!
 //! Whether bounds are enough is known before any solve. Put F = A s − b at the upper density
 //! everywhere. Some density does it if and only if (high − low) ∫(u·A m)₊ ≥ u·F for every u.

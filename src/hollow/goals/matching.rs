@@ -2,8 +2,9 @@
 //!
 //! Let K be the set of all moments that densities between two bounds reach. Two densities across
 //! one quadric reach only its rim. So a match is printed with several levels. Their nested regions
-//! reach all that lies inside of K, exactly and with the least change
-//! ([`least_level_change`](crate::hollow::least_level_change)).
+//! reach what lies inside of K, exactly and with the least change
+//! ([`least_level_change`](crate::hollow::least_level_change)). The mean of what is wanted must be
+//! one of the levels: a nearly uniform body between two levels would need a mixture of both.
 //!
 //! What lies outside of K is refused with the point of K nearest to it, and a bound of that
 //! distance. No density is nearer, so its kit would only be the best of those that are wrong.
