@@ -2,6 +2,7 @@
 
 use super::graded::Graded;
 use super::nearest::nearest;
+use crate::base::numbers::rough;
 use crate::field::DensityRange;
 use crate::goal::Goal;
 use crate::mass::{Body, Moments};
@@ -73,15 +74,21 @@ impl MatchMiss {
         let then = Body::new(&wanted.moments, density);
         let now = Body::new(&self.nearest, density);
         let off = (now.inertia_g_mm2 - then.inertia_g_mm2).amax();
+        let too_much_g = now.mass_g - mass_g;
+        let word = if too_much_g < 0.0 { "light" } else { "heavy" };
+        let percent = |ratio: f64| rough(100.0 * ratio, "%");
         format!(
-            "Impossible: {why}. The nearest is {:.2} g off, its centre of mass {:.3} mm. Its \
-             moments of inertia are up to {off:.0} g·mm² off, {:.2} % of their sum. It is proved \
-             that all miss by {:.2} % or more, in mass, centre and inertia together.",
-            now.mass_g - mass_g,
-            (now.center - then.center).norm(),
-            100.0 * off / then.inertia_g_mm2.trace(),
-            100.0 * self.least_miss,
+            "Impossible: {why}. The nearest is {} too {word}, its centre of mass {} off. Its \
+             moments of inertia are up to {} off, {} of their sum. It is proved that all miss by \
+             {} or more, in mass, centre and inertia together.",
+            rough(too_much_g.abs(), "g"),
+            rough((now.center - then.center).norm(), "mm"),
+            rough(off, "g·mm²"),
+            percent(off / then.inertia_g_mm2.trace()),
+            percent(self.least_miss),
         )
+        // Non-breaking blanks are for pages.
+        .replace('\u{a0}', " ")
     }
 
     /// Returns changes that may make the match possible.
