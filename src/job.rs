@@ -6,7 +6,9 @@ mod densities;
 mod drain;
 mod effort;
 mod filling;
+mod like;
 mod model;
+mod reading;
 mod sliced;
 mod slicer;
 pub mod telescope;
@@ -20,9 +22,12 @@ pub use densities::{DensityError, DensityOrder, InfillDensity, KeptShare, LevelC
 pub use drain::{DrainOrder, DrainOrderError};
 pub use effort::Effort;
 pub use filling::Filling;
+pub use like::Like;
 pub use model::ModelChoice;
 pub use sliced::{SlicedKit, SlicedPart, SlicedPlate, SlicedRound};
 pub use slicer::SlicerChoice;
+
+use reading::{read_goal, read_positive};
 
 use crate::ballast::Order;
 use crate::base::digest::sha256_hex;
@@ -131,6 +136,9 @@ pub struct Job {
     /// The goal.
     #[serde(deserialize_with = "read_goal")]
     pub goal: Request,
+    /// The body that a match is like; none if its numbers were typed, and for other goals.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub like: Option<Like>,
     /// The balls that no seam enters; none if the key is missing.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub keep_clear: Vec<KeepClear>,
@@ -277,6 +285,7 @@ impl Job {
             model,
             printer,
             goal,
+            like: None,
             keep_clear: Vec::new(),
             sliced: Vec::new(),
             toolpaths: None,
@@ -381,21 +390,6 @@ fn read_schema<'de, D: Deserializer<'de>>(deserializer: D) -> Result<u32, D::Err
              this one reads schema {JOB_SCHEMA}"
         ))),
     }
-}
-
-fn read_positive<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
-    match f64::deserialize(deserializer)? {
-        factor if factor.is_finite() && factor > 0.0 => Ok(factor),
-        factor => Err(D::Error::custom(format!(
-            "{factor} is not a positive, finite factor"
-        ))),
-    }
-}
-
-fn read_goal<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Request, D::Error> {
-    Request::deserialize(deserializer)?
-        .validate()
-        .map_err(D::Error::custom)
 }
 
 #[cfg(test)]

@@ -87,7 +87,7 @@ impl Prospect {
     }
 }
 
-/// Returns what a model can reach of every goal with its wall, the best first.
+/// Returns what a model can reach of every goal but a match with its wall, the best first.
 ///
 /// Each goal is tried as `prepare` does. What stands or floats takes the natural up. Tops and
 /// yo-yos take the axis nearest to it that works. A rotor takes a bore or a shaft of the model; one
@@ -100,7 +100,9 @@ impl Prospect {
 /// The watch was stopped.
 pub fn prospects(case: &Case, natural: &Vector, watch: &Watch) -> Result<Vec<Prospect>, Cancelled> {
     let model = SampledModel::new(*case, COARSE_SAMPLES, watch);
-    let tried = GoalKind::ALL.par_iter().map(|&kind| {
+    let kinds = GoalKind::ALL.par_iter();
+    let kinds = kinds.filter(|kind| kind.is_asked_of_a_model());
+    let tried = kinds.map(|&kind| {
         let model = model.with_request(Request::new(kind));
         match kind {
             GoalKind::Top | GoalKind::Yoyo => spinning(&model, natural),

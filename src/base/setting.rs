@@ -103,6 +103,8 @@ choice! {
         LeastLean = "least_lean_deg",
         /// The least toppling angle that a standing object promises.
         LeastAngle = "least_angle_deg",
+        /// The body that a match is like: its file and its density.
+        Like = "like",
         /// The number of shells of a telescope.
         Shells = "shells",
         /// The radius of a telescope's tip.

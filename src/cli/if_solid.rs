@@ -3,6 +3,7 @@
 use crate::base::numbers::{measured, quantity, rough};
 use crate::base::units::show_wobble;
 use crate::goal::GoalKind;
+use crate::page::mismatch;
 use crate::sheet::Checklist;
 use crate::verify::FigureName;
 
@@ -17,6 +18,9 @@ pub fn solid_words(checklist: &Checklist) -> String {
     };
     let mass = measured(checklist.solid.mass_g, "g");
     let kind = checklist.goal.aim.kind;
+    if let Some(wanted) = &checklist.goal.aim.wanted {
+        return format!("{mass}, {}", mismatch(wanted, &checklist.solid));
+    }
     let does = match (checklist.solid.value_of(named), kind) {
         (None, GoalKind::Top) => "falls over at any speed".to_owned(),
         (None, GoalKind::Float) => "sinks".to_owned(),

@@ -349,7 +349,7 @@ mod tests {
         let said = text(Some(PrintersAction::Check { file }), false);
         assert_eq!(
             said,
-            "shop-mk4: a profile that can be used; 30 numbers, 24 of them process defaults, 13 our own choices\n"
+            "shop-mk4: a profile that can be used; 33 numbers, 27 of them process defaults, 13 our own choices\n"
         );
         let mut out = Vec::new();
         let error = run(

@@ -11,7 +11,8 @@ use super::voice::Manner;
 use crate::base::numbers::{measured, measured_extent, quantity as figure, rough};
 use crate::base::units::format_count;
 use crate::base::watch::Phase;
-use crate::page::{bought, pieces, promise, shortfall, spins_on};
+use crate::goal::GoalKind;
+use crate::page::{bought, pieces, promise, properties, shortfall, spins_on, wanted_figures};
 use crate::sheet::{Checklist, Course, LogRow, PassRow, Taker};
 use crate::verify::{Check, FigureName, SHEET_FILE};
 
@@ -24,6 +25,8 @@ const STEP_NUMBERS: [&str; 4] = ["passes", "value", "bound", "residual"];
 pub fn ten_lines(checklist: &Checklist, request: &Request, manner: Manner) -> String {
     let lines = [
         Some(("what it does", deed(checklist))),
+        wanted_figures(checklist).map(|wanted| ("wanted", properties(&wanted))),
+        reached(checklist).map(|words| ("reached", words)),
         Some(("if solid", solid_words(checklist))),
         Some(("how good", bound_words(checklist))),
         shortfall_words(checklist, &request.typed).map(|words| ("short of best", words)),
@@ -78,9 +81,13 @@ fn bound_words(checklist: &Checklist) -> String {
     let best = measured(proof.bound, unit);
     if proof.figure == FigureName::InfillChangeRatio {
         return format!(
-            "the infill is {} of solid print from the wished one (root mean square); at best {best} \
-             is possible",
-            measured(proof.value, unit)
+            "the infill differs from the wished one by {} of solid print (root mean square); what \
+             was asked needs {best}{}",
+            measured(proof.value, unit),
+            match checklist.goal.aim.kind {
+                GoalKind::Top => " with the centre of mass at this height",
+                _ => "",
+            }
         );
     }
     let is_cut = checklist.infill.is_none();
@@ -117,6 +124,12 @@ fn shortfall_words(checklist: &Checklist, typed: &[String]) -> Option<String> {
 fn to_other_plans(typed: &[String]) -> String {
     let command = again(typed, "cuts", "").unwrap_or_else(|| OTHER_PLANS.to_owned());
     format!("To see other plans and choose one: {command}")
+}
+
+/// Returns the mass properties that a match reaches; `None` for other goals.
+fn reached(checklist: &Checklist) -> Option<String> {
+    let is_match = checklist.goal.aim.wanted.is_some();
+    is_match.then(|| properties(&checklist.assembly))
 }
 
 fn balance(checklist: &Checklist) -> Option<String> {

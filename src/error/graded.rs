@@ -68,6 +68,32 @@ pub enum GradedError {
         hollow()
     )]
     FloatUnsliced,
+    /// A match was ordered of a hollow print.
+    #[error(
+        "what handles like another body needs infill of several densities, and a hollow print has \
+         none; remedy: print one piece with graded infill (`{}`)",
+        graded()
+    )]
+    HollowMatch,
+    /// The mass of a match decides its mean infill.
+    #[error(
+        "a match has one right mean infill, and `{}` asks for another; remedy: leave it out",
+        Setting::new(Key::Infill, wished)
+    )]
+    WishedMatch {
+        /// The wished infill.
+        wished: InfillDensity,
+    },
+    /// Solid print was ordered for the inside of a match.
+    #[error(
+        "a match may need a dense core in sparse infill, and solid print is no infill; remedy: \
+         order less (`{}`)",
+        Setting::new(Key::Density, usual)
+    )]
+    SolidMatch {
+        /// The usual densities of a match.
+        usual: DensityOrder,
+    },
     /// Densities were ordered for a hollow print.
     #[error(
         "a hollow print is solid but for its voids, and `{order}` is ordered; remedy: order one \
@@ -128,6 +154,13 @@ pub enum GradedError {
         /// The wished infill.
         wished: InfillDensity,
     },
+    /// Two levels were ordered for a match.
+    #[error(
+        "two densities reach no more than the rim of what a match can have; remedy: order three \
+         levels or more (`{}`), or leave the levels out",
+        Setting::new(Key::Levels, 3)
+    )]
+    TwoLevelsOfMatch,
     /// A share of the best figure was ordered where no infill is wished.
     #[error(
         "`{}` is kept near a wished infill, and none is ordered; remedy: order one (`{}`), or \

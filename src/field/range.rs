@@ -22,6 +22,12 @@ pub enum RangeError {
 }
 
 impl DensityRange {
+    /// From air to solid print.
+    pub const FULL: Self = Self {
+        low: 0.0,
+        high: 1.0,
+    };
+
     /// Returns the range from `low` to `high`.
     ///
     /// # Errors

@@ -141,9 +141,37 @@ pub enum GoalError {
         /// The height of the model, mm.
         height_mm: f64,
     },
+    /// A match that is not told with what.
+    #[error(
+        "the goal match has no body to be like; remedy: give a file and its density (`{}`), or \
+         its mass, centre of mass and inertia",
+        Setting::new(Key::Like, "original.stl@2.70")
+    )]
+    NoTarget,
+    /// The wanted centre of mass lies outside of the model.
+    #[error(
+        "the wanted centre of mass {} lies outside of the model, which reaches from {} to {} mm: \
+         no infill brings it there; remedy: give it in mm of the model's final size",
+        point(center_mm),
+        point(low_mm),
+        point(high_mm)
+    )]
+    CenterOutside {
+        /// The wanted centre, mm.
+        center_mm: [f64; 3],
+        /// The lower corner of the model's box, mm.
+        low_mm: [f64; 3],
+        /// The upper corner of the model's box, mm.
+        high_mm: [f64; 3],
+    },
     /// The density is zero, negative or not a number.
     #[error("a density of {0} g/cm³ is not a density; give a positive one")]
     NoDensity(f64),
+}
+
+/// Words a point.
+fn point([x, y, z]: &[f64; 3]) -> String {
+    format!("({x:.2}, {y:.2}, {z:.2})")
 }
 
 /// Returns the setting that orders a bore where the model has none.

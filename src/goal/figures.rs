@@ -103,7 +103,7 @@ fn spin_it(goal: &Goal, moments: &Moments) -> Option<f64> {
     let steiner = match goal.kind {
         GoalKind::Top => z * z / volume,
         GoalKind::Yoyo => 0.0,
-        GoalKind::Stand | GoalKind::Float | GoalKind::Balance => return None,
+        GoalKind::Stand | GoalKind::Float | GoalKind::Balance | GoalKind::Match => return None,
     };
     let gamma_c = if goal.kind == GoalKind::Top {
         gamma_c

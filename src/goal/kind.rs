@@ -19,6 +19,8 @@ choice! {
         Float = "float",
         /// Turn about a given axis without shaking it.
         Balance = "balance",
+        /// Have the mass, centre and inertia of another body.
+        Match = "match",
     }
 }
 
@@ -54,6 +56,8 @@ pub enum Objective {
     LeastRemoved,
     /// Balance: the least unbalance in the two end planes per mass, if it cannot vanish.
     LeastUnbalance,
+    /// Match: the least change of infill from a wished one.
+    LeastChange,
 }
 
 impl Objective {
@@ -74,6 +78,7 @@ impl Objective {
         "metacentric-height",
         "least-removed",
         "least-unbalance",
+        "least-change",
     ];
 
     /// Returns its word, without weights.
@@ -87,6 +92,7 @@ impl Objective {
             Self::MetacentricHeight => "metacentric-height",
             Self::LeastRemoved => "least-removed",
             Self::LeastUnbalance => "least-unbalance",
+            Self::LeastChange => "least-change",
         }
     }
 
@@ -119,6 +125,11 @@ impl GoalKind {
         matches!(self, Self::Yoyo | Self::Balance)
     }
 
+    /// Returns true if a model alone can be asked for it. A match needs the body it is like.
+    pub fn is_asked_of_a_model(self) -> bool {
+        self != Self::Match
+    }
+
     /// Returns the objectives for goals of this kind, the default first.
     pub fn objectives(self) -> &'static [Objective] {
         match self {
@@ -127,6 +138,7 @@ impl GoalKind {
             Self::Stand => &[Objective::TopplingAngle, Objective::LowestCenter],
             Self::Float => &[Objective::MetacentricHeight],
             Self::Balance => &[Objective::LeastRemoved, Objective::LeastUnbalance],
+            Self::Match => &[Objective::LeastChange],
         }
     }
 }
@@ -146,6 +158,7 @@ impl FromStr for Objective {
             ("metacentric-height", _) => Self::MetacentricHeight,
             ("least-removed", _) => Self::LeastRemoved,
             ("least-unbalance", _) => Self::LeastUnbalance,
+            ("least-change", _) => Self::LeastChange,
             _ => return Err(ChoiceError::unknown("known objective", text, Self::WORDS)),
         })
     }
@@ -176,6 +189,7 @@ mod tests {
             Objective::TopplingAngle,
             Objective::MetacentricHeight,
             Objective::LeastRemoved,
+            Objective::LeastChange,
         ];
         let found: Vec<Objective> = GoalKind::ALL
             .iter()

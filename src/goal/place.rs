@@ -6,7 +6,7 @@ use super::placement::Placement;
 use super::request::Request;
 use super::site::{MeasuredSolid, Site};
 use super::sites::SpinPoint;
-use super::{balance, float, stand, top, yoyo};
+use super::{balance, float, matching, stand, top, yoyo};
 use crate::mesh::Solid;
 
 /// The wall and the material of a model.
@@ -74,6 +74,7 @@ pub fn place_measured(
             let point = request.spin_point.unwrap_or(SpinPoint::Center);
             balance::place(&site, wall_mm, point, request.rotor.unwrap_or_default())
         }
+        GoalKind::Match => matching::place(&site, density_g_cm3, request.target),
     }
 }
 

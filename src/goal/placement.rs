@@ -6,6 +6,7 @@ use super::hardware::Rod;
 use super::kind::{GoalKind, Objective};
 use super::lean::Lean;
 use super::rotor::Spindle;
+use super::target::Wanted;
 use super::water::FloatConditions;
 use crate::base::setting::{Key, Setting};
 use crate::geom::Frame;
@@ -28,6 +29,8 @@ pub struct Goal {
     pub spindle: Option<Spindle>,
     /// Float: the conditions for floating upright at the waterline; `None` for the others.
     pub afloat: Option<FloatConditions>,
+    /// What a match must have; `None` for other goals.
+    pub wanted: Option<Wanted>,
     /// The moments of the whole solid in the goal frame, mm.
     pub solid: Moments,
 }

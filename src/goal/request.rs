@@ -6,8 +6,10 @@ use super::hardware::{Hardware, HardwareError, Rod};
 use super::kind::{GoalKind, Objective};
 use super::rotor::Rotor;
 use super::sites::{Contact, SpinPoint, Up};
+use super::target::Target;
 use super::tip_choice::TipChoice;
 use super::water::Water;
+use crate::mass::ImpossibleBody;
 
 /// The default of the least lean of a top, degrees. Thrown by hand, tops wobble by some degrees
 /// before they sleep upright.
@@ -40,6 +42,10 @@ pub struct Request {
     /// goals.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub water: Option<Water>,
+    /// The mass properties of a match; `None` while they are to be taken from a file, and for other
+    /// goals.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub target: Option<Target>,
     /// The parts put in that are not printed; `None` for none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub hardware: Option<Hardware>,
@@ -105,6 +111,20 @@ pub enum RequestError {
     /// A liquid or waterline was given for a goal other than floating.
     #[error("a liquid or waterline goes with the goal float, not with {0}; remedy: leave it out")]
     NoWater(GoalKind),
+    /// Mass properties were given for a goal other than a match.
+    #[error(
+        "a mass, centre and inertia to match go with the goal match, not with {0}; remedy: leave \
+         them out"
+    )]
+    NoMatch(GoalKind),
+    /// A direction was given for a match.
+    #[error(
+        "a match has the axes of its model, and up = {0} would turn nothing; remedy: leave it out"
+    )]
+    UpOfMatch(Up),
+    /// No distribution of mass has the wanted properties.
+    #[error(transparent)]
+    ImpossibleBody(#[from] ImpossibleBody),
     /// A least lean or toppling angle that no object of the goal can promise.
     #[error(
         "a least {what} of {angle_deg}° cannot be promised with the goal {kind}; remedy: give 0 to \
@@ -148,6 +168,7 @@ impl Request {
             objective: Objective::default_for(kind),
             rotor: (kind == GoalKind::Balance).then(Rotor::default),
             water: (kind == GoalKind::Float).then(Water::default),
+            target: None,
             hardware: None,
             tip: TipChoice::Auto,
             least_lean_deg: LEAST_LEAN_DEG,
@@ -227,6 +248,7 @@ impl Request {
         if self.water.is_some() && kind != GoalKind::Float {
             return Err(RequestError::NoWater(kind));
         }
+        self.check_target()?;
         self.hardware_with(self.ordered_tip().rod()).check(kind)?;
         self.check_promises()?;
         Ok(self)
@@ -260,6 +282,18 @@ impl Request {
             }
         }
         Ok(())
+    }
+
+    fn check_target(&self) -> Result<(), RequestError> {
+        let is_match = self.kind == GoalKind::Match;
+        if is_match && self.up != Up::Z {
+            return Err(RequestError::UpOfMatch(self.up));
+        }
+        match self.target {
+            Some(_) if !is_match => Err(RequestError::NoMatch(self.kind)),
+            Some(target) => Ok(target.check()?),
+            None => Ok(()),
+        }
     }
 
     fn check_rotor(&self) -> Result<(), RequestError> {

@@ -103,6 +103,7 @@ impl<'a> Site<'a> {
             support,
             spindle: None,
             afloat: None,
+            wanted: None,
             solid,
         }
     }

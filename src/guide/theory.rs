@@ -108,6 +108,12 @@
 //!   ratios are convex in the moments. Rows that touch them are added where the last answer broke
 //!   them, five to eight times.
 //!
+//! A match prescribes all ten moments. Two densities across one quadric reach only the rim of the
+//! set of moments. Three levels and more reach its inside, if the mean of what is wanted is one of
+//! them. A body of nearly uniform density between two levels would need a mixture of both. What
+//! lies outside has a nearest point on the rim, and its distance is proved
+//! ([`crate::hollow::match_moments`]).
+//!
 //! Whether bounds are enough is known before any solve. Put F = A s − b at the upper density
 //! everywhere. Some density does it if and only if (high − low) ∫(u·A m)₊ ≥ u·F for every u.
 //! The greatest u·F over the integral is the least span, and that u is the proof

@@ -123,10 +123,11 @@
 //! | `goals/`: `ballast` | the least of a denser material if hollowing is not enough |
 //! | `goals/`: `fill` | filled voids |
 //! | `goals/`: `two` | two densities instead of a void |
+//! | `goals/`: `near`, `matching` | levels near a wished density, and those of a wanted body |
 //! | `graded` | rows over a body of any density, in units |
 //! | `newton` | Newton's method with bounds |
 //! | `range` | the least and greatest density that can do it |
-//! | `nearest` | the density whose moments are nearest to wanted ones |
+//! | `nearest`, `miss` | the density whose moments are nearest to wanted ones |
 //! | `change`, `levels` | the least change of a wished density, smooth or in steps |
 //! | `top/`: `heights`, `valley`, `lever`, `search` | the search over heights |
 //! | `top/`: `posts`, `cover`, `frontier` | the proof over all heights |
@@ -177,6 +178,7 @@ mod golden;
 mod graded;
 mod levels;
 mod log;
+mod miss;
 mod nearest;
 mod newton;
 #[cfg(any(test, feature = "papers"))]
@@ -204,6 +206,7 @@ pub use golden::golden_section;
 pub use graded::{Graded, Row, Sense, Separation};
 pub use levels::{LevelChange, LevelCountError, PrintLevels, least_level_change};
 pub use log::{LogRow, Pass, Stage};
+pub use miss::MatchMiss;
 pub use nearest::{Match, Nearest, match_moments};
 #[cfg(any(test, feature = "papers"))]
 pub use papers::{
@@ -218,7 +221,7 @@ pub use top::course::{TopCourse, top_course};
 
 use dual::answer::Conversion;
 use dual::work::Work;
-use goals::{balance, float, stand, yoyo};
+use goals::{balance, float, matching, stand, yoyo};
 
 /// Finds the best interior, or the proof that none meets the goal, from a cold start.
 ///
@@ -253,6 +256,7 @@ fn solve_for_goal(problem: &Problem, work: Work) -> Solution {
         GoalKind::Stand => stand::solve(&work, objective, None),
         GoalKind::Float => float::solve(&work, objective, None),
         GoalKind::Balance => balance::solve(&work, objective, None),
+        GoalKind::Match => return matching::solve_void(problem),
     };
     answer.into_solution(work)
 }
@@ -318,6 +322,7 @@ fn refine_known(
         GoalKind::Float => Some(float::solve(&work, objective, start)),
         // A goal that could not be balanced on coarser columns may be on these.
         GoalKind::Balance => Some(balance::solve(&work, problem.goal.objective, start)),
+        GoalKind::Match => None,
     };
     answer.map_or_else(
         || solve(problem, settings, watch),

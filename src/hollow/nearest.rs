@@ -66,13 +66,7 @@ pub fn match_moments(
     range: DensityRange,
     wanted: &Moments,
 ) -> Match {
-    let one = |index: usize| Quadric(std::array::from_fn(|i| f64::from(u8::from(i == index))));
-    let row = |index: usize| Row {
-        quadric: one(index),
-        wanted: wanted.0[index],
-        sense: Sense::Equal,
-    };
-    let rows: Vec<Row> = (0..Moments::COUNT).map(row).collect();
+    let rows = moment_rows(wanted);
     let graded = Graded {
         shell,
         columns,
@@ -85,8 +79,19 @@ pub fn match_moments(
     }
 }
 
-/// Returns the nearest density; the rows are the ten moments themselves, of unit length in units.
-fn nearest(graded: &Graded, range: DensityRange) -> Nearest {
+/// Returns the ten rows that a body has these moments.
+pub(super) fn moment_rows(wanted: &Moments) -> Vec<Row> {
+    let one = |index: usize| Quadric(std::array::from_fn(|i| f64::from(u8::from(i == index))));
+    let row = |index: usize| Row {
+        quadric: one(index),
+        wanted: wanted.0[index],
+        sense: Sense::Equal,
+    };
+    (0..Moments::COUNT).map(row).collect()
+}
+
+/// Returns the density nearest to what the [`moment_rows`] ask for.
+pub(super) fn nearest(graded: &Graded, range: DensityRange) -> Nearest {
     let units = InUnits::new(graded);
     let dense = units.shell + units.interior * range.high();
     let point = |u: &DVector<f64>| {

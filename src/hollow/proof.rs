@@ -155,7 +155,7 @@ fn programme_of(work: &Work, objective: Objective) -> Option<Programme> {
             let ends = balance::ends(work, work.goal.spindle.as_ref()?);
             Some(Programme::balance_unbalance(reach, ends))
         }
-        Objective::CriticalSpeed => None,
+        Objective::CriticalSpeed | Objective::LeastChange => None,
     }
 }
 

@@ -76,6 +76,7 @@ impl Figure {
             Objective::MetacentricHeight => Self::MetacentricHeightMm,
             Objective::LeastRemoved => Self::VolumeMm3,
             Objective::LeastUnbalance => Self::BalanceGradeMmS,
+            Objective::LeastChange => Self::InfillChange,
         }
     }
 

@@ -1,5 +1,6 @@
 //! The outcome of a run, as a value and as a sentence.
 
+use super::miss::MatchMiss;
 use crate::geom::Quadric;
 use crate::goal::{Goal, GoalKind};
 
@@ -73,6 +74,13 @@ pub enum Status {
         /// integral over every interior is positive.
         separator: Quadric,
     },
+    /// Match: no density within the bounds has the wanted moments.
+    CannotMatch {
+        /// The nearest, and the bound of the distance.
+        miss: MatchMiss,
+        /// Proof: its integral over every such body exceeds that over the wanted one.
+        separator: Quadric,
+    },
     /// The passes were used up before the limits were met.
     IterationLimit {
         /// Remaining gap, as a part of the value.
@@ -113,6 +121,7 @@ impl Status {
                 least_miss,
                 ..
             } => return explain_imbalance(obstacle, least_miss, goal.kind),
+            Self::CannotMatch { miss, .. } => return miss.explain(goal),
             Self::NotDominant { least_ratio } => {
                 return explain_spin(WOBBLES, &compare_moments(least_ratio));
             }
@@ -207,6 +216,7 @@ impl Status {
                 "put ballast in it, as low as possible",
                 "make the model larger with the same wall, or the wall thinner",
             ],
+            (Self::CannotMatch { miss, .. }, _) => miss.remedies(goal),
             (Self::CannotBalance { .. }, _) => &[
                 "put ballast on its light side, opposite to the unbalance",
                 "make the model larger with the same wall, or the wall thinner",
@@ -228,6 +238,7 @@ impl Status {
         match *self {
             Self::ConstraintsInfeasible { separator, .. }
             | Self::CannotTrim { separator, .. }
+            | Self::CannotMatch { separator, .. }
             | Self::CannotBalance { separator, .. } => Some(separator),
             _ => None,
         }
@@ -246,6 +257,7 @@ impl Status {
                 | Self::CannotTrim { .. }
                 | Self::Capsizes { .. }
                 | Self::CannotBalance { .. }
+                | Self::CannotMatch { .. }
         )
     }
 }
@@ -309,7 +321,9 @@ impl Obstacle {
             (Self::Center, GoalKind::Top | GoalKind::Balance) => {
                 "bring the centre of mass onto the spin axis"
             }
-            (Self::Center, GoalKind::Yoyo) => "bring the centre of mass to the spin point",
+            (Self::Center, GoalKind::Yoyo | GoalKind::Match) => {
+                "bring the centre of mass to the spin point"
+            }
             (Self::Center, GoalKind::Float) => {
                 "bring the centre of mass over the centre of buoyancy"
             }

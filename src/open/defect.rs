@@ -11,6 +11,9 @@ const CENTER_TOLERANCE_MM: f64 = 0.0005;
 const TILT_TOLERANCE_RAD: f64 = 8.7e-5;
 /// Tolerance of the mass of what floats, as a share: a hundredth of what a kit promises.
 const MASS_TOLERANCE_RATIO: f64 = 1e-5;
+/// Tolerance of a match: a tenth of what a kit promises. It is a share of the mass, and for each
+/// entry of the inertia tensor a share of the trace.
+const MATCH_TOLERANCE_RATIO: f64 = 1e-4;
 /// Share of a rotor's permissible unbalance that may be left in the written parts.
 const GRADE_SHARE_RATIO: f64 = 0.1;
 
@@ -48,6 +51,7 @@ pub fn defect_ratio(goal: &Goal, solved: &Moments, moments: &Moments) -> f64 {
         GoalKind::Yoyo => (body.center.coords.norm() / CENTER_TOLERANCE_MM).max(lean(&body)),
         GoalKind::Float => out_of_trim(goal, moments),
         GoalKind::Balance => unbalance(goal, &(*moments - *solved), moments),
+        GoalKind::Match => mismatch(goal, moments),
         GoalKind::Stand if goal.objective == Objective::LowestCenter => aside,
         GoalKind::Stand => 0.0,
     }
@@ -60,6 +64,17 @@ fn out_of_trim(goal: &Goal, moments: &Moments) -> f64 {
     let aside_mm = (moments.centroid() - afloat.buoyancy).xy().norm();
     let excess = (moments.volume() - afloat.material_mm3).abs();
     (aside_mm / CENTER_TOLERANCE_MM).max(excess / (MASS_TOLERANCE_RATIO * afloat.material_mm3))
+}
+
+/// Returns the distance of a match from its mass, centre and inertia, in tolerances.
+fn mismatch(goal: &Goal, moments: &Moments) -> f64 {
+    let wanted = goal.wanted.unwrap_or_default().moments;
+    let (now, then) = (Body::new(moments, 1.0), Body::new(&wanted, 1.0));
+    let mass_ratio = (now.mass_g / then.mass_g - 1.0).abs();
+    let center_mm = (now.center - then.center).norm();
+    let off = (now.inertia_g_mm2 - then.inertia_g_mm2).amax();
+    let inertia_ratio = off / then.inertia_g_mm2.trace();
+    (center_mm / CENTER_TOLERANCE_MM).max(mass_ratio.max(inertia_ratio) / MATCH_TOLERANCE_RATIO)
 }
 
 /// Returns the static and couple unbalance in excess of what was solved for, in tolerances.
@@ -104,6 +119,7 @@ mod tests {
             support: Vec::new(),
             spindle: None,
             afloat: None,
+            wanted: None,
             solid: Moments::default(),
         }
     }

@@ -68,7 +68,13 @@ impl<'a> Resolver<'a> {
     pub fn new(placed: &'a Placed, solved: Solved, watch: &Watch) -> Result<Self, Error> {
         let printer = &placed.shop.printer;
         let keeps = &placed.placement.keeps;
-        let spec = CavitySpec::for_printer(printer, placed.shop.wall.wall_mm, keeps);
+        let usual = CavitySpec::for_printer(printer, placed.shop.wall.wall_mm, keeps);
+        // Nothing is cleaned out of the regions of a match.
+        let least_mm = placed.goal().wanted.map_or(usual.min_void_mm, |_| 0.0);
+        let spec = CavitySpec {
+            min_void_mm: least_mm,
+            ..usual
+        };
         let whole = Cavity::extract(placed.solid(), &spec, watch)?;
         let cavity = {
             let mut jackets = solved.load.jackets();

@@ -166,6 +166,7 @@ fn upright_caption(kind: GoalKind) -> &'static str {
     match kind {
         GoalKind::Stand => "The object as it stands.",
         GoalKind::Float => "The object as it floats.",
+        GoalKind::Match => "The object, the z axis of its model upright.",
         _ => "The object, its spin axis upright.",
     }
 }

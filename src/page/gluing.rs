@@ -210,7 +210,7 @@ fn glue_advice(kind: GoalKind) -> &'static str {
         GoalKind::Top | GoalKind::Yoyo | GoalKind::Balance => {
             "Use little glue, and keep it out of the voids: extra glue unbalances it. Wipe off what is pressed out."
         }
-        GoalKind::Stand => {
+        GoalKind::Stand | GoalKind::Match => {
             "Use little glue, and keep it out of the voids. Wipe off what is pressed out."
         }
     }

@@ -78,6 +78,7 @@ fn customer_promise(sheet: &Checklist) -> String {
             Some(order) => format!("Runs true up to {}.", quantity(order.speed_rpm, "rpm")),
             None => "Runs true on its shaft.".to_owned(),
         },
+        (GoalKind::Match, _) => "Weighs, hangs and turns as the original does.".to_owned(),
         _ => words::promise(sheet),
     }
 }
@@ -105,6 +106,7 @@ fn use_lines(sheet: &Checklist) -> Vec<String> {
         GoalKind::Balance => {
             "Mount it on its shaft. It is balanced: drill nothing into it and stick nothing to it.".to_owned()
         }
+        GoalKind::Match => "Handle it as the original. It weighs as much, hangs the same and turns the same.".to_owned(),
     };
     vec![line]
 }

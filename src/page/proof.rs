@@ -3,6 +3,7 @@
 use maud::{Markup, html};
 
 use super::cleaning::cost;
+use super::deed::match_table;
 use super::fields::{file_name, sentence};
 use super::figure::{Picture, Role, figures, figures_of};
 use super::inputs::PageInputs;
@@ -74,6 +75,7 @@ pub(super) fn proof(sheet: &Checklist, pictures: &[Picture]) -> Markup {
                 "the thick line the axis of the greatest moment I_c."
             }
             (figures_of(pictures, &[Role::Inertia, Role::Made]))
+            (match_table(sheet))
             (bodies(sheet))
         }
     }

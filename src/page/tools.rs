@@ -75,6 +75,7 @@ fn for_test(kind: GoalKind) -> Option<&'static str> {
         GoalKind::Stand => Some("a thread; a rough board of 300\u{a0}mm and a ruler"),
         GoalKind::Float => Some("a basin deeper than the object"),
         GoalKind::Balance => Some("two level knife edges; a balancing machine"),
+        GoalKind::Match => Some("two threads"),
     }
 }
 

@@ -4,7 +4,7 @@ use maud::{Markup, html};
 
 use super::fields::blank;
 use super::figure::{Picture, Role, figure};
-use crate::base::numbers::{measured, measured_extent, number, quantity};
+use crate::base::numbers::{coordinates, measured, measured_extent, number, quantity};
 use crate::goal::GoalKind;
 use crate::sheet::{Checklist, FootRow, ShaftKind, ShaftRow};
 use crate::verify::CONTACT_LIMIT_MM;
@@ -62,6 +62,7 @@ fn test_lines(sheet: &Checklist) -> Vec<String> {
         GoalKind::Stand => standing_lines(sheet),
         GoalKind::Float => floating_lines(sheet),
         GoalKind::Balance => rotor_lines(sheet),
+        GoalKind::Match => match_lines(sheet),
     };
     [size].into_iter().chain(own).collect()
 }
@@ -72,6 +73,18 @@ fn hang_line(place: &str) -> String {
         "Hang it by a thread from two places, one after the other. The line of the thread passes through the centre of mass both times: \
          {place}."
     )
+}
+
+/// Words the tests of a match.
+fn match_lines(sheet: &Checklist) -> Vec<String> {
+    let center = coordinates(&sheet.assembly.center_mm);
+    vec![
+        format!("Weigh it: {}.", measured(sheet.assembly.mass_g, "g")),
+        hang_line(&format!("at {center}\u{a0}mm in the axes of the model")),
+        "Hang it and the original side by side by two threads each, and turn both by the same \
+         angle: they swing in step."
+            .to_owned(),
+    ]
 }
 
 /// Words the tests of a top: one that falls when it is slow, or one that stands on its foot.

@@ -1,14 +1,15 @@
 //! Goals, promises and proofs in words.
 
+use super::deed::{floats, handles, runs_true};
 use super::hardware::{rod, word};
-use crate::base::numbers::{coordinates, measured, number, quantity, quantity_or_dash, rough};
+use crate::base::numbers::{coordinates, measured, number, quantity, quantity_or_dash};
 use crate::base::units::{format_count, show_wobble};
 use crate::goal::GoalKind;
 use crate::sheet::{
     Certificate, Checklist, GoalRow, ObjectiveName, Process, Taken, Taker, WallRow,
 };
 use crate::verify::{
-    CONTACT_LIMIT_MM, Check, Comparison, FigureName, Figures, Hardware, HardwareKind, SpinFacts,
+    CONTACT_LIMIT_MM, Check, Comparison, FigureName, Hardware, HardwareKind, SpinFacts,
 };
 
 /// Relative difference up to which the ordered and the printed wall count as equal.
@@ -48,6 +49,9 @@ pub fn goal(goal: &GoalRow) -> String {
                 quantity(order.speed_rpm, "rpm")
             ))
         ),
+        GoalKind::Match => format!(
+            "match: has the mass, the centre of mass {at}\u{a0}mm and the inertia of another body, with {best}"
+        ),
     }
 }
 
@@ -71,6 +75,7 @@ fn best(objective: ObjectiveName) -> &'static str {
         ObjectiveName::MetacentricHeight => "the greatest metacentric height",
         ObjectiveName::LeastRemoved => "the least material removed that balances it",
         ObjectiveName::LeastUnbalance => "the least unbalance",
+        ObjectiveName::LeastChange => "the least change of infill",
     }
 }
 
@@ -95,6 +100,7 @@ pub fn promise(sheet: &Checklist) -> String {
         (GoalKind::Stand, ..) => "Does not stand.".to_owned(),
         (GoalKind::Float, ..) => floats(sheet),
         (GoalKind::Balance, ..) => runs_true(sheet),
+        (GoalKind::Match, ..) => handles(sheet),
     }
 }
 
@@ -211,35 +217,6 @@ pub fn spins_on(sheet: &Checklist) -> Option<String> {
     Some(format!("{part}; {clear}{waived}"))
 }
 
-/// Words how it floats.
-fn floats(sheet: &Checklist) -> String {
-    match sheet.assembly.afloat {
-        Some(afloat) if afloat.metacentric_height_mm > 0.0 => format!(
-            "Floats upright, {} deep, with a metacentric height of {}.",
-            measured(afloat.waterline_mm, "mm"),
-            measured(afloat.metacentric_height_mm, "mm")
-        ),
-        Some(_) => "Floats, but not upright.".to_owned(),
-        None => "Sinks.".to_owned(),
-    }
-}
-
-/// Words how well a rotor is balanced, before and after.
-fn runs_true(sheet: &Checklist) -> String {
-    let grade = |body: &Figures| body.unbalance.map(|unbalance| unbalance.grade_mm_s);
-    match (
-        sheet.goal.aim.rotor,
-        grade(&sheet.solid).map(|grade| rough(grade, "")),
-        grade(&sheet.assembly).map(number),
-    ) {
-        (Some(order), Some(solid), Some(written)) => format!(
-            "Runs true: balanced to G\u{a0}{written} at {}; solid it would be G\u{a0}{solid}.",
-            quantity(order.speed_rpm, "rpm")
-        ),
-        _ => "Not known to run true.".to_owned(),
-    }
-}
-
 /// Words the certificate, a sentence each.
 pub fn certificate(sheet: &Checklist) -> Vec<String> {
     let (proof, unit) = (&sheet.certificate, sheet.certificate.figure.unit());
@@ -251,7 +228,7 @@ pub fn certificate(sheet: &Checklist) -> Vec<String> {
         "lower"
     };
     let what = if is_change {
-        "infill of these densities"
+        "infill of these densities that does what was asked"
     } else {
         "hollowing"
     };

@@ -1,6 +1,7 @@
 //! Advice: remedies for an impossible goal, each carried out before it is reported.
 
 use super::graded::hollow_hint;
+use super::materials::material_hints;
 use super::outcome::Impossible;
 use super::solve::workshop;
 use super::thresholds::density_hints;
@@ -11,7 +12,7 @@ use crate::base::setting::{Key, Setting};
 use crate::base::units::format_count;
 use crate::base::watch::{Phase, Watch};
 use crate::error::Error;
-use crate::goal::Request;
+use crate::goal::{GoalKind, Request};
 use crate::hollow::{Certificate, Figure, Fill};
 use crate::run::{Model, Placed, Shop};
 
@@ -41,6 +42,20 @@ pub fn remedies(
     impossible: Impossible,
     watch: &Watch,
 ) -> Result<Impossible, Error> {
+    let is_filled = placed.fill != Fill::AIR && placed.sparse.is_none();
+    if is_filled || placed.goal().kind == GoalKind::Match {
+        // The searches know of air and of infill, of no fillings and no matches.
+        let hints = impossible
+            .hints
+            .into_iter()
+            .chain(density_hints(placed, watch)?)
+            .chain(material_hints(placed, watch)?)
+            .chain(hollow_hint(placed, watch)?);
+        return Ok(Impossible {
+            hints: hints.collect(),
+            ..impossible
+        });
+    }
     watch.enter(Phase::Advise);
     if placed.has_ordered_hardware() {
         let hints = impossible.hints.into_iter().chain([BARE.to_owned()]);

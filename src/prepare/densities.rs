@@ -1,5 +1,6 @@
 //! The densities of a graded print: nested regions from what a job orders and a printer lays.
 
+use super::spread::around;
 use crate::error::GradedError;
 use crate::field::DensityRange;
 use crate::goal::GoalKind;
@@ -7,10 +8,6 @@ use crate::hollow::{Fill, NearWished, PrintLevels, TILT_MARGIN_RAD};
 use crate::job::{DensityOrder, InfillDensity, Job, KeptShare, LevelCount, PartFormat};
 use crate::printer::{InfillPattern, Printer, Quantity};
 use crate::run::{Extent, Level, Nested};
-
-/// Steps of per cent to which the densities between the least and the greatest are rounded: slicers
-/// show them as typed.
-const STEPS_PER_PERCENT: f64 = 10.0;
 
 /// A printer's infill, and the least of it that carries what is printed over it.
 struct Stock<'a> {
@@ -34,7 +31,7 @@ pub fn nested(job: &Job, printer: &Printer) -> Result<Nested, GradedError> {
             .value,
     };
     let order = order(job, printer, &stock)?;
-    let nested = match job.infill {
+    let nested = match wished(job, order) {
         Some(wished) => near(job, &stock, order, wished)?,
         None => two(&stock, order),
     };
@@ -62,8 +59,13 @@ fn order(job: &Job, printer: &Printer, stock: &Stock) -> Result<DensityOrder, Gr
         printer: printer.name.clone(),
     };
     let least = InfillDensity::of_ratio(stock.least_ratio).ok_or_else(no_infill)?;
-    let usual = DensityOrder::new(least, InfillDensity::SOLID).map_err(|_| no_infill())?;
+    let is_match = job.goal.kind == GoalKind::Match;
+    let most = stock.most(is_match);
+    let usual = DensityOrder::new(least, most).map_err(|_| no_infill())?;
     let order = job.density.unwrap_or(usual);
+    if is_match && order.high() == InfillDensity::SOLID {
+        return Err(GradedError::SolidMatch { usual });
+    }
     if order.low() < least {
         return Err(GradedError::TooSparse {
             printer: printer.name.clone(),
@@ -74,11 +76,14 @@ fn order(job: &Job, printer: &Printer, stock: &Stock) -> Result<DensityOrder, Gr
     }
     let more = job.levels.filter(|levels| !levels.is_two());
     match (job.infill, job.levels, job.keep) {
+        (None, Some(_), _) if is_match && more.is_none() => {
+            return Err(GradedError::TwoLevelsOfMatch);
+        }
         (None, _, Some(share)) => return Err(GradedError::KeepAlone { share }),
         (Some(_), _, Some(share)) if job.goal.kind == GoalKind::Balance => {
             return Err(GradedError::KeepBalance { share });
         }
-        (None, Some(levels), None) if more.is_some() => {
+        (None, Some(levels), None) if more.is_some() && !is_match => {
             return Err(GradedError::LevelsAlone { levels });
         }
         (Some(wished), Some(_), _) if more.is_none() => {
@@ -100,6 +105,16 @@ fn order(job: &Job, printer: &Printer, stock: &Stock) -> Result<DensityOrder, Gr
     }
 }
 
+/// Returns the infill that all is to be near to; `None` if the goal alone decides.
+///
+/// A match always has several levels: only they reach all that densities reach. They are about the
+/// middle until it is placed, and its mean is known.
+fn wished(job: &Job, order: DensityOrder) -> Option<InfillDensity> {
+    let middle = || InfillDensity::of_ratio(0.5 * (order.low().ratio() + order.high().ratio()));
+    let is_match = job.goal.kind == GoalKind::Match;
+    job.infill.or_else(|| middle().filter(|_| is_match))
+}
+
 impl Stock<'_> {
     /// Returns the region of a nominal density, as far as it is no solid print.
     fn level(&self, nominal_ratio: f64, extent: Extent) -> Option<Level> {
@@ -109,6 +124,20 @@ impl Stock<'_> {
             extent,
         };
         (nominal_ratio < 1.0).then_some(level)
+    }
+
+    /// Returns the greatest density that is laid unless others are ordered.
+    ///
+    /// A match may need a dense core in sparse infill. Slicers lay solid print in a pattern of its
+    /// own, and a region has only one. So a match ends at the greatest density that was measured.
+    fn most(&self, is_match: bool) -> InfillDensity {
+        let rows = self.pattern.core_ratio.value.iter();
+        let below = rows
+            .map(|[nominal, _]| *nominal)
+            .filter(|nominal| *nominal < 1.0);
+        let greatest = below.fold(0.0, f64::max);
+        let greatest = InfillDensity::of_ratio(greatest).filter(|_| is_match);
+        greatest.unwrap_or(InfillDensity::SOLID)
     }
 
     /// Returns the regions of these densities, the outermost first.
@@ -158,35 +187,6 @@ fn near(
         near: Some(near),
         ..nested
     })
-}
-
-/// Returns densities from the least to the greatest, one of which is the wished one. Steps on
-/// either side of it are even, and as long as can be on both. Those between are rounded.
-fn around(order: DensityOrder, wished: InfillDensity, count: usize) -> Vec<f64> {
-    let ends = [order.low(), wished, order.high()].map(InfillDensity::ratio);
-    let [low, wished, high] = ends;
-    let steps = count.saturating_sub(1).max(1);
-    let share = (wished - low) / (high - low) * steps as f64;
-    let below = match (low < wished, wished < high) {
-        (false, _) => 0,
-        (_, false) => steps,
-        _ => (share.round() as usize).clamp(1, steps.saturating_sub(1).max(1)),
-    };
-    let steps_per_unit = 100.0 * STEPS_PER_PERCENT;
-    let density = |index: usize| match index {
-        0 => low,
-        _ if index == steps => high,
-        _ if index == below => wished,
-        _ => {
-            let even = if index < below {
-                low + (wished - low) * index as f64 / below as f64
-            } else {
-                wished + (high - wished) * (index - below) as f64 / (steps - below) as f64
-            };
-            (even * steps_per_unit).round() / steps_per_unit
-        }
-    };
-    (0..=steps).map(density).collect()
 }
 
 #[cfg(test)]
@@ -272,23 +272,32 @@ mod tests {
     }
 
     #[test]
-    fn the_wished_infill_is_always_one_of_the_levels() {
-        for wished in ["15%", "16%", "40%", "57.5%", "99%", "100%"] {
-            for count in 3..=12 {
-                let order = "15%..100%".parse().unwrap();
-                let wished: InfillDensity = wished.parse().unwrap();
-                let found = around(order, wished, count);
-                assert_eq!(found.len(), count);
-                assert!(
-                    found.contains(&wished.ratio()),
-                    "{wished} {count}: {found:?}"
-                );
-                assert!(
-                    found.windows(2).all(|pair| pair[0] < pair[1]),
-                    "{wished} {count}: {found:?}"
-                );
-            }
-        }
+    fn a_match_has_levels_about_the_middle_though_none_are_ordered() {
+        let matched = |levels| Job {
+            goal: Request::new(GoalKind::Match),
+            ..job(Some("20%..80%"), None, levels)
+        };
+        let usual = Job {
+            density: None,
+            ..matched(None)
+        };
+        let nested = ordered(&usual).unwrap();
+        // A dense core may lie in sparse infill, so that none is solid print.
+        assert_eq!(
+            (percents(&nested)[0], nested.levels[0].extent),
+            (90.0, Extent::Interior)
+        );
+        let solid = Job {
+            density: Some("15%..100%".parse().unwrap()),
+            ..usual
+        };
+        let said = ordered(&solid).unwrap_err().to_string();
+        assert!(said.contains("`density = \"15%..90%\"`"), "{said}");
+        let nested = ordered(&matched(None)).unwrap();
+        assert!(percents(&nested).contains(&50.0), "{nested:?}");
+        assert_eq!(nested.levels.len(), LevelCount::USUAL.count());
+        assert!(nested.near.is_some());
+        assert_eq!(ordered(&matched(Some("6"))).unwrap().levels.len(), 6);
     }
 
     #[test]

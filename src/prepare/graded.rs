@@ -22,9 +22,15 @@ use super::levels::with_load;
 /// # Errors
 /// The printer has no infill, or the job orders what one closed piece cannot have.
 pub fn sparse_print(job: &Job, printer: &Printer) -> Result<Option<Nested>, GradedError> {
+    if job.interior.is_hollow() && job.goal.kind == GoalKind::Match {
+        return Err(GradedError::HollowMatch);
+    }
     if job.interior.is_hollow() {
         return ordered_density(job)
             .map_or(Ok(None), |order| Err(GradedError::NotGraded { order }));
+    }
+    if let (Some(wished), GoalKind::Match) = (job.infill, job.goal.kind) {
+        return Err(GradedError::WishedMatch { wished });
     }
     if job.plan.is_some() {
         return Err(GradedError::Cuts);
@@ -53,6 +59,13 @@ pub fn refuse_holes(placed: &Placed) -> Result<(), DrainError> {
     }
     match order {
         DrainOrder::Diameter(_) if !placed.is_drained() => Err(DrainError::NotWhole { order }),
+        DrainOrder::Diameter(_) => {
+            // A width that was ordered is for this printer, whatever voids there will be.
+            let printer = &placed.shop.printer;
+            let need = printer.drain_need(order.asked_mm());
+            need.map_err(|why| DrainError::of_printer(why, &printer.name, order))?;
+            Ok(())
+        }
         _ => Ok(()),
     }
 }
@@ -100,7 +113,7 @@ pub fn refuse_rounds(placed: &Placed) -> Result<(), SlicedError> {
 
 /// Returns the hint that voids do what sparse infill does not, if a solve confirms it.
 pub fn hollow_hint(placed: &Placed, watch: &Watch) -> Result<Option<String>, Error> {
-    if placed.sparse.is_none() {
+    if placed.sparse.is_none() || placed.goal().kind == GoalKind::Match {
         return Ok(None);
     }
     let hollow = Placed {

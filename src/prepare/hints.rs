@@ -15,7 +15,11 @@ pub fn hint(kind: &CheckKind) -> Option<String> {
             Setting::new(Key::Contact, "center"),
             Setting::new(Key::Tip, "auto")
         ),
-        CheckKind::AxisOffset | CheckKind::AxisTilt => format!(
+        CheckKind::AxisOffset
+        | CheckKind::AxisTilt
+        | CheckKind::MatchMass
+        | CheckKind::MatchCenter
+        | CheckKind::MatchInertia => format!(
             "a finer pitch (`{}`) brings the written parts nearer to the optimum",
             open(Key::Pitch)
         ),

@@ -8,7 +8,7 @@ use crate::base::watch::{Phase, Watch};
 use crate::cut::CutOrder;
 use crate::error::Error;
 use crate::io::read_bytes;
-use crate::job::{Job, JobError, ModelChoice};
+use crate::job::{Job, JobError, Like, ModelChoice};
 use crate::kit::Kit;
 use crate::page::cup_warning;
 use crate::press::Drawings;
@@ -93,6 +93,7 @@ fn files(placed: &Placed, draft: &Draft, slicer: Option<&Slicer>) -> Result<Kit,
     let job = slice::record(&placed.job, slicer);
     let job = Job {
         model: job.model.without_folder(),
+        like: job.like.as_ref().map(Like::without_folder),
         ..job
     };
     kit.add(JOB_FILE, job.to_toml()?.into_bytes());

@@ -1,6 +1,6 @@
 //! Place: the goal in the model, with its axis, its waterline and its hardware.
 
-use super::{advise, densities, graded, hardware, rotor, upright, waterline};
+use super::{advise, densities, graded, hardware, like, mean, rotor, upright, waterline};
 use crate::advice::{Case, best_orientation, is_possible};
 use crate::base::watch::Watch;
 use crate::error::Error;
@@ -14,12 +14,16 @@ use crate::run::{AxisChoice, Model, NaturalUp, Placed, Policy, Shop};
 
 /// Places the job's goal in the model and settles what the job leaves open.
 pub fn goal(job: &Job, model: Model, shop: Shop, watch: &Watch) -> Result<Placed, Error> {
+    let job = &like::resolved(job, &model, watch)?;
     let sparse = graded::sparse_print(job, &shop.printer)?;
-    let fill = match sparse.as_ref().and_then(densities::fill) {
+    let laid = sparse.as_ref().and_then(densities::fill);
+    let fill = match laid {
         Some(laid) => laid,
         None => fill(job, shop.material.density_g_cm3.value)?,
     };
-    let case = |request: Request| advise::case(&model, &shop, request, fill);
+    // The searches know of infill, and of no fillings.
+    let searched = laid.unwrap_or(Fill::AIR);
+    let case = |request: Request| advise::case(&model, &shop, request, searched);
     let choice = choose_axis(job, &model, &case(job.goal), watch)?;
     let request = match &choice {
         Some(AxisChoice::Best { request, .. }) => **request,
@@ -63,6 +67,7 @@ pub fn goal(job: &Job, model: Model, shop: Shop, watch: &Watch) -> Result<Placed
         fitted: None,
     };
     let placed = hardware::fit(waterline::choose(placed, watch)?, watch)?;
+    let placed = mean::with_levels(placed, watch)?;
     graded::refuse_pieces(&placed)?;
     graded::refuse_holes(&placed)?;
     Ok(placed)

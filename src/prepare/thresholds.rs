@@ -2,6 +2,7 @@
 
 use super::densities::nested;
 use super::levels::{COARSE_COLUMNS, with_load};
+use super::mean::with_levels;
 use crate::ballast::Load;
 use crate::base::setting::{Key, Setting};
 use crate::base::verdict::Verdict;
@@ -10,7 +11,7 @@ use crate::error::Error;
 use crate::hollow::{Graded, Row, greatest_low, least_high, rows};
 use crate::interior::Columns;
 use crate::job::{DensityOrder, InfillDensity, Job};
-use crate::run::{Level, Nested, Placed};
+use crate::run::{Extent, Nested, Placed};
 use crate::shell::Shell;
 
 /// Whole per cents that are tried from a threshold on: it is found on coarse columns.
@@ -88,14 +89,13 @@ impl Search<'_> {
 
     /// Returns the least and the greatest density that were ordered.
     fn ends(&self) -> Option<(InfillDensity, InfillDensity)> {
-        let low = self
-            .sparse
-            .levels
-            .last()
-            .map(|level: &Level| level.nominal_ratio)?;
-        let low = InfillDensity::of_ratio(low)?;
-        let high = self.placed.job.density.map(DensityOrder::high);
-        Some((low, high.unwrap_or(InfillDensity::SOLID)))
+        let levels = &self.sparse.levels;
+        let low = InfillDensity::of_ratio(levels.last()?.nominal_ratio)?;
+        let outermost = levels.first()?;
+        match outermost.extent {
+            Extent::Interior => Some((low, InfillDensity::of_ratio(outermost.nominal_ratio)?)),
+            Extent::Above(_) => Some((low, InfillDensity::SOLID)),
+        }
     }
 
     fn laid_ratio(&self, density: InfillDensity) -> f64 {
@@ -122,6 +122,7 @@ impl Search<'_> {
             sparse: Some(sparse),
             ..self.placed.clone()
         };
+        let other = with_levels(other, watch)?;
         let found = with_load(&other, Load::default(), watch)?;
         Ok(matches!(found, Verdict::Found(_)))
     }

@@ -77,6 +77,8 @@ pub enum ObjectiveName {
     LeastRemoved,
     /// Balance: the least unbalance.
     LeastUnbalance,
+    /// Match: the least change of infill.
+    LeastChange,
 }
 
 impl From<Objective> for ObjectiveName {
@@ -90,6 +92,7 @@ impl From<Objective> for ObjectiveName {
             Objective::MetacentricHeight => Self::MetacentricHeight,
             Objective::LeastRemoved => Self::LeastRemoved,
             Objective::LeastUnbalance => Self::LeastUnbalance,
+            Objective::LeastChange => Self::LeastChange,
         }
     }
 }

@@ -1,9 +1,22 @@
 //! What is asked of a kit's promises as a whole.
 
-use super::{InfillOrder, Promise};
+use super::{Cleaning, InfillOrder, Promise};
 use crate::mass::Moments;
 
+/// The process whose voids drain, and need a vent for air.
+const VAT: &str = "sla";
+
 impl Promise {
+    /// Returns whether a liquid drains from the voids.
+    pub(super) fn drains_liquid(&self) -> bool {
+        self.printer.process.as_deref() == Some(VAT)
+    }
+
+    /// Returns whether holes empty a void of this process: what is broken or dug out needs sight.
+    pub(super) fn can_drain(&self, cleaning: &Cleaning) -> bool {
+        !cleaning.rule.needs_sight() || self.drains_liquid()
+    }
+
     /// Returns the moments of what a slicer is said to lay beyond surfaces and regions, in the
     /// model frame; `None` if the kit says nothing of it.
     pub(super) fn laid_beyond(&self) -> Option<Moments> {

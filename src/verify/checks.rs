@@ -244,7 +244,7 @@ fn volume_check(promise: &Promise, found: &Judgement) -> Check {
         .map(|part| sum(&part.pins) - sum(&part.sockets) - marks(part))
         .sum();
     let whole = found.hollowed.volume_mm3;
-    let drained_mm3 = found.drained_mm3;
+    let drained_mm3: f64 = found.drained_mm3.iter().sum();
     let error = (found.assembly.volume_mm3 - whole - joints + drained_mm3).abs() / whole;
     Check::new(
         CheckKind::Volumes,

@@ -118,13 +118,14 @@ impl Claims<'_> {
         }
     }
 
-    /// Judges the volume that the drain holes take.
+    /// Judges the volume that each drain hole takes.
     fn judge_drains(&mut self) {
-        let stated = rows(self.sheet, "drains").iter();
-        let stated = stated.filter_map(|hole| hole["volume_mm3"].as_f64());
-        let (stated, found): (f64, f64) = (stated.sum(), self.judgement.drained_mm3);
-        let slack = AREA_RATIO * found;
-        self.compare("drains: volume_mm3", &stated.into(), found, slack);
+        let found = self.judgement.drained_mm3.clone();
+        for (index, found) in found.into_iter().enumerate() {
+            let stated = self.sheet["drains"][index]["volume_mm3"].clone();
+            let at = format!("drains[{index}].volume_mm3");
+            self.compare(&at, &stated, found, AREA_RATIO * found);
+        }
     }
 
     /// Judges the parts and the areas of the joints by the faces in their planes.
@@ -369,6 +370,7 @@ fn figures_of(kind: GoalKind, objective: &str) -> &'static [FigureName] {
         (GoalKind::Float, "metacentric_height") => &[F::MetacentricHeightMm],
         (GoalKind::Balance, "least_removed") => &[F::MassG, F::BalanceGradeMmS],
         (GoalKind::Balance, "least_unbalance") => &[F::BalanceGradeMmS],
+        (GoalKind::Match, "least_change") => &[F::InfillChangeRatio],
         _ => &[],
     }
 }

@@ -26,6 +26,8 @@ pub struct HoleFacts {
     pub diameter_mm: f64,
     /// The diameter of the widest ball that passes along its axis, mm; 0 if it is closed.
     pub free_mm: f64,
+    /// True if it has a name of its own, and no hole before it takes the same place.
+    pub is_apart: bool,
 }
 
 /// The uncut result with its holes.
@@ -37,8 +39,8 @@ pub(super) struct Bored {
     pub(super) inner: Vec<[Point; 3]>,
     /// The walls of the holes.
     pub(super) walls: Vec<[Point; 3]>,
-    /// The volume that the holes take, mm³.
-    pub(super) taken_mm3: f64,
+    /// The volume that each hole takes beyond those before it, mm³.
+    pub(super) taken_mm3: Vec<f64>,
 }
 
 impl Bored {
@@ -48,12 +50,20 @@ impl Bored {
         if promise.drains.is_empty() {
             return None;
         }
-        let whole = Csg::of_mesh(&body.welded).ok()?;
-        let mut bored = whole;
+        let mut bored = Csg::of_mesh(&body.welded).ok()?;
+        let mut mesh = body.welded.clone();
+        let mut taken_mm3 = Vec::new();
         for hole in &promise.drains {
             bored = bored.subtract(&hole.prism()?).ok()?;
+            let before_mm3 = mesh.signed_volume_mm3();
+            mesh = bored.to_mesh().ok()?;
+            taken_mm3.push(before_mm3 - mesh.signed_volume_mm3());
         }
-        Some(Self::divide(&bored.to_mesh().ok()?, body))
+        let divided = Self::divide(&mesh, body);
+        Some(Self {
+            taken_mm3,
+            ..divided
+        })
     }
 
     /// Divides the surface of a bored body by what each triangle lies on.
@@ -69,12 +79,11 @@ impl Bored {
         let known = Sheets::new(known.map(sheet).collect());
         let corners: Vec<[Point; 3]> = bored.iter_corners().collect();
         let lies: Vec<Lie> = corners.par_iter().map(|c| known.lie(c, None)).collect();
-        let taken_mm3 = body.welded.signed_volume_mm3() - bored.signed_volume_mm3();
         let mut parts = Self {
             outer: Vec::new(),
             inner: Vec::new(),
             walls: Vec::new(),
-            taken_mm3,
+            taken_mm3: Vec::new(),
         };
         for (corners, lie) in corners.into_iter().zip(lies) {
             match lie {
@@ -94,16 +103,33 @@ pub(super) fn measure_holes(
     probes: &[PartProbe],
     watch: &Watch,
 ) -> Result<Vec<HoleFacts>, Cancelled> {
-    let measure = |hole: &PromisedHole| {
+    let measure = |(index, hole): (usize, &PromisedHole)| {
         watch.check()?;
+        let before = &promise.drains[..index];
         Ok(HoleFacts {
+            is_apart: before.iter().all(|other| lie_apart(hole, other)),
             id: hole.id.clone(),
             void: leads_to(hole, promise, body).then(|| hole.void.clone()),
             diameter_mm: hole.diameter_mm,
             free_mm: free_mm(hole, probes),
         })
     };
-    promise.drains.iter().map(measure).collect()
+    promise.drains.iter().enumerate().map(measure).collect()
+}
+
+/// Returns whether two holes have names of their own, and their bores do not meet.
+fn lie_apart(one: &PromisedHole, other: &PromisedHole) -> bool {
+    let ends = |hole: &PromisedHole| [hole.from_mm, hole.to_mm].map(Point::from);
+    let ([from, to], [start, end]) = (ends(one), ends(other));
+    let along = end - start;
+    let length2 = along.norm_squared().max(f64::MIN_POSITIVE);
+    let off_mm = |step: usize| {
+        let at = from + (to - from) * (step as f64 / STEPS as f64);
+        let share = ((at - start).dot(&along) / length2).clamp(0.0, 1.0);
+        (at - start - along * share).norm()
+    };
+    let least_mm = (0..=STEPS).map(off_mm).fold(f64::INFINITY, f64::min);
+    one.id != other.id && least_mm >= 0.5 * (one.diameter_mm + other.diameter_mm)
 }
 
 /// Returns whether a hole begins in the open and ends in its void.
@@ -143,10 +169,12 @@ pub(super) fn open_through_holes(
     body: &Body,
     holes: &[HoleFacts],
 ) {
-    let reach_mm = promise
-        .printer
-        .cleaning
-        .and_then(|cleaning| cleaning.reach_mm);
+    // Holes say nothing of a wall that must be seen.
+    let cleaning = promise.printer.cleaning;
+    if cleaning.is_some_and(|cleaning| !promise.can_drain(&cleaning)) {
+        return;
+    }
+    let reach_mm = cleaning.and_then(|cleaning| cleaning.reach_mm);
     for (index, void) in voids.iter_mut().enumerate() {
         let of_void = |hole: &&PromisedHole| hole.void == void.id;
         if !promise.drains.iter().any(|hole| of_void(&hole)) {

@@ -118,6 +118,7 @@ impl Figures {
             GoalKind::Stand => plain.for_stand(&body, &frame, setting.support.as_ref()),
             GoalKind::Float => plain.for_float(&body, setting),
             GoalKind::Balance => plain.for_rotor(moments, setting),
+            GoalKind::Match => plain,
         }
     }
 

@@ -1,5 +1,6 @@
 //! The checks of the goal: the axis, the support, the water, the balance and the promised figure.
 
+use super::handling::{MatchLimits, Mismatch};
 use super::limits::{
     AXIS_OFFSET_LIMIT_MM, AXIS_TILT_LIMIT_DEG, CONTACT_LIMIT_MM, DOMINANCE_LIMIT_RATIO,
     FIGURE_SLACK_RATIO, METACENTRIC_LIMIT_MM, RIGHTING_LIMIT_DEG, STANDING_LIMIT_DEG,
@@ -44,6 +45,11 @@ pub(super) fn goal_checks(aim: &Aim, found: &Judgement) -> Vec<Check> {
             .rotor
             .iter()
             .map(|order| grade_check(order, assembly))
+            .collect(),
+        GoalKind::Match => aim
+            .wanted
+            .iter()
+            .flat_map(|wanted| Mismatch::of(wanted, assembly).checks(MatchLimits::WRITTEN))
             .collect(),
     }
 }

@@ -118,7 +118,7 @@ fn judge_beside(
         overlaps: inside.overlaps,
         voids: inside.voids,
         holes: inside.holes,
-        drained_mm3: bored.map_or(0.0, |bored| bored.taken_mm3),
+        drained_mm3: bored.map_or_else(Vec::new, |bored| bored.taken_mm3.clone()),
         beyond_ratio: figures.beyond_ratio,
         inner_regions: inside.inner_regions,
         film_error: film_error(promise, &evidence.parts),

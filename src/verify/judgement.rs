@@ -54,7 +54,7 @@ pub struct Judgement {
     /// Facts about every drain hole.
     pub holes: Vec<HoleFacts>,
     /// The volume that the drain holes take from the uncut result, mm³; 0 without any.
-    pub drained_mm3: f64,
+    pub drained_mm3: Vec<f64>,
     /// The film of glue that differs most from its faces; `None` without films.
     pub film_error: Option<FilmError>,
     /// Number of strokes of engraved ids that are not in their files as deep as promised; `None`

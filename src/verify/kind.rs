@@ -38,6 +38,12 @@ pub enum CheckKind {
     Righting,
     /// Balance quality grade of a rotor.
     BalanceQuality,
+    /// Deviation of a match from the wanted mass.
+    MatchMass,
+    /// Distance of the centre of mass of a match from the wanted one.
+    MatchCenter,
+    /// Deviation of a match from the wanted inertia.
+    MatchInertia,
     /// The figure promised to the buyer.
     PromisedFigure {
         /// The figure.
@@ -250,6 +256,9 @@ impl fmt::Display for CheckKind {
             Self::Stability => "stability",
             Self::Righting => "righting",
             Self::BalanceQuality => "balance quality",
+            Self::MatchMass => "mass of the match",
+            Self::MatchCenter => "centre of the match",
+            Self::MatchInertia => "inertia of the match",
             Self::PromisedFigure { figure } => figure.name(),
             Self::Bound => "bound",
             Self::Wall => "wall",
@@ -301,8 +310,19 @@ mod tests {
     use serde_json::json;
 
     /// The keys and names of all kinds without data.
-    const KEYS: [(CheckKind, &str, &str); 77] = [
+    const KEYS: [(CheckKind, &str, &str); 80] = [
         (CheckKind::DrainHoles, "drain-holes", "drain holes"),
+        (CheckKind::MatchMass, "match-mass", "mass of the match"),
+        (
+            CheckKind::MatchCenter,
+            "match-center",
+            "centre of the match",
+        ),
+        (
+            CheckKind::MatchInertia,
+            "match-inertia",
+            "inertia of the match",
+        ),
         (CheckKind::Papers, "papers", "papers"),
         (CheckKind::Replay, "replay", "replay"),
         (CheckKind::AxisOffset, "axis-offset", "axis offset"),

@@ -70,6 +70,10 @@ pub const GAP_TOLERANCE_MM: f64 = 1e-3;
 /// The written assembly may miss the promised figure by this share. It is above the rounding of STL
 /// (1e-6) and below anything a person can measure.
 pub const FIGURE_SLACK_RATIO: f64 = 1e-3;
+/// A match may miss the wanted mass, and an entry of the inertia tensor as a share of its trace, by
+/// this. It is far above the rounding of STL, and a scale of 0.1 g does not tell it at 100 g. Its
+/// centre has the limit of [`AXIS_OFFSET_LIMIT_MM`].
+pub const MATCH_LIMIT_RATIO: f64 = 1e-3;
 /// A film of glue may differ from the faces in the files by this share. Pins, sockets and engraved
 /// ids take about as much off one side.
 pub const FILM_LIMIT_RATIO: f64 = 0.1;

@@ -9,7 +9,7 @@ use super::{
     Pose, PrinterLimits, PromisedHole, PromisedPlate, RotorOrder, WaterOrder,
 };
 use crate::geom::{Frame, Point, Vector};
-use crate::goal::GoalKind;
+use crate::goal::{GoalKind, Target};
 use crate::mass::FlatFace;
 
 /// The schema of `checklist.json` this judge understands.
@@ -107,6 +107,9 @@ pub struct Aim {
     /// The order for a floating object; `None` for other goals.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub water: Option<WaterOrder>,
+    /// What a match must have; `None` for other goals.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub wanted: Option<Target>,
     /// The lean that a top promises, degrees, zero if it is waived. `None` for other goals, and in
     /// kits of older versions.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -125,6 +128,7 @@ impl Aim {
             axis,
             rotor: None,
             water: None,
+            wanted: None,
             least_lean_deg: None,
             least_angle_deg: None,
         }

@@ -3,9 +3,12 @@
 use rayon::prelude::*;
 
 use super::{Evidence, PartEvidence, Shells};
-use crate::geom::Point;
+use crate::geom::{Bvh, Point};
 use crate::mesh::{MeshDistance, TriMesh};
 use crate::repair::weld;
+
+/// Distance outside, mm, above which it is asked whether a point is.
+const DOUBTFUL_MM: f64 = 1e-3;
 
 /// Facts about the regions of one density inside of regions of another.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -39,7 +42,13 @@ fn of_part(part: &PartEvidence) -> Vec<RegionFacts> {
 /// Returns how far the corners and the middles of a region's triangles are outside of another, mm.
 fn outside_mm(around: &TriMesh, region: &TriMesh) -> f64 {
     let distance = MeshDistance::new(around);
-    let outside = |p: &Point| -distance.signed(p);
+    let tree = Bvh::new(around.iter_corners());
+    // Beside a sliver the sign of a distance is rounding, and the winding number is not.
+    let is_inside = |p: &Point| tree.winding(p) > 0;
+    let outside = |p: &Point| match -distance.signed(p) {
+        outside_mm if outside_mm > DOUBTFUL_MM && is_inside(p) => 0.0,
+        outside_mm => outside_mm,
+    };
     let corners = region.vertices().par_iter().map(outside);
     let middles: Vec<Point> = region
         .iter_corners()

@@ -6,12 +6,10 @@ use super::{
     PromisedVoid, VoidFacts,
 };
 
-/// The process whose voids drain, and need a vent for air.
-const VAT: &str = "sla";
-
 /// Checks that every drain hole is as free as stated and leads to its void; `None` without any.
 pub(super) fn holes_check(holes: &[HoleFacts]) -> Option<Check> {
     let lack_mm = |hole: &HoleFacts| match hole.void {
+        Some(_) if !hole.is_apart => hole.diameter_mm,
         Some(_) => (hole.diameter_mm - hole.free_mm).max(0.0),
         None => hole.diameter_mm,
     };
@@ -19,6 +17,7 @@ pub(super) fn holes_check(holes: &[HoleFacts]) -> Option<Check> {
     let narrow = holes.iter().filter(|hole| lack_mm(hole) > HOLE_LIMIT_MM);
     let narrow: Vec<String> = narrow
         .map(|hole| match hole.void {
+            Some(_) if !hole.is_apart => format!("{}: the same as another hole", hole.id),
             Some(_) => format!("{}: {:.2} mm free", hole.id, hole.free_mm),
             None => format!("{}: leads to no void", hole.id),
         })
@@ -32,7 +31,7 @@ pub(super) fn holes_check(holes: &[HoleFacts]) -> Option<Check> {
 /// Returns the check of a void that stays in one piece: holes wide enough, and for a liquid two.
 fn drained_checks(promise: &Promise, cleaning: &Cleaning, void: &VoidFacts) -> Vec<Check> {
     let least_mm = promise.printer.minimum_opening_mm.unwrap_or(0.0);
-    let open = match is_liquid(promise) {
+    let open = match promise.drains_liquid() {
         false => opening_check(void, cleaning.pair_opening_mm, least_mm),
         true => {
             let second_mm = void.openings_mm.first().and_then(|widths| widths.get(1));
@@ -57,16 +56,6 @@ fn drained_checks(promise: &Promise, cleaning: &Cleaning, void: &VoidFacts) -> V
         Check::new(kind, &words, Some(void.sight_ratio), limit)
     });
     std::iter::once(open).chain(reached).collect()
-}
-
-/// Returns whether a liquid drains from the voids.
-fn is_liquid(promise: &Promise) -> bool {
-    promise.printer.process.as_deref() == Some(VAT)
-}
-
-/// Returns whether holes empty a void of this process: what is broken or dug out needs sight.
-fn can_drain(promise: &Promise, cleaning: &Cleaning) -> bool {
-    !cleaning.rule.needs_sight() || is_liquid(promise)
 }
 
 /// The most by which a region may stick out of the one around it, mm: the rounding of files, and
@@ -113,7 +102,7 @@ pub(super) fn void_checks(promise: &Promise, found: &[VoidFacts]) -> Vec<Check> 
     let mut checks = Vec::new();
     for (index, void) in found.iter().enumerate() {
         let is_drained = promise.drains.iter().any(|hole| hole.void == void.id);
-        if is_drained && can_drain(promise, &cleaning) {
+        if is_drained && promise.can_drain(&cleaning) {
             checks.extend(drained_checks(promise, &cleaning, void));
             continue;
         }

@@ -89,17 +89,29 @@ impl Cavity {
         frame: &Frame,
         watch: &Watch,
     ) -> Result<Voids, VoidError> {
+        let parts = self.region(quadric, frame, watch)?;
+        split_into_voids(&parts, self.min_void_mm, watch)
+    }
+
+    /// Returns all of the cavity in which `quadric` is positive, as voids are drawn, in model
+    /// coordinates. Nothing is too small, and cores within it stay what they are: they do not float
+    /// where infill is laid.
+    pub fn region(
+        &self,
+        quadric: &Quadric,
+        frame: &Frame,
+        watch: &Watch,
+    ) -> Result<TriMesh, VoidError> {
         let canvas = Canvas {
             body: &self.bvh,
             tolerance_mm: self.quadric_tolerance_mm,
             watch,
         };
-        let parts = match positive_region(quadric, frame, canvas)? {
+        Ok(match positive_region(quadric, frame, canvas)? {
             Region::Nothing => TriMesh::default(),
             Region::Everything => self.mesh.clone(),
             Region::Part(region) => self.body.intersect(&region)?.to_mesh()?,
-        };
-        split_into_voids(&parts, self.min_void_mm, watch)
+        })
     }
 
     /// Returns the cavity with a coarse surface, which strays by at most `stray_mm` more. It is for

@@ -3,9 +3,10 @@
 
 use clap::Args;
 
-use super::values::{angle, grade, mass, speed};
+use super::values::{angle, grade, mass, numbers, speed};
 use crate::base::units::Length;
-use crate::goal::{Hardware, Liquid, Rod, Rotor, TipChoice, Water, Waterline};
+use crate::goal::{Hardware, Liquid, Rod, Rotor, Target, TipChoice, Water, Waterline};
+use crate::job::Like;
 
 /// The arguments of the goal balance.
 #[derive(Debug, Clone, Args)]
@@ -59,6 +60,60 @@ impl WaterArgs {
         Some(Water {
             liquid: self.liquid.unwrap_or(known.liquid),
             waterline: self.waterline.unwrap_or(known.waterline),
+        })
+    }
+}
+
+/// The arguments of the goal match.
+#[derive(Debug, Clone, Args)]
+#[command(next_help_heading = "Goal")]
+pub struct MatchArgs {
+    /// The mass that a match must have, in g; with its centre and inertia
+    #[arg(
+        long,
+        value_name = "G",
+        value_parser = mass,
+        allow_hyphen_values = true,
+        requires_all = ["center", "inertia"]
+    )]
+    pub mass: Option<f64>,
+    /// The centre of mass that a match must have, in mm of the scaled model
+    #[arg(
+        long,
+        value_name = "X,Y,Z",
+        value_parser = numbers::<3>,
+        allow_hyphen_values = true,
+        requires_all = ["mass", "inertia"]
+    )]
+    pub center: Option<[f64; 3]>,
+    /// The inertia tensor that a match must have about its centre of mass, in g·mm² and in the
+    /// axes of the model: XX,YY,ZZ,XY,XZ,YZ. Entries off the diagonal have the signs of the tensor
+    #[arg(
+        long,
+        value_name = "XX,YY,ZZ,XY,XZ,YZ",
+        value_parser = numbers::<6>,
+        allow_hyphen_values = true,
+        requires_all = ["mass", "center"]
+    )]
+    pub inertia: Option<[f64; 6]>,
+    /// Match the body in this file at this density in g/cm³, such as original.stl@2.70
+    ///
+    /// It has the axes of the model and is scaled as the model.
+    #[arg(
+        long,
+        value_name = "FILE@DENSITY",
+        conflicts_with_all = ["mass", "center", "inertia"]
+    )]
+    pub like: Option<Like>,
+}
+
+impl MatchArgs {
+    /// Returns the mass properties that were typed; `None` if none were.
+    pub(super) fn target(&self) -> Option<Target> {
+        Some(Target {
+            mass_g: self.mass?,
+            center_mm: self.center?,
+            inertia_g_mm2: self.inertia?,
         })
     }
 }

@@ -98,7 +98,7 @@ mod tests {
         assert!(missing.is_any());
         let said = missing.to_string();
         for words in [
-            "top|yoyo|stand|float|balance",
+            "top|yoyo|stand|float|balance|match",
             "--printer ID",
             "printers list",
         ] {

@@ -6,6 +6,7 @@ mod beside;
 mod core_kit;
 mod cut;
 mod cutters;
+mod decided;
 mod error;
 mod field;
 mod goal;

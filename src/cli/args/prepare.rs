@@ -8,8 +8,9 @@ use clap::Args;
 use super::ballast::BallastArgs;
 use super::beside::copy_beside;
 use super::cut::{CutArg, CutArgs};
+use super::decided::DECIDED_BY_JOB;
 use super::error::ArgsError;
-use super::goal::{HardwareArgs, PromiseArgs, RotorArgs, WaterArgs};
+use super::goal::{HardwareArgs, MatchArgs, PromiseArgs, RotorArgs, WaterArgs};
 use super::missing::Missing;
 use super::scaling::ScalingArgs;
 use super::values::{EXIT_CODES, GoalReader, PREPARE_EXAMPLES, words};
@@ -40,10 +41,10 @@ pub struct PrepareArgs {
     #[arg(value_name = "MODEL")]
     pub model: Option<PathBuf>,
 
-    /// What it does: top, yoyo, stand, float or balance
+    /// What it does: top, yoyo, stand, float, balance or match
     ///
     /// A top spins on the table, a yo-yo freely about an axis. A rotor in balance runs true on its
-    /// shaft.
+    /// shaft. A match handles like another body (--like, or --mass, --center and --inertia).
     #[arg(long, value_parser = GoalReader, hide_possible_values = true, help_heading = FIRST)]
     pub goal: Option<GoalKind>,
     /// A printer's id, or a profile file
@@ -114,8 +115,8 @@ pub struct PrepareArgs {
     pub spin_point: Option<SpinPoint>,
     /// The quantity to optimise [default: the first of its goal]. Top: critical-speed, spin-it.
     /// Yoyo: spin-it, dominance. Stand: toppling-angle, lowest-center. Float: metacentric-height.
-    /// Balance: least-removed, least-unbalance. Spin-It's functional takes two weights, that of a
-    /// low centre first: spin-it:γc,γI [default: 1,1]
+    /// Balance: least-removed, least-unbalance. Match: least-change. Spin-It's functional takes two
+    /// weights, that of a low centre first: spin-it:γc,γI [default: 1,1]
     #[arg(
         long,
         value_name = "OBJECTIVE",
@@ -132,6 +133,9 @@ pub struct PrepareArgs {
     /// The liquid and the waterline.
     #[command(flatten)]
     pub water: WaterArgs,
+    /// The body that a match is like.
+    #[command(flatten)]
+    pub like: MatchArgs,
     /// The hardware.
     #[command(flatten)]
     pub hardware: HardwareArgs,
@@ -187,55 +191,6 @@ pub struct PrepareArgs {
 
 /// Number of plans that the command for plans writes.
 pub const DEFAULT_PLANS: u8 = 3;
-
-/// The arguments that a replayed job decides.
-const DECIDED_BY_JOB: [&str; 45] = [
-    "slicer",
-    "printer",
-    "material",
-    "wall",
-    "thicken",
-    "no_model",
-    "goal",
-    "up",
-    "contact",
-    "spin_point",
-    "objective",
-    "least_lean",
-    "least_angle",
-    "speed",
-    "grade",
-    "bore",
-    "liquid",
-    "waterline",
-    "string_gap",
-    "axle",
-    "hardware_mass",
-    "tip",
-    "stem",
-    "size",
-    "scale",
-    "unit",
-    "pitch",
-    "cut",
-    "drain",
-    "seam",
-    "keep_clear",
-    "least_part",
-    "pins",
-    "ids",
-    "effort",
-    "joint_price",
-    "format",
-    "ballast",
-    "fill",
-    "interior",
-    "density",
-    "infill",
-    "levels",
-    "keep",
-    "repair",
-];
 
 /// The order for `prepare`: the job, and the target of its kit.
 #[derive(Debug, Clone, PartialEq)]
@@ -349,19 +304,24 @@ impl PrepareArgs {
             ballast: self.load.ballast.unwrap_or(default.ballast),
             fill: self.load.fill,
             repair: self.repair.unwrap_or_default(),
+            like: self.like.like,
             ..default
         })
     }
 
     fn goal(&self, kind: GoalKind) -> Result<goal::Request, ArgsError> {
         let default = goal::Request::new(kind);
+        let is_match = kind == GoalKind::Match;
         let request = goal::Request {
-            up: self.up.unwrap_or(Up::Natural),
+            up: self
+                .up
+                .unwrap_or(if is_match { default.up } else { Up::Natural }),
             contact: self.contact.or(default.contact),
             spin_point: self.spin_point.or(default.spin_point),
             objective: self.objective.unwrap_or(default.objective),
             rotor: self.rotor.or_default(default.rotor),
             water: self.water.or_default(default.water),
+            target: self.like.target(),
             hardware: self.hardware.order(),
             tip: self.hardware.tip.unwrap_or(default.tip),
             least_lean_deg: self.promises.least_lean.unwrap_or(default.least_lean_deg),

@@ -7,7 +7,7 @@ use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::error::ErrorKind;
 use clap::{Arg, Command};
 
-use crate::base::words::ChoiceError;
+use crate::base::words::{ChoiceError, parse_numbers};
 use crate::goal::GoalKind;
 
 /// The commands that the list leaves out, for the long help.
@@ -142,8 +142,28 @@ pub(super) fn mass(text: &str) -> Result<f64, NumberError> {
     mass.read(text)
 }
 
+/// Reads finite numbers between commas.
+pub(super) fn numbers<const N: usize>(text: &str) -> Result<[f64; N], NumbersError> {
+    let read =
+        parse_numbers(text).filter(|numbers: &[f64; N]| numbers.iter().all(|n| n.is_finite()));
+    read.ok_or_else(|| NumbersError {
+        text: text.to_owned(),
+        count: N,
+    })
+}
+
+/// A text that is not as many numbers as are needed.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("`{text}` is not {count} numbers; remedy: give {count} with commas between, and no blanks")]
+pub struct NumbersError {
+    text: String,
+    count: usize,
+}
+
 /// Words that people say for a goal, and the goals they may mean.
-const GOAL_HINTS: [(&str, &str); 12] = [
+const GOAL_HINTS: [(&str, &str); 14] = [
+    ("dummy", "match"),
+    ("like", "match"),
     ("spin", "top or yoyo"),
     ("spins", "top or yoyo"),
     ("spinner", "top or yoyo"),

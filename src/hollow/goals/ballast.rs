@@ -107,6 +107,7 @@ pub fn least_ballast(
         ),
         (GoalKind::Float, _) => search.least_to_float(problem.goal.afloat?),
         (GoalKind::Balance, _) => search.least_to_balance(&problem.goal.spindle?),
+        (GoalKind::Match, _) => None,
     }?;
     search.ballast(&candidate)
 }

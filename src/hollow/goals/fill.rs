@@ -136,6 +136,9 @@ pub(super) fn scaled(goal: &Goal, factor: f64) -> Goal {
     if let Some(afloat) = &mut goal.afloat {
         afloat.material_mm3 *= factor;
     }
+    if let Some(wanted) = &mut goal.wanted {
+        wanted.moments = wanted.moments * factor;
+    }
     goal
 }
 

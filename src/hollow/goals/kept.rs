@@ -12,30 +12,28 @@
 //! least change: those that the answer before broke. A bound of the few holds for all. Source:
 //! Kelley, "The cutting-plane method for solving convex programs", J. SIAM 8, 1960.
 
+use super::cone::{Cone, at_most, excess, quadric};
 use crate::base::units::STANDARD_GRAVITY_MM_S2;
 use crate::base::verdict::Verdict;
-use crate::geom::Quadric;
 use crate::goal::{Goal, GoalKind, Objective, compute_figures};
 use crate::hollow::golden::golden_section;
-use crate::hollow::graded::{Row, Sense, Separation};
+use crate::hollow::graded::{Row, Separation};
 use crate::hollow::levels::LevelChange;
 use crate::mass::Moments;
 
 // Places among the ten moments.
 const ONE: usize = 0;
 const Z: usize = 3;
-const XY: usize = 4;
-const XX: usize = 7;
-const YY: usize = 8;
-const ZZ: usize = 9;
 
 /// Share of the best figure that tops and yo-yos keep if nothing is ordered. Without it a top near
 /// its wished infill may spin at no speed that fingers reach.
 const USUAL_SHARE: f64 = 0.8;
+/// Share of the best margin of dominance that is kept where another figure is the objective.
+const LEAST_MARGIN: f64 = 0.2;
 /// Excess of a row, in units of the body, up to which it counts as met.
 const MET: f64 = 1e-7;
 /// Rounds of rows; five to eight are typical.
-const MOST_ROUNDS: usize = 40;
+const MOST_ROUNDS: usize = 16;
 /// Rounds of the search for a height: they leave a hundredth of the range.
 const HEIGHT_ROUNDS: usize = 9;
 
@@ -77,14 +75,6 @@ struct Spin {
     best: Moments,
 }
 
-/// A function of the moments that is not positive where a limit is kept.
-#[derive(Debug, Clone, Copy)]
-struct Cone {
-    /// Weights of s_z, I_zz and of the convex part.
-    weights: [f64; 3],
-    is_norm: bool,
-}
-
 /// A least change, and the rows that hold its limits.
 struct Held {
     change: LevelChange,
@@ -103,7 +93,7 @@ pub(in crate::hollow) fn keeps_figure(goal: &Goal, share: Option<f64>) -> bool {
     match goal.kind {
         GoalKind::Top | GoalKind::Yoyo => true,
         GoalKind::Stand => share.is_some(),
-        GoalKind::Float | GoalKind::Balance => false,
+        GoalKind::Float | GoalKind::Balance | GoalKind::Match => false,
     }
 }
 
@@ -302,10 +292,15 @@ impl Spin {
         });
         let weighs_lever = weights.is_some_and(|(gamma_c, _)| is_top && gamma_c > 0.0);
         let speed = figures.critical_speed_rpm.filter(|_| weights.is_none());
+        // What is asked is the objective. Another figure keeps what a stable spin needs.
+        let kept_margin = match goal.objective {
+            Objective::Dominance => share,
+            _ => LEAST_MARGIN,
+        };
         let to_rad_s = std::f64::consts::TAU / 60.0;
         Self {
             speed: speed.map(|rpm| (rpm * to_rad_s / share).powi(2)),
-            dominance: 1.0 - share * (1.0 - figures.dominance_ratio),
+            dominance: 1.0 - kept_margin * (1.0 - figures.dominance_ratio),
             flatness,
             lever: weighs_lever.then_some(best.0[Z]),
             best_mm: is_top.then_some(figures.center_height_mm),
@@ -341,68 +336,12 @@ impl Spin {
     }
 }
 
-impl Cone {
-    /// Returns the linear function that touches it at some moments, as a row.
-    fn row_at(&self, moments: &Moments, height_mm: f64) -> Row {
-        let [about_x, across, about_y] = tensor(moments, height_mm);
-        let [p, q, r] = if self.is_norm {
-            let norm = (about_x.powi(2) + 2.0 * across.powi(2) + about_y.powi(2)).sqrt();
-            [about_x, 2.0 * across, about_y].map(|x| x / norm.max(f64::MIN_POSITIVE))
-        } else {
-            let (sin, cos) = (0.5 * (2.0 * across).atan2(about_x - about_y)).sin_cos();
-            [cos * cos, 2.0 * cos * sin, sin * sin]
-        };
-        let [lever, axial, convex] = self.weights;
-        let both = convex * (p + r);
-        at_most(quadric(&[
-            (ONE, both * height_mm * height_mm),
-            (Z, lever - 2.0 * both * height_mm),
-            (XY, -convex * q),
-            (XX, axial + convex * r),
-            (YY, axial + convex * p),
-            (ZZ, both),
-        ]))
-    }
-}
-
-/// Returns I'_xx, I_xy and I'_yy about a point of the axis at a height, mm⁵.
-fn tensor(moments: &Moments, height_mm: f64) -> [f64; 3] {
-    let [volume, _, _, z, xy, _, _, xx, yy, zz] = moments.0;
-    let across = zz - 2.0 * height_mm * z + height_mm * height_mm * volume;
-    [yy + across, -xy, xx + across]
-}
-
-fn quadric(terms: &[(usize, f64)]) -> Quadric {
-    let mut quadric = Quadric([0.0; 10]);
-    for &(index, coefficient) in terms {
-        quadric.0[index] += coefficient;
-    }
-    quadric
-}
-
-fn at_most(quadric: Quadric) -> Row {
-    Row {
-        quadric,
-        wanted: 0.0,
-        sense: Sense::AtMost,
-    }
-}
-
-/// Returns by how much moments break a row, over the size of its terms.
-fn excess(row: &Row, moments: &Moments) -> f64 {
-    let terms = row.quadric.0.iter().zip(moments.0);
-    let (sum, size) = terms.fold(
-        (-row.wanted, row.wanted.abs()),
-        |(sum, size), (c, moment)| (sum + c * moment, size + (c * moment).abs()),
-    );
-    sum / size.max(f64::MIN_POSITIVE)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::base::watch::Watch;
     use crate::field::DensityRange;
+    use crate::hollow::goals::cone::{XX, YY, tensor};
     use crate::hollow::worlds::{self, World};
     use crate::hollow::{Fill, NearWished, PrintLevels};
 

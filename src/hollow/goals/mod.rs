@@ -1,11 +1,14 @@
 //! The goals with one or two programmes each, the least ballast, filled voids, two
-//! densities and levels near a wished one.
+//! densities, levels near a wished one, and the match.
 
 pub(crate) mod balance;
 pub(crate) mod ballast;
+mod cone;
 pub(crate) mod fill;
 pub(crate) mod float;
+mod found;
 pub(crate) mod kept;
+pub(crate) mod matching;
 pub(crate) mod near;
 pub(crate) mod stand;
 pub(crate) mod two;

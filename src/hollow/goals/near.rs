@@ -3,17 +3,16 @@
 //! The goal counts with its equations and with what it promises of its stand, each a linear row.
 //! Tops and yo-yos keep a share of their best figure too, and the others where that is ordered.
 
-use nalgebra::DVector;
-
+use super::found::{Found, solution};
 use super::kept::{Kept, KeptChange, keeps_figure};
+use super::matching;
 use crate::base::verdict::Verdict;
 use crate::base::watch::Watch;
 use crate::geom::Quadric;
 use crate::goal::{Goal, GoalKind, Objective};
-use crate::hollow::dual::programme::DualPoint;
 use crate::hollow::graded::{Graded, Row, Sense, Separation};
 use crate::hollow::levels::{PrintLevels, least_level_change};
-use crate::hollow::solution::{Certificate, Figure, Solution, Warm};
+use crate::hollow::solution::{Certificate, Figure, Solution};
 use crate::hollow::status::{Obstacle, Status};
 use crate::hollow::{Fill, Problem};
 use crate::interior::moments_where_positive;
@@ -63,21 +62,37 @@ impl NearWished {
         };
         let angle_rad = kept.as_ref().map_or(0.0, Kept::angle_rad);
         let rows = rows(problem.goal, self.least_angle_rad.max(angle_rad));
+        let graded = Graded {
+            shell: problem.fixed - problem.columns.moments(),
+            columns: problem.columns,
+            rows: &rows,
+        };
         let least = |rows: &[Row]| {
-            let graded = Graded {
-                rows,
-                ..self.graded(problem)
-            };
-            least_level_change(&graded, &self.levels, self.wished)
+            let graded = Graded { rows, ..graded };
+            // A stopped run has no answer: the caller asks the watch.
+            match watch.check() {
+                Ok(()) => least_level_change(&graded, &self.levels, self.wished),
+                Err(_) => Verdict::No(Separation {
+                    weights: Vec::new(),
+                    quadric: Quadric([0.0; 10]),
+                }),
+            }
         };
         let found = match kept {
             Some(kept) => kept.least_change(&rows, least),
             None => least(&rows).map(|change| Some(KeptChange { change, kept: None })),
         };
         match found {
-            Verdict::Found(Some(found)) => solved(problem, found),
+            Verdict::Found(Some(found)) => {
+                let unmet = Some(found.change.residual).filter(|residual| *residual > NEARLY_MET);
+                let proof = unmet.and_then(|_| matching::proof(&graded, self.levels.range()));
+                proof.map_or_else(
+                    || solved(problem, found),
+                    |proof| self.refused(problem, &graded, &proof),
+                )
+            }
             Verdict::Found(None) => unsettled(problem),
-            Verdict::No(proof) => self.refused(problem, &proof),
+            Verdict::No(proof) => self.refused(problem, &graded, &proof),
         }
     }
 
@@ -102,29 +117,19 @@ impl NearWished {
         Verdict::Found(Some(Kept::of(problem.goal, &best.moments, self.keep)))
     }
 
-    /// Returns the body without rows.
-    fn graded<'a>(&self, problem: &Problem<'a>) -> Graded<'a> {
-        Graded {
-            shell: problem.fixed - problem.columns.moments(),
-            columns: problem.columns,
-            rows: &[],
-        }
-    }
-
     /// Returns the values of minus the quadric between the levels, ascending.
     pub fn cuts(&self) -> Vec<f64> {
         let middle = |pair: &[f64]| 0.5 * (pair[0] + pair[1]) - self.wished;
         self.levels.densities().windows(2).map(middle).collect()
     }
 
-    fn refused(&self, problem: &Problem, proof: &Separation) -> Solution {
-        let graded = self.graded(problem);
+    fn refused(&self, problem: &Problem, graded: &Graded, proof: &Separation) -> Solution {
         let range = self.levels.range();
         let columns = problem.columns;
         let sum = |moments: &Moments| dot(&proof.quadric, moments);
         let densest = sum(&graded.shell) + range.high() * sum(&columns.moments());
         let most = range.span() * sum(&moments_where_positive(columns, &proof.quadric));
-        let status = Status::ConstraintsInfeasible {
+        let unmet = || Status::ConstraintsInfeasible {
             obstacle: match (problem.goal.kind, problem.goal.objective) {
                 (GoalKind::Stand, Objective::LowestCenter) => Obstacle::Center,
                 (GoalKind::Stand, _) => Obstacle::Tilt,
@@ -133,6 +138,10 @@ impl NearWished {
             // The rows are of unit length for a body of unit volume.
             least_miss: (densest - most) / problem.fixed.volume(),
             separator: proof.quadric,
+        };
+        let status = match problem.goal.kind {
+            GoalKind::Match => matching::refused(graded, range, proof.quadric),
+            _ => unmet(),
         };
         let certificate = Certificate {
             figure: Figure::InfillChange,
@@ -155,16 +164,6 @@ impl NearWished {
             },
         )
     }
-}
-
-/// The parts of a solution that differ from case to case.
-struct Found {
-    status: Status,
-    quadric: Quadric,
-    certificate: Certificate,
-    moments: Moments,
-    passes: usize,
-    kept: Option<Kept>,
 }
 
 /// Returns the answer of a search that found no densities, and no proof that there are none.
@@ -229,37 +228,6 @@ fn solved(problem: &Problem, found: KeptChange) -> Solution {
     )
 }
 
-fn solution(problem: &Problem, found: Found) -> Solution {
-    let Found {
-        status,
-        quadric,
-        certificate,
-        moments,
-        passes,
-        kept,
-    } = found;
-    Solution {
-        status,
-        objective: problem.goal.objective,
-        quadric,
-        certificate,
-        moments,
-        passes,
-        log: Vec::new(),
-        course: Vec::new(),
-        warm: Warm {
-            point: DualPoint {
-                y: DVector::zeros(0),
-                lambda: DVector::zeros(0),
-                tau: 0.0,
-            },
-            height: None,
-            lever: None,
-            kept,
-        },
-    }
-}
-
 fn dot(quadric: &Quadric, moments: &Moments) -> f64 {
     let pairs = quadric.0.iter().zip(moments.0);
     pairs
@@ -270,7 +238,7 @@ fn dot(quadric: &Quadric, moments: &Moments) -> f64 {
 /// Returns the rows of a goal: its equations, and for what stands the tilt that it must bear.
 ///
 /// A tilt about an edge of the support is borne while the centre is far enough inside of it for its
-/// height. Floating objects have no rows.
+/// height. Floating objects have no rows, a match has one for each moment.
 pub fn rows(goal: &Goal, least_angle_rad: f64) -> Vec<Row> {
     let zero = |index: usize| {
         Row::zero(Quadric(std::array::from_fn(|i| {
@@ -283,6 +251,7 @@ pub fn rows(goal: &Goal, least_angle_rad: f64) -> Vec<Row> {
         GoalKind::Stand if goal.objective == Objective::LowestCenter => [X, Y].map(zero).to_vec(),
         GoalKind::Stand => edge_rows(&goal.support, least_angle_rad),
         GoalKind::Float => Vec::new(),
+        GoalKind::Match => matching::rows(goal),
     }
 }
 

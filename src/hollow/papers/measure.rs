@@ -58,7 +58,10 @@ pub(super) fn value_of(problem: &Problem, moments: &Moments) -> f64 {
         Objective::Dominance => Some(figures.dominance_ratio),
         Objective::TopplingAngle => figures.toppling_angle_rad,
         Objective::LowestCenter => Some(figures.center_height_mm),
-        Objective::MetacentricHeight | Objective::LeastRemoved | Objective::LeastUnbalance => None,
+        Objective::MetacentricHeight
+        | Objective::LeastRemoved
+        | Objective::LeastUnbalance
+        | Objective::LeastChange => None,
     };
     value.unwrap_or(f64::NAN)
 }

@@ -45,7 +45,7 @@ impl Formula {
                 Err(MethodError::NotSmooth { method, objective })
             }
             (GoalKind::Stand, _) => Ok(Self::StandLowestCenter),
-            (kind @ (GoalKind::Float | GoalKind::Balance), _) => {
+            (kind @ (GoalKind::Float | GoalKind::Balance | GoalKind::Match), _) => {
                 Err(MethodError::NotItsGoal { method, kind })
             }
         }

@@ -31,6 +31,7 @@ impl World {
             support: Vec::new(),
             spindle: None,
             afloat: None,
+            wanted: None,
             solid: fixed,
         };
         Self {

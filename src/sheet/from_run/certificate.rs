@@ -4,7 +4,7 @@ use super::facts::Facts;
 use super::figures::{figure_name, in_sheet_unit};
 use super::joints::bosses_mm3;
 use super::voids::cleaning_rows;
-use crate::goal::{Objective, compute_figures};
+use crate::goal::{GoalKind, Objective, compute_figures};
 use crate::hollow;
 use crate::run::HeightProof;
 use crate::sheet::{Certificate, Course, LogRow, PassRow, SpeedRow};
@@ -80,11 +80,10 @@ fn course(found: &hollow::TopCourse, convert: impl Fn(f64) -> f64) -> Option<Cou
         height_mm,
         critical_speed_rpm,
     };
-    let (passes, speeds) = (
-        found.passes.iter().map(pass).collect(),
-        found.speeds.iter().map(speed).collect(),
-    );
-    (!found.passes.is_empty()).then_some(Course { passes, speeds })
+    let is_finite = |row: &PassRow| row.value.is_finite() && row.bound.is_finite();
+    let passes: Vec<PassRow> = found.passes.iter().map(pass).filter(is_finite).collect();
+    let speeds = found.speeds.iter().map(speed).collect();
+    (!passes.is_empty()).then_some(Course { passes, speeds })
 }
 
 /// Returns the certificate's figure of the written assembly. Spin-It's functional has the weights
@@ -93,6 +92,12 @@ fn written_value(facts: &Facts, figure: FigureName) -> Option<f64> {
     let (placed, goal) = (facts.placed, &facts.placed.placement.goal);
     if figure != FigureName::SpinItRatio {
         return facts.judgement.assembly.value_of(figure);
+    }
+    if placed.sparse.is_some() {
+        // Its regions weigh too, as the judge knows.
+        let is_flatness = goal.kind == GoalKind::Yoyo;
+        let judged = facts.judgement.assembly.value_of(figure);
+        return judged.filter(|_| is_flatness);
     }
     let joined = placed.joining_moments(&facts.made.plan);
     let beside = joined + placed.hardware_moments() + placed.laid_beyond();

@@ -15,6 +15,7 @@ pub fn promised_figure(kind: GoalKind, objective: Objective) -> FigureName {
         (GoalKind::Stand, _) => FigureName::TopplesDeg,
         (GoalKind::Float, _) => FigureName::MetacentricHeightMm,
         (GoalKind::Balance, _) => FigureName::BalanceGradeMmS,
+        (GoalKind::Match, _) => FigureName::InfillChangeRatio,
     }
 }
 

@@ -8,7 +8,7 @@ use crate::ballast::{Load, PlacedPart};
 use crate::base::digest::sha256_hex;
 use crate::cut::{CutPlan, Label, PinSite};
 use crate::goal::Rotor;
-use crate::mesh::shells;
+use crate::mesh::{TriMesh, shells};
 use crate::repair::weld;
 use crate::run::{Made, Placed, WrittenPart, WrittenRegion};
 use crate::verify::{
@@ -104,6 +104,7 @@ pub fn aim(placed: &Placed) -> Aim {
     Aim {
         rotor,
         water,
+        wanted: placed.request.target,
         least_lean_deg: placed.request.promised_lean_deg(),
         least_angle_deg: placed.request.promised_angle_deg(),
         ..Aim::new(
@@ -208,13 +209,21 @@ fn infill_levels(placed: &Placed, regions: &[WrittenRegion]) -> Vec<InfillLevel>
         InfillLevel {
             nominal_ratio: level.nominal_ratio,
             laid_ratio: level.laid_ratio,
-            regions: shells(&weld(&region.mesh)).len(),
+            regions: bodies(&region.mesh),
             volume_mm3: volume_mm3(region),
             mass_g: level.laid_ratio * (volume_mm3(region) - within_mm3) * density_g_mm3,
             file: region.file.as_ref().map(|(file, _)| file.clone()),
         }
     };
     regions.iter().enumerate().map(row).collect()
+}
+
+/// Returns the number of bodies in a mesh; a denser core in one is no body of its own.
+fn bodies(mesh: &TriMesh) -> usize {
+    let shells = shells(&weld(mesh)).into_iter();
+    shells
+        .filter(|shell| shell.signed_volume_mm3() > 0.0)
+        .count()
 }
 
 /// Returns a label as the judge reads it.

@@ -4,12 +4,13 @@ use super::cause::{Cause, CauseKind};
 use super::judgement::PrintedJudgement;
 use super::limits::{
     CENTER_FROM_MM, CENTER_RATIO, INERTIA_RATIO, PRINTED_CENTER_LIMIT_MM, PRINTED_MASS_LIMIT_RATIO,
-    PRINTED_SKIN_MM, PRINTED_TILT_LIMIT_DEG,
+    PRINTED_MATCH_RATIO, PRINTED_SKIN_MM, PRINTED_TILT_LIMIT_DEG,
 };
 use super::part::PrintedPart;
 use crate::geom::Vector;
 use crate::goal::GoalKind;
 use crate::mass::Moments;
+use crate::verify::handling::{MatchLimits, Mismatch};
 use crate::verify::{
     Afloat, Aim, Check, CheckKind, DOMINANCE_LIMIT_RATIO, FIGURE_SLACK_RATIO, FigureName, Figures,
     Limit, METACENTRIC_LIMIT_MM, PromisedFigure, RIGHTING_LIMIT_DEG, STANDING_LIMIT_DEG,
@@ -128,6 +129,7 @@ impl Whole<'_> {
             GoalKind::Stand => vec![self.standing_check()],
             GoalKind::Float => self.floating_checks(),
             GoalKind::Balance => self.grade_check().into_iter().collect(),
+            GoalKind::Match => self.match_checks(),
         }
     }
 
@@ -219,6 +221,19 @@ impl Whole<'_> {
             self.toolpaths.value_of(FigureName::BalanceGradeMmS),
             Limit::at_most(order.grade_mm_s, "mm/s"),
         ))
+    }
+
+    /// Checks that the toolpaths handle like the wanted body, within the accuracy of slicers.
+    fn match_checks(&self) -> Vec<Check> {
+        let limits = MatchLimits {
+            mass_ratio: PRINTED_MASS_LIMIT_RATIO,
+            center_mm: PRINTED_CENTER_LIMIT_MM,
+            inertia_ratio: PRINTED_MATCH_RATIO,
+        };
+        let wanted = self.aim.wanted.iter();
+        wanted
+            .flat_map(|wanted| Mismatch::of(wanted, self.toolpaths).checks(limits))
+            .collect()
     }
 
     /// Checks the promised figure, with the slack that the accuracy of slicers gives it.

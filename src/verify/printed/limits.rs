@@ -22,6 +22,8 @@ pub(super) const CENTER_FROM_MM: f64 = 100.0;
 pub const PRINTED_TILT_LIMIT_DEG: f64 = 0.15;
 /// Error of a principal moment at equal mass, as a share of it.
 pub(super) const INERTIA_RATIO: f64 = 0.01;
+/// Error of an entry of a match's inertia tensor as a share of the trace, with that of the mass.
+pub(super) const PRINTED_MATCH_RATIO: f64 = PRINTED_MASS_LIMIT_RATIO + INERTIA_RATIO;
 /// The mean height of beads may differ from that of a layer by this share: the first layer is often
 /// higher. The next usual height differs by a quarter and more.
 pub(super) const LAYER_RATIO: f64 = 0.1;
