@@ -79,7 +79,9 @@ pub enum DrainError {
     /// A void has no place for its holes, and the goal needs it.
     #[error(
         "{voids} has no place for drain holes of {diameter_mm} mm where the wall is thin and about \
-         flat, and the goal needs it; remedy: a larger model (`{}`), or cut it open (`{}`)",
+         flat, and the goal needs it; remedy: the least holes that do (`{}`), a larger model \
+         (`{}`), or cut it open (`{}`)",
+        Setting::new(Key::Drain, DrainOrder::Auto),
         Setting::open(Key::Size),
         cut_open()
     )]

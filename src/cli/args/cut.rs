@@ -22,8 +22,8 @@ pub struct CutArgs {
     #[arg(long, value_name = "auto|never|FILE")]
     pub cut: Option<CutArg>,
     /// Drain the voids of a piece that is never cut: through holes of the least width that does
-    /// (auto), or of this diameter. Never leaves them closed. For powder, resin and wax [default:
-    /// auto]
+    /// (auto), or of this diameter. Never makes none, and what would stay closed is refused. For
+    /// powder, resin and wax [default: auto]
     #[arg(long, value_name = "auto|never|LENGTH", allow_hyphen_values = true)]
     pub drain: Option<DrainOrder>,
     /// Hollow the inside (hollow), or print one uncut piece whose inside is sparse infill where
@@ -41,8 +41,8 @@ pub struct CutArgs {
     /// The number of densities: 3 to 12 near an infill [default: 4], 2 without one
     #[arg(long, value_name = "N", allow_hyphen_values = true)]
     pub levels: Option<LevelCount>,
-    /// Keep this share of the best speed, angle or height near that infill, such as 95%. Tops and
-    /// yo-yos keep 80% if nothing is said
+    /// Keep this share of the best that is calculated near that infill, such as 95%: of a speed, an
+    /// angle or a height. Tops and yo-yos keep 80% if nothing is said
     #[arg(long, value_name = "PERCENT", allow_hyphen_values = true)]
     pub keep: Option<KeptShare>,
     /// Put seams where they are seen least (hidden), make them short (short), or only level ones

@@ -106,7 +106,9 @@ impl NearWished {
         if !keeps_figure(problem.goal, self.keep) {
             return Verdict::Found(None);
         }
-        let usable = known.filter(|known| known.is_usable());
+        // The best stand is found at once, and on these columns it is the better measure.
+        let is_quick = problem.goal.kind == GoalKind::Stand;
+        let usable = known.filter(|known| known.is_usable() && !is_quick);
         if let Some(kept) = usable.and_then(|known| known.warm.kept.clone()) {
             return Verdict::Found(Some(kept));
         }
