@@ -149,6 +149,47 @@ fn levels_near_a_wished_infill_bear_the_tilt_that_was_promised_and_change_little
 }
 
 #[test]
+fn near_a_wished_infill_the_share_of_the_best_that_is_ordered_is_kept() {
+    let folder = TempDir::new().unwrap();
+    let reached = |options: &str, figure: &str| {
+        let output = prepare(&folder.path().join("kit"), &format!("{options} --force"));
+        assert_exit(&output, 0);
+        number(&json(&output), figure)
+    };
+    let stand = |more: &str| {
+        let options = format!("{SMALL} --density 15%..70% {more}");
+        reached(&options, "/assembly/topples_deg")
+    };
+    let [best, kept, free] = [
+        "",
+        "--infill 40% --levels 3 --keep 90%",
+        "--infill 40% --levels 3",
+    ]
+    .map(stand);
+    // What drawing the regions costs, the best lost as well.
+    assert!(kept > 0.99 * 0.9 * best && kept < best, "{kept} of {best}");
+    assert!(free < 0.6 * best, "{free} of {best}");
+    let top = |more: &str| {
+        let options = format!(
+            "--goal top --up z --contact center --printer prusa-mk4 --size 40mm --pitch 0.4mm \
+             --interior graded {more}"
+        );
+        reached(&options, "/assembly/critical_speed_rpm")
+    };
+    let [best, kept, usual] = [
+        "",
+        "--infill 50% --levels 3 --keep 95%",
+        "--infill 50% --levels 3",
+    ]
+    .map(top);
+    assert!(kept < 1.01 * best / 0.95 && kept > best, "{kept} of {best}");
+    assert!(
+        usual < 1.01 * best / 0.8 && usual > kept,
+        "{usual} of {best}"
+    );
+}
+
+#[test]
 fn the_kits_own_job_makes_the_same_bytes() {
     let folder = TempDir::new().unwrap();
     let again = folder.path().join("again");
@@ -215,8 +256,10 @@ fn densities_that_mean_nothing_are_refused_with_the_place_and_what_to_type() {
         ("--density 5%..60%", "5%", "--density=15%..60%"),
         ("--infill 40", "--infill", "with the sign"),
         ("--infill 10%", "--infill=10%", "--density"),
-        ("--infill 40% --levels 2", "--levels", "3 to 12"),
-        ("--infill 40% --levels 13", "--levels", "3 to 12"),
+        ("--infill 40% --levels 2", "--infill=40%", "--levels=3"),
+        ("--infill 40% --levels 13", "--levels", "2 to 12"),
+        ("--infill 40% --keep 100%", "--keep", "1% to 99%"),
+        ("--keep 90%", "--keep=90%", "--infill=40%"),
         (
             "--infill 40% --levels smooth",
             "--levels",
