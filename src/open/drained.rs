@@ -68,7 +68,7 @@ pub fn drained<'a>(
 /// Places the holes of a piece again, whose voids have changed.
 ///
 /// # Errors
-/// As [`drained`].
+/// No hole empties the voids of this printer or goal, or a boolean failed.
 pub fn drain_again(
     placed: &Placed,
     voids: &Voids,
