@@ -69,11 +69,7 @@ fn prepare(out: &Path, options: &str) -> Output {
 
 /// Prepares a job that is refused; returns what was said.
 fn refuse(options: &str) -> String {
-    let folder = TempDir::new().unwrap();
-    let output = prepare(&folder.path().join("kit"), options);
-    assert_exit(&output, 2);
-    assert!(!folder.path().join("kit").exists());
-    printed(&output)
+    common::refused(|kit| prepare(kit, options))
 }
 
 /// Returns a part of a package as text.

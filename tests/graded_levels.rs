@@ -14,7 +14,9 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use std::sync::OnceLock;
 
-use common::{ELLIPSOID, assert_exit, equipoise, files, json, list, number, path, printed, words};
+use common::{
+    ELLIPSOID, assert_exit, equipoise, files, json, levels, list, number, path, printed, words,
+};
 use serde_json::Value;
 use tempfile::TempDir;
 
@@ -73,21 +75,7 @@ fn prepare(out: &Path, options: &str) -> Output {
 
 /// Prepares a job that is refused; returns what was said.
 fn refuse(options: &str) -> String {
-    let folder = TempDir::new().unwrap();
-    let output = prepare(&folder.path().join("kit"), options);
-    assert_exit(&output, 2);
-    assert!(!folder.path().join("kit").exists());
-    printed(&output)
-}
-
-/// Returns the regions of a sheet, the outermost first.
-fn levels(sheet: &Value) -> Vec<Value> {
-    let outermost = sheet["infill"].clone();
-    let inner = sheet["infill"]["inner"]
-        .as_array()
-        .cloned()
-        .unwrap_or_default();
-    std::iter::once(outermost).chain(inner).collect()
+    common::refused(|kit| prepare(kit, options))
 }
 
 #[test]

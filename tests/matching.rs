@@ -14,8 +14,8 @@ use std::process::Output;
 use std::sync::OnceLock;
 
 use common::{
-    ELLIPSOID, assert_exit, equipoise, equipoise_in, files, json, list, number, path, printed,
-    words,
+    ELLIPSOID, assert_exit, equipoise, equipoise_in, files, json, levels, list, number, path,
+    printed, words,
 };
 use serde_json::Value;
 use tempfile::TempDir;
@@ -83,21 +83,7 @@ fn numbers(mass_g: f64, center_mm: [f64; 3], inertia: [f64; 6]) -> String {
 
 /// Prepares a job that is refused; returns what was said.
 fn refuse(options: &str) -> String {
-    let folder = TempDir::new().unwrap();
-    let output = prepare(&folder.path().join("kit"), options);
-    assert_exit(&output, 2);
-    assert!(!folder.path().join("kit").exists());
-    printed(&output)
-}
-
-/// Returns the regions of a sheet, the outermost first.
-fn levels(sheet: &Value) -> Vec<Value> {
-    let outermost = sheet["infill"].clone();
-    let inner = sheet["infill"]["inner"]
-        .as_array()
-        .cloned()
-        .unwrap_or_default();
-    std::iter::once(outermost).chain(inner).collect()
+    common::refused(|kit| prepare(kit, options))
 }
 
 /// Returns the integrals of 1, x, y, z, xx, yy, zz, xy, xz and yz over the solid in an STL file. A

@@ -29,7 +29,7 @@ pub struct Goal {
     pub spindle: Option<Spindle>,
     /// Float: the conditions for floating upright at the waterline; `None` for the others.
     pub afloat: Option<FloatConditions>,
-    /// What a match must have; `None` for other goals.
+    /// Match: the moments that it must have; `None` for the others.
     pub wanted: Option<Wanted>,
     /// The moments of the whole solid in the goal frame, mm.
     pub solid: Moments,

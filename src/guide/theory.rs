@@ -106,7 +106,7 @@
 //!   costs at most an eighth of the square of a step more ([`crate::hollow::least_level_change`]).
 //! * **Cuts keep a share of the best.** With the height of the centre fixed, bounds of speeds and
 //!   ratios are convex in the moments. Rows that touch them are added where the last answer broke
-//!   them, five to eight times.
+//!   them, until none is broken.
 //!
 //! A match prescribes all ten moments. Two densities across one quadric reach only the rim of the
 //! set of moments. Three levels and more reach its inside, if the mean of what is wanted is one of

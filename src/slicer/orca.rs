@@ -11,6 +11,7 @@ use super::run::Work;
 use super::settings::{FILAMENT_MM, SliceSettings};
 use crate::base::dialect::Dialect;
 use crate::base::watch::Watch;
+use crate::io::threemf::ORCA_WIDTHS;
 
 /// The file that they write for the first plate of a package.
 const TOOLPATHS: &str = "plate_1.gcode";
@@ -20,16 +21,6 @@ const PRESETS: [[&str; 2]; 3] = [
     ["process.json", "process"],
     ["filament.json", "filament"],
 ];
-/// The widths of the lines of parts, besides the usual width.
-const WIDTHS: [&str; 6] = [
-    "line_width",
-    "inner_wall_line_width",
-    "outer_wall_line_width",
-    "sparse_infill_line_width",
-    "internal_solid_infill_line_width",
-    "top_surface_line_width",
-];
-
 /// Slices a plate and returns its toolpaths.
 pub(super) fn slice(work: &Work, watch: &Watch) -> Result<File, SlicerError> {
     let package = work.file("plate.3mf");
@@ -100,7 +91,7 @@ fn process(settings: &SliceSettings) -> Value {
         "xy_hole_compensation": "0",
         "spiral_mode": "0",
     });
-    for key in WIDTHS {
+    for key in ORCA_WIDTHS {
         all[key] = json!(settings.line_mm().to_string());
     }
     all

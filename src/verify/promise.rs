@@ -107,7 +107,7 @@ pub struct Aim {
     /// The order for a floating object; `None` for other goals.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub water: Option<WaterOrder>,
-    /// What a match must have; `None` for other goals.
+    /// The mass, centre and inertia of a match; `None` for other goals.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub wanted: Option<Target>,
     /// The lean that a top promises, degrees, zero if it is waived. `None` for other goals, and in

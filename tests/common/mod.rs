@@ -101,6 +101,26 @@ pub fn verify(kit: &Path) -> (Option<i32>, String) {
     (output.status.code(), printed(&output))
 }
 
+/// Returns the regions of a graded kit's sheet, the outermost first.
+pub fn levels(sheet: &Value) -> Vec<Value> {
+    let outermost = sheet["infill"].clone();
+    let inner = sheet["infill"]["inner"]
+        .as_array()
+        .cloned()
+        .unwrap_or_default();
+    std::iter::once(outermost).chain(inner).collect()
+}
+
+/// Prepares a job that is refused, and writes nothing; returns what was said.
+pub fn refused(prepare: impl FnOnce(&Path) -> Output) -> String {
+    let folder = tempfile::tempdir().unwrap();
+    let kit = folder.path().join("kit");
+    let output = prepare(&kit);
+    assert_exit(&output, 2);
+    assert!(!kit.exists());
+    printed(&output)
+}
+
 /// Fails with everything that was printed unless the program ended with this code.
 pub fn assert_exit(output: &Output, code: i32) {
     assert_eq!(output.status.code(), Some(code), "{}", printed(output));

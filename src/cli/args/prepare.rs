@@ -41,7 +41,7 @@ pub struct PrepareArgs {
     #[arg(value_name = "MODEL")]
     pub model: Option<PathBuf>,
 
-    /// What it does: top, yoyo, stand, float, balance or match
+    /// The goal: top, yoyo, stand, float, balance or match
     ///
     /// A top spins on the table, a yo-yo freely about an axis. A rotor in balance runs true on its
     /// shaft. A match handles like another body (--like, or --mass, --center and --inertia).

@@ -1,5 +1,5 @@
-//! Whether a hole can be bored at a place: it goes straight through one wall into one void, and
-//! both its ends are free.
+//! The test of a place for a hole: it must go straight through one wall into one void, and both
+//! its ends must be free.
 
 use std::f64::consts::TAU;
 
@@ -59,7 +59,7 @@ pub(super) struct Surfaces<'a> {
     diameter_mm: f64,
 }
 
-/// What a line through a wall meets, mm from the foot of the line.
+/// The surfaces that a line through a wall meets, mm from the foot of the line.
 #[derive(Clone, Copy)]
 struct Felt {
     outside_mm: f64,

@@ -83,7 +83,7 @@ struct Priced {
     price: f64,
 }
 
-/// What decides on a hole besides the price of its place.
+/// The height that decides on a hole besides the price of its place.
 #[derive(Clone, Copy)]
 enum Level {
     /// Nothing.

@@ -1,16 +1,9 @@
 //! The convex cones whose bounds tops and yo-yos keep, and the rows that touch them.
 
 use crate::geom::Quadric;
+use crate::hollow::dual::units::index::{ONE, XX, XY, YY, Z, ZZ};
 use crate::hollow::graded::{Row, Sense};
 use crate::mass::Moments;
-
-// Places among the ten moments.
-const ONE: usize = 0;
-const Z: usize = 3;
-const XY: usize = 4;
-pub(super) const XX: usize = 7;
-pub(super) const YY: usize = 8;
-const ZZ: usize = 9;
 
 /// A function of the moments that is not positive where a limit is kept.
 #[derive(Debug, Clone, Copy)]

@@ -16,14 +16,11 @@ use super::cone::{Cone, at_most, excess, quadric};
 use crate::base::units::STANDARD_GRAVITY_MM_S2;
 use crate::base::verdict::Verdict;
 use crate::goal::{Goal, GoalKind, Objective, compute_figures};
+use crate::hollow::dual::units::index::{ONE, Z};
 use crate::hollow::golden::golden_section;
 use crate::hollow::graded::{Row, Separation};
 use crate::hollow::levels::LevelChange;
 use crate::mass::Moments;
-
-// Places among the ten moments.
-const ONE: usize = 0;
-const Z: usize = 3;
 
 /// Share of the best figure that tops and yo-yos keep if nothing is ordered. Without it a top near
 /// its wished infill may spin at no speed that fingers reach.
@@ -32,7 +29,7 @@ const USUAL_SHARE: f64 = 0.8;
 const LEAST_MARGIN: f64 = 0.2;
 /// Excess of a row, in units of the body, up to which it counts as met.
 const MET: f64 = 1e-7;
-/// Rounds of rows; five to eight are typical.
+/// Most rounds of rows at a height.
 const MOST_ROUNDS: usize = 16;
 /// Rounds of the search for a height: they leave a hundredth of the range.
 const HEIGHT_ROUNDS: usize = 9;
@@ -341,7 +338,8 @@ mod tests {
     use super::*;
     use crate::base::watch::Watch;
     use crate::field::DensityRange;
-    use crate::hollow::goals::cone::{XX, YY, tensor};
+    use crate::hollow::dual::units::index::{XX, YY};
+    use crate::hollow::goals::cone::tensor;
     use crate::hollow::worlds::{self, World};
     use crate::hollow::{Fill, NearWished, PrintLevels};
 

@@ -10,6 +10,7 @@ use crate::base::verdict::Verdict;
 use crate::base::watch::Watch;
 use crate::geom::Quadric;
 use crate::goal::{Goal, GoalKind, Objective};
+use crate::hollow::dual::units::index::{X, XZ, Y, YZ, Z};
 use crate::hollow::graded::{Graded, Row, Sense, Separation};
 use crate::hollow::levels::{PrintLevels, least_level_change};
 use crate::hollow::solution::{Certificate, Figure, Solution};
@@ -18,12 +19,6 @@ use crate::hollow::{Fill, Problem};
 use crate::interior::moments_where_positive;
 use crate::mass::Moments;
 
-// Places among the ten moments.
-const X: usize = 1;
-const Y: usize = 2;
-const Z: usize = 3;
-const YZ: usize = 5;
-const XZ: usize = 6;
 /// Tilt that is solved for beyond the promised one, rad: a hundredth of a degree, for the rounding
 /// of files.
 pub const TILT_MARGIN_RAD: f64 = 1.745e-4;

@@ -32,6 +32,7 @@ mod xml;
 pub use cura::CURA_OVERLAP_LINES;
 pub use error::{Limit, ThreeMfError};
 pub use nested::REGION;
+pub use orca::ORCA_WIDTHS;
 pub use orders::{ObjectOrders, Orders, SlicerOrders, VolumeOrders, decode_orders};
 pub use place::PlacedObject;
 pub use plate::{PlateObject, decode_plate};

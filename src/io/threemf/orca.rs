@@ -21,8 +21,9 @@ const LEAN: [[&str; 2]; 3] = [
     ["support_interface_top_layers", "2"],
 ];
 
-/// The widths of the lines of a part. Presets have one for every kind.
-const WIDTHS: [&str; 6] = [
+/// The widths of the lines of a part, in the words of Bambu Studio and OrcaSlicer. Presets have one
+/// for every kind.
+pub const ORCA_WIDTHS: [&str; 6] = [
     "line_width",
     "inner_wall_line_width",
     "outer_wall_line_width",
@@ -54,7 +55,7 @@ fn pairs(subject: &Subject, settings: &PrintSettings) -> Vec<Pair> {
     }
     pairs.extend(subject.brim());
     if !subject.infill.is_empty() {
-        pairs.extend(WIDTHS.map(|key| (key, settings.line_mm.to_string())));
+        pairs.extend(ORCA_WIDTHS.map(|key| (key, settings.line_mm.to_string())));
         let layers = ["top_shell_layers", "bottom_shell_layers"];
         pairs.extend(layers.map(|key| (key, settings.walls.solid_layers.to_string())));
         pairs.extend(AROUND_REGIONS.map(|[key, value]| (key, value.to_owned())));
