@@ -66,6 +66,9 @@ pub struct Job {
     /// The drain holes of an uncut piece; the least that do if the key is missing.
     #[serde(default, skip_serializing_if = "DrainOrder::is_auto")]
     pub drain: DrainOrder,
+    /// True if each drain hole gets a plug that closes it; it stays open if the key is missing.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub plugs: bool,
     /// The kind of seam; hidden ones if the key is missing.
     #[serde(default = "default_seam", skip_serializing_if = "SeamStyle::is_hidden")]
     pub seam: SeamStyle,
@@ -264,6 +267,7 @@ impl Job {
             pitch: None,
             cut: CutMode::Auto,
             drain: DrainOrder::Auto,
+            plugs: false,
             seam: default_seam(),
             least_part: default_least_part(),
             pins: PinStyle::Printed,
@@ -436,6 +440,7 @@ mod tests {
         }];
         other.toolpaths = Some(SlicedKit {
             slicer: "PrusaSlicer 2.5.0".into(),
+            profile_sha256: Some("cd".repeat(32)),
             mass_g: 81.25,
             miss_mm: 0.0031,
             tilt_deg: None,

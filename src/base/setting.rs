@@ -23,6 +23,8 @@ choice! {
         Cut = "cut",
         /// The drain holes of an uncut piece.
         Drain = "drain",
+        /// The order to close drain holes with plugs.
+        Plugs = "plugs",
         /// The cuts and pins that the user orders.
         Plan = "plan",
         /// The kind of seam.

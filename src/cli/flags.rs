@@ -11,7 +11,7 @@ pub fn flag(setting: &Setting) -> String {
         // Only one command has it, and others ask for it.
         None if setting.key == Key::List => "equipoise printers import FILES --list".to_owned(),
         // A switch takes no value.
-        Some(_) if setting.key == Key::Thicken => format!("--{name}"),
+        Some(_) if matches!(setting.key, Key::Thicken | Key::Plugs) => format!("--{name}"),
         Some(value) => format!("--{name}={value}"),
         None => format!("--{name}"),
     }

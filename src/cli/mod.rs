@@ -2,7 +2,8 @@
 
 pub mod args;
 pub mod bars;
-pub mod broken;
+pub mod bound;
+mod broken;
 pub mod core_kit;
 pub mod coupon;
 mod cuts;

@@ -123,7 +123,8 @@ fn run(request: &Request, watch: &Watch) -> Result<Ran, Error> {
     };
     existing.allows(&request.out)?;
     let ran = if request.slice {
-        let sliced = prepare::prepare_sliced(&request.job, watch)?;
+        let sliced =
+            prepare::prepare_sliced(&request.job, request.slicer_profile.as_deref(), watch)?;
         let rounds = Rounds {
             misses_mm: sliced.misses_mm,
             broken: sliced.broken,

@@ -44,7 +44,7 @@ fn waiting_words(sheet: &str) -> String {
 
 /// Words the print time and the filament.
 pub fn print_time_words(row: &PrintTimeRow) -> String {
-    format!("{}; by {} with its default speeds", row.words(), row.slicer)
+    format!("{}; by {}", row.words(), row.slicer_words())
 }
 
 #[cfg(test)]

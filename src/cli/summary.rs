@@ -3,6 +3,7 @@
 
 use super::args::{Request, again};
 use super::bars::words as stage_name;
+use super::bound::bound_words;
 use super::flags::{OTHER_PLANS, with_flags};
 use super::if_solid::solid_words;
 use super::print_time::{PRINT_TIME, print_time_words};
@@ -11,10 +12,9 @@ use super::voice::Manner;
 use crate::base::numbers::{measured, measured_extent, quantity as figure, rough};
 use crate::base::units::format_count;
 use crate::base::watch::Phase;
-use crate::goal::GoalKind;
 use crate::page::{bought, pieces, promise, properties, shortfall, spins_on, wanted_figures};
 use crate::sheet::{Checklist, Course, LogRow, PassRow, Taker};
-use crate::verify::{Check, FigureName, SHEET_FILE};
+use crate::verify::{Check, SHEET_FILE};
 
 /// Least length in mm or angle in degrees that is shown. Nobody prints or balances so exactly.
 const MIN_SHOWN_OFFSET: f64 = 0.001;
@@ -72,36 +72,6 @@ fn offer(checklist: &Checklist, typed: &[String]) -> Option<String> {
 fn deed(checklist: &Checklist) -> String {
     let on = spins_on(checklist).map_or(String::new(), |on| format!(" It spins on {on}."));
     promise(checklist) + &on
-}
-
-/// Returns the best that is possible and what this kit reaches.
-fn bound_words(checklist: &Checklist) -> String {
-    let proof = &checklist.certificate;
-    let unit = proof.figure.unit();
-    let best = measured(proof.bound, unit);
-    if proof.figure == FigureName::InfillChangeRatio {
-        return format!(
-            "the infill differs from the wished one by {} of solid print (root mean square); what \
-             was asked needs {best}{}",
-            measured(proof.value, unit),
-            match checklist.goal.aim.kind {
-                GoalKind::Top => " with the centre of mass at this height",
-                _ => "",
-            }
-        );
-    }
-    let is_cut = checklist.infill.is_none();
-    let is_solid = is_cut && proof.kept_solid_mm3 + proof.bosses_mm3 > 0.0;
-    let of_what = if is_solid {
-        " with these cuts and pins"
-    } else {
-        ""
-    };
-    let Some(written) = proof.written_value else {
-        return format!("{} {best} is possible{of_what}", proof.figure.name());
-    };
-    let [name, written] = [proof.figure.name().to_owned(), measured(written, unit)];
-    format!("{name} {written}; at best {best} is possible{of_what}")
 }
 
 /// Returns what took a tenth or more of the best figure, and what to try; `None` if the kit is
@@ -418,6 +388,7 @@ mod tests {
         let course = Course {
             passes: vec![pass(2.5, 0.5), pass(1.5, 1.5)],
             speeds: vec![],
+            trade: None,
         };
         assert_eq!(
             iterations(&course),

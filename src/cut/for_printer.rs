@@ -55,7 +55,7 @@ impl PlanRequest {
                 chamfer_mm: printer.chamfer_mm.value.max(elephant_foot_mm),
                 bottom_relief_mm: printer.socket_extra_depth_mm.value,
                 spread_ratio: Self::SPREAD_RATIO,
-                snug_gap_mm: snug_gap_mm(printer),
+                snug_gap_mm: printer.snug_gap_mm(),
                 max_step_mm: printer.number(Quantity::SeamStepMm).map(|step| step.value),
             },
             axis,
@@ -75,13 +75,6 @@ impl PlanRequest {
             watch: Watch::silent(),
         }
     }
-}
-
-/// Returns the gap between a jig and the parts in it, mm: that of a pressed joint. If the profile
-/// does not know it, half of that of a glued one.
-fn snug_gap_mm(printer: &Printer) -> f64 {
-    let press = printer.number(Quantity::ClearancePressPerSideMm);
-    press.map_or(0.5 * printer.clearance_per_side_mm.value, |gap| gap.value)
 }
 
 impl PosePreference {

@@ -46,8 +46,9 @@ pub enum DrainError {
     },
     /// Water would run in.
     #[error(
-        "what floats would take in water through drain holes; remedy: cut it open and glue it \
-         (`{}`)",
+        "what floats would take in water through drain holes; remedy: close each with a plug \
+         (`{}`), or cut it open and glue it (`{}`)",
+        Setting::new(Key::Plugs, true),
         cut_open()
     )]
     Floats,
@@ -76,20 +77,40 @@ pub enum DrainError {
         /// The order.
         order: DrainOrder,
     },
+    /// Plugs were ordered for what has no drain holes.
+    #[error(
+        "`{}` closes the drain holes of a hollow print in one uncut piece; remedy: order one \
+         (`{}`), or leave it out",
+        Setting::new(Key::Plugs, true),
+        Setting::new(Key::Cut, CutMode::Never)
+    )]
+    PlugsOnly,
+    /// No holes were wanted for voids that are full of something.
+    #[error(
+        "with `{}` the {voids} in the uncut piece would stay full of powder, resin or support; \
+         remedy: leave it out, or cut it open (`{}`)",
+        Setting::new(Key::Drain, DrainOrder::Never),
+        cut_open()
+    )]
+    Closed {
+        /// The number of voids, in words.
+        voids: String,
+    },
     /// A void has no place for its holes, and the goal needs it.
     #[error(
         "{voids} has no place for drain holes of {diameter_mm} mm where the wall is thin and about \
-         flat, and the goal needs it; remedy: the least holes that do (`{}`), a larger model \
-         (`{}`), or cut it open (`{}`)",
-        Setting::new(Key::Drain, DrainOrder::Auto),
+         flat, and the goal needs it; remedy: {}a larger model (`{}`), or cut it open (`{}`)",
+        least_holes(*is_asked),
         Setting::open(Key::Size),
         cut_open()
     )]
     NoPlace {
         /// The voids, such as `V1, V2`.
         voids: String,
-        /// The diameter of the holes, mm.
+        /// The diameter of the holes at the outside, mm.
         diameter_mm: f64,
+        /// True if that width was asked for, and narrower ones would do.
+        is_asked: bool,
     },
 }
 
@@ -106,6 +127,17 @@ impl DrainError {
                 least_mm,
             },
         }
+    }
+}
+
+/// Words the remedy of narrower holes, if there are any.
+fn least_holes(is_asked: bool) -> String {
+    match is_asked {
+        true => {
+            let least = Setting::new(Key::Drain, DrainOrder::Auto);
+            format!("the least holes that do (`{least}`), ")
+        }
+        false => String::new(),
     }
 }
 

@@ -27,6 +27,7 @@
 //! | Who holds the parts while glue sets if pins do not? | `jigs` in `cut/joints/jig.rs`, judged by `measure_jigs` in `verify/jigs.rs` |
 //! | Which ends of voids would catch resin in a vat, and what becomes of them? | `find_hollow_cups` in `cut/pieces/cups.rs` finds them in the best pose, `clean_and_drain` in `open/drain.rs` keeps them solid |
 //! | Where are the drain holes of an uncut piece? | `Printer::drain_need` in `printer/drains.rs` counts them, `cut/drains/place.rs` chooses among the places that `cut/drains/bore.rs` finds, `open/drained.rs` keeps the rest solid; `verify/drains.rs` measures them |
+//! | What closes a drain hole? | `CutPlan::plug_bodies` in `cut/drains/plug.rs`, made parts in `cut/pieces/part.rs`; `verify/plugs.rs` measures their gaps and `verify/shape.rs` their surfaces; `page/plugging.rs` says how they go in |
 //! | Where do the files of the parts come from? | `make` in `make/parts.rs` writes, reads back and corrects them |
 //! | Who says that a promise is kept, and within which limit? | `checks` in `verify/checks.rs`; each limit has its reason in `verify/limits.rs` |
 //! | Who says that the papers are those of the files? | `verify` in `press/again.rs` prints them again from a `Layout` of `press/layout.rs`, `find_false_job` in `press/job.rs` compares job and profile |

@@ -201,6 +201,7 @@ pub use change::{Change, least_change};
 pub use goals::ballast::{Ballast, has_margin, least_ballast};
 pub use goals::fill::Fill;
 pub use goals::near::{NearWished, TILT_MARGIN_RAD, rows};
+pub use goals::trade::Trade;
 pub use goals::two::best_densities;
 pub use golden::golden_section;
 pub use graded::{Graded, Row, Sense, Separation};

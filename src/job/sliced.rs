@@ -19,6 +19,9 @@ pub struct SlicedRound {
 pub struct SlicedKit {
     /// The slicer's name and version, such as `PrusaSlicer 2.5.0`.
     pub slicer: String,
+    /// The SHA-256 of the slicer's profile over which it was sliced; `None` for its defaults.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub profile_sha256: Option<String>,
     /// The mass of the object that they lay, with all that the kit adds to its parts, g.
     pub mass_g: f64,
     /// The distance between its centre and the promised one, mm.
@@ -85,6 +88,7 @@ mod tests {
     fn figures_that_no_toolpaths_have_are_not_sound() {
         let kit = SlicedKit {
             slicer: "PrusaSlicer 2.5.0".to_owned(),
+            profile_sha256: None,
             mass_g: 81.5,
             miss_mm: 0.003,
             tilt_deg: Some(-0.01),

@@ -4,9 +4,11 @@ use super::clean::{Keep, keep_solid};
 use super::request::request;
 use super::resolve::Resolver;
 use super::way::Candidate;
+use crate::base::units::format_count;
 use crate::base::watch::Watch;
 use crate::cut::{self, CutPlan, Drained, PlanRequest, VoidId, find_hollow_cups};
 use crate::error::{DrainError, Error};
+use crate::job::DrainOrder;
 use crate::mass::Moments;
 use crate::printer::DrainNeed;
 use crate::run::{KeptCause, KeptSolid, Opened, Placed, Rung, Solved, Voids};
@@ -37,14 +39,14 @@ pub fn drained<'a>(
             let rest = find_undrained(placed, &voids, &found, &request)?;
             let is_last = cleaning.len() == placed.policy.cleaning_rounds;
             if rest.bodies.is_empty() || is_last {
-                refuse_closed(&found, &need)?;
+                refuse_closed(placed, &found, &need)?;
                 plan = found.plan;
                 break;
             }
             let (round, less) = keep_solid(&mut resolver, &voids, rest, &|_| false)?;
             cleaning.push(round);
             let Some(less) = less else {
-                refuse_closed(&found, &need)?;
+                refuse_closed(placed, &found, &need)?;
                 plan = found.plan;
                 break;
             };
@@ -76,7 +78,7 @@ pub fn drain_again(
 ) -> Result<CutPlan, Error> {
     let need = need(placed, voids)?;
     let found = cut::drain(&voids.hollowed, request, &need)?;
-    refuse_closed(&found, &need)?;
+    refuse_closed(placed, &found, &need)?;
     Ok(found.plan)
 }
 
@@ -90,8 +92,16 @@ fn need(placed: &Placed, voids: &Voids) -> Result<DrainNeed, DrainError> {
         return Err(DrainError::Ballast);
     }
     let (printer, order) = (&placed.shop.printer, placed.job.drain);
+    if order == DrainOrder::Never {
+        let voids = format_count(voids.hollowed.voids.len(), "void");
+        return Err(DrainError::Closed { voids });
+    }
     let need = printer.drain_need(order.asked_mm());
-    need.map_err(|why| DrainError::of_printer(why, &printer.name, order))
+    let need = need.map_err(|why| DrainError::of_printer(why, &printer.name, order))?;
+    Ok(DrainNeed {
+        plug_gap_mm: placed.job.plugs.then(|| printer.snug_gap_mm()),
+        ..need
+    })
 }
 
 /// Finds what must be kept solid: voids without holes, else what would catch resin.
@@ -129,13 +139,14 @@ fn find_undrained(
 }
 
 /// Refuses a piece whose voids do not all have holes.
-fn refuse_closed(found: &Drained, need: &DrainNeed) -> Result<(), DrainError> {
+fn refuse_closed(placed: &Placed, found: &Drained, need: &DrainNeed) -> Result<(), DrainError> {
     if found.closed.is_empty() {
         return Ok(());
     }
     let voids: Vec<String> = found.closed.iter().map(VoidId::to_string).collect();
     Err(DrainError::NoPlace {
         voids: voids.join(", "),
-        diameter_mm: need.diameter_mm,
+        diameter_mm: need.mouth_mm(),
+        is_asked: placed.job.drain.asked_mm().is_some(),
     })
 }

@@ -35,7 +35,8 @@ pub(super) fn clean_one(sheet: &Checklist, void: &VoidRow) -> Markup {
             @for check in checks_of_void(&sheet.checks, &void.id) {
                 @if !check.pass { (broken(check)) " " }
             }
-            (void.clean) (hidden_rest(sheet, void))
+            // Holes have their own way, and a cut is of no use to them.
+            @if void.drained_by.is_empty() { (void.clean) (hidden_rest(sheet, void)) }
             (left_full(sheet, void))
             (part_boxes(void))
         }
@@ -63,7 +64,7 @@ fn holes_of(sheet: &Checklist, void: &VoidRow) -> Markup {
 }
 
 /// Names the side of the finished object that a hole is in: by the way it faces.
-fn side_of(sheet: &Checklist, hole: &PromisedHole) -> &'static str {
+pub(super) fn side_of(sheet: &Checklist, hole: &PromisedHole) -> &'static str {
     let way = Vector::from(hole.from_mm) - Vector::from(hole.to_mm);
     let up = Vector::from(sheet.goal.aim.axis).normalize();
     match way.normalize().dot(&up) {
@@ -78,7 +79,7 @@ fn way_out(process: &Process, holes: usize) -> &'static str {
     match process {
         Process::Sla => {
             "Let the resin run out with one hole down and the other open, and flush solvent \
-             through both. Switch off supports inside in the slicer: none could be taken out."
+             through both."
         }
         Process::Sls | Process::Mjf if holes > 1 => {
             "Turn and knock it with a hole down, and blow into the other one until no more powder \

@@ -95,7 +95,7 @@ fn facts(sheet: &Checklist) -> Markup {
         table class="facts" {
             @for (name, words) in rows { tr { th scope="row" { (name) } td { (words) } } }
             @if let Some(time) = &sheet.print_time {
-                tr { th scope="row" { "Print time" } td { (time.words()) " (" (time.slicer) " with its default speeds)" } }
+                tr { th scope="row" { "Print time" } td { (time.words()) " (" (time.slicer_words()) ")" } }
             }
             @if let Some(off_deg) = sheet.goal.off_natural_deg {
                 tr { th scope="row" { "Axis" } td { (words::axis_off(off_deg)) } }

@@ -13,6 +13,7 @@ pub(super) fn plots(sheet: &Checklist) -> Vec<Picture> {
     certificate(sheet, course)
         .into_iter()
         .chain(speeds(sheet, course))
+        .chain(trade(sheet, course))
         .collect()
 }
 
@@ -93,6 +94,38 @@ fn speeds(sheet: &Checklist, course: &Course) -> Option<Picture> {
         role: Role::Proof,
         caption: "The least speed at which a hollowing with its centre of mass at a height could spin, and this kit.".to_owned(),
         alt: format!("Plot of the least critical speed by the height of the centre of mass; least near {height} with {speed}."),
+        drawn: Drawn::Svg(plot.draw()),
+    })
+}
+
+/// Draws how much of a wished infill changes for how much of the figure.
+fn trade(sheet: &Checklist, course: &Course) -> Option<Picture> {
+    let trade = course.trade.as_ref()?;
+    let percent = |&[change, value]: &Spot| [100.0 * change, value];
+    let points: Vec<Spot> = trade.points.iter().map(percent).collect();
+    let best = *points.last()?;
+    let written = sheet.assembly.value_of(trade.figure);
+    let own = 100.0 * sheet.certificate.value;
+    let (name, unit) = (trade.figure.name(), trade.figure.unit());
+    let plot = Plot {
+        across: "change of the infill, % of solid print (root mean square)".to_owned(),
+        up: with_unit(name, unit),
+        curves: vec![Curve {
+            name: "least change",
+            points,
+            color: CURVES[0],
+            is_second: false,
+        }],
+        mark: written.map(|value| ([own, value], "this kit".to_owned())),
+    };
+    let best = quantity(best[1], unit);
+    Some(Picture {
+        file: "pictures/infill-trade.svg".to_owned(),
+        role: Role::Proof,
+        caption: format!(
+            "What a {name} costs: the least change of the wished infill that reaches it, on coarse columns, and this kit. The last point is the best print, with {best}."
+        ),
+        alt: format!("Plot of the {name} by the change of the infill; it ends at {best}."),
         drawn: Drawn::Svg(plot.draw()),
     })
 }

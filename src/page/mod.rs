@@ -35,6 +35,7 @@ mod plane_map;
 mod plans;
 mod plate;
 mod plate_map;
+mod plugging;
 mod printing;
 mod proof;
 mod running;

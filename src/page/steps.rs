@@ -7,6 +7,7 @@ use super::fields::{blank, mass_window};
 use super::figure::{Picture, Role, figures, figures_of};
 use super::gluing::{dry_fit, glue};
 use super::hardware::fit_hardware;
+use super::plugging::close_holes;
 use super::printing::print_step;
 use super::trials::test_step;
 use super::weighing::{weigh_parts, weigh_whole};
@@ -71,6 +72,10 @@ fn all_steps(sheet: &Checklist, pictures: &[Picture]) -> Vec<Step> {
     let steps = first
         .into_iter()
         .chain([fit.filter(|_| is_glued)])
+        .chain([close_holes(sheet).map(|body| Step {
+            name: "Close the drain holes",
+            body,
+        })])
         .chain(between)
         .chain([glued.filter(|_| is_glued)])
         .chain([

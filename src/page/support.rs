@@ -130,6 +130,9 @@ fn of_holes(sheet: &Checklist) -> &'static str {
 fn by_process(sheet: &Checklist) -> &'static str {
     match (sheet.printer.support, &sheet.printer.process) {
         (SupportMethod::None, _) => "none; the powder holds every part.",
+        (SupportMethod::Breakaway, Process::Sla) if !sheet.drains.is_empty() => {
+            "the slicer adds the raft and the supports, outside only: none could be taken out of a void. None in the mouth of a drain hole."
+        }
         (SupportMethod::Breakaway, Process::Sla) => {
             "the slicer adds the raft and the supports. No support on cut faces, pins or pin holes. Inside an open hollow as few supports as possible."
         }

@@ -7,12 +7,20 @@ use crate::base::numbers::{measured, quantity};
 use crate::base::units::show_minutes;
 use crate::sheet::{Checklist, ToolpathsRow};
 
+/// Digits of a hash that tell one profile from another.
+const SHOWN_HASH: usize = 12;
+
 /// Returns what the toolpaths weigh and take, plate by plate and part by part.
 pub(super) fn weighed(sheet: &Checklist, toolpaths: &ToolpathsRow) -> Markup {
     html! {
         p {
             strong { "Sliced and weighed: " }
-            "this kit was sliced by " (toolpaths.slicer) " with the settings of its printer. "
+            "this kit was sliced by " (toolpaths.slicer) " with the settings of its printer"
+            @if let Some(sha256) = &toolpaths.profile_sha256 {
+                ", and else those of the profile whose SHA-256 begins with "
+                code { (sha256.chars().take(SHOWN_HASH).collect::<String>()) }
+            }
+            ". "
             (balance(toolpaths)) " " (rounds(sheet))
         }
         (plates(toolpaths))
@@ -140,6 +148,7 @@ mod tests {
         };
         let toolpaths = ToolpathsRow {
             slicer: "PrusaSlicer 2.5.0".to_owned(),
+            profile_sha256: Some("0123456789abcdef".repeat(4)),
             mass_g: 51.25,
             miss_mm: 0.0034,
             tilt_deg: Some(0.012),
@@ -153,6 +162,7 @@ mod tests {
         let words = words.replace('\u{a0}', " ").replace("<wbr>", "");
         for said in [
             "PrusaSlicer 2.5.0",
+            "begins with <code>0123456789ab</code>",
             "0.0034 mm",
             "0.012°",
             "0.1007, then 0.0213 mm",

@@ -17,7 +17,7 @@ const LIGHT_HARDWARE_G: f64 = 10.0;
 /// Returns what must be at hand, in the order of the steps.
 pub(super) fn you_need(sheet: &Checklist) -> String {
     let glue = sheet.printer.glue.as_ref().map(|glue| glue.name.clone());
-    let glue = glue.filter(|_| !sheet.joints.is_empty());
+    let glue = glue.filter(|_| is_glued(sheet));
     let things = [
         for_cleaning(&sheet.printer.process).map(str::to_owned),
         Some(scale(sheet).to_owned()),
@@ -27,6 +27,12 @@ pub(super) fn you_need(sheet: &Checklist) -> String {
     ];
     let things: Vec<String> = things.into_iter().flatten().collect();
     things.join("; ")
+}
+
+/// Returns whether anything is glued: joints, or plugs in drain holes.
+fn is_glued(sheet: &Checklist) -> bool {
+    let mut drains = sheet.drains.iter();
+    !sheet.joints.is_empty() || drains.any(|hole| hole.plug.is_some())
 }
 
 /// Names the tools that clean the parts; `None` for an unknown process.

@@ -7,7 +7,7 @@ use super::hardware::word;
 use super::infill::wrong_weight;
 use crate::base::numbers::measured;
 use crate::base::units::MM3_PER_CM3;
-use crate::sheet::Checklist;
+use crate::sheet::{Checklist, PartRow};
 
 /// Least difference that a scale in a shop shows, g.
 const SCALE_G: f64 = 0.1;
@@ -36,7 +36,7 @@ pub(super) fn weigh_parts(sheet: &Checklist) -> Markup {
                 }
             }
             tbody {
-                @for part in &sheet.parts {
+                @for part in weighed(sheet) {
                     (weigh_line(sheet, &part.id, printed_mass_g(sheet, part)))
                 }
                 @if sheet.parts.len() > 1 { (weigh_line(sheet, "all parts", mass_of_parts_g(sheet))) }
@@ -45,6 +45,15 @@ pub(super) fn weigh_parts(sheet: &Checklist) -> Markup {
         @if sheet.infill.is_some() { p { (wrong_weight()) } }
         @else { p { "Too heavy: it still holds " (residue(&sheet.printer.process)) ", clean it again. Too light: it was not printed solid." } }
     }
+}
+
+/// Returns the parts that are weighed: plugs are too light to tell anything.
+fn weighed(sheet: &Checklist) -> impl Iterator<Item = &PartRow> {
+    let is_plug = |part: &PartRow| {
+        let mut plugs = sheet.drains.iter().filter_map(|hole| hole.plug.as_ref());
+        plugs.any(|plug| plug.part == part.id)
+    };
+    sheet.parts.iter().filter(move |part| !is_plug(part))
 }
 
 /// Returns the line of a part, or of all parts, with the limits beyond which it is not used.
@@ -73,7 +82,7 @@ fn weigh_line(sheet: &Checklist, id: &str, mass_g: f64) -> Markup {
 /// Returns whether parts are judged by their shares: the density is not known, but several parts
 /// have the same.
 fn is_by_share(sheet: &Checklist) -> bool {
-    sheet.material.density_spread_ratio.is_none() && sheet.parts.len() > 1
+    sheet.material.density_spread_ratio.is_none() && weighed(sheet).nth(1).is_some()
 }
 
 /// Words the least and the greatest share of a sound part.

@@ -114,8 +114,12 @@ pub fn pieces(sheet: &Checklist) -> String {
         1 => " (in one plane)".to_owned(),
         _ => format!(" (in {planes} planes)"),
     };
+    let plugs = sheet.drains.iter().filter(|hole| hole.plug.is_some());
+    let plugs = plugs.count();
     let counts = [
-        (sheet.parts.len(), "part", ""),
+        (sheet.parts.len().saturating_sub(plugs), "part", ""),
+        (plugs, "plug", ""),
+        (sheet.drains.len(), "drain hole", ""),
         (sheet.joints.len(), "glue joint", in_planes.as_str()),
         (pins, "pin", ""),
         (sheet.voids.len(), "void", ""),
@@ -262,12 +266,22 @@ pub fn certificate(sheet: &Checklist) -> Vec<String> {
     words.extend(proof.written_value.map(|written| {
         let share = proof.share_of_bound(written);
         format!(
-            "The files of this kit, with pins, sockets and rounding, reach {}: {:.2} % of the best possible.",
+            "The files of this kit, with {}, reach {}: {:.2} % of the best possible.",
+            what_is_made(sheet),
             quantity(written, unit),
             share * 100.0
         )
     }));
     words
+}
+
+/// Words what the files have beyond the calculated voids.
+fn what_is_made(sheet: &Checklist) -> &'static str {
+    match (sheet.cuts.is_empty(), sheet.drains.is_empty()) {
+        (true, false) => "drain holes and rounding",
+        (true, true) => "rounding",
+        (false, _) => "pins, sockets and rounding",
+    }
 }
 
 /// Words what took a tenth or more of the best figure; `None` if the kit is nearer to it.
@@ -287,6 +301,7 @@ pub fn shortfall(sheet: &Checklist) -> Option<String> {
             Taker::Cleaning => &format!("where the inside stays solid because it {}", fault(sheet)),
             Taker::Plan => "to what the plan keeps solid",
             Taker::Bosses => "to bosses around pins",
+            Taker::Making if sheet.cuts.is_empty() => "to drain holes and rounding",
             Taker::Making => "to cuts, pins and rounding",
         };
         format!("{:.0}\u{a0}% {what}", 100.0 * taken.ratio / whole)

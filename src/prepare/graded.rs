@@ -53,9 +53,15 @@ pub fn sparse_print(job: &Job, printer: &Printer) -> Result<Option<Nested>, Grad
 /// # Errors
 /// The job orders a diameter, and no hollow piece that stays whole; or one that floats.
 pub fn refuse_holes(placed: &Placed) -> Result<(), DrainError> {
-    let order = placed.job.drain;
-    if placed.is_drained() && placed.goal().kind == GoalKind::Float {
+    let (job, order) = (&placed.job, placed.job.drain);
+    if job.plugs && !placed.is_drained() {
+        return Err(DrainError::PlugsOnly);
+    }
+    if placed.is_drained() && placed.goal().kind == GoalKind::Float && !job.plugs {
         return Err(DrainError::Floats);
+    }
+    if placed.is_drained() && job.fill.is_some() {
+        return Err(DrainError::Filling);
     }
     match order {
         DrainOrder::Diameter(_) if !placed.is_drained() => Err(DrainError::NotWhole { order }),

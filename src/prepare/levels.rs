@@ -8,7 +8,7 @@ use crate::base::watch::{Phase, Watch};
 use crate::error::Error;
 use crate::goal::{Contact, Request, Up, Water, Waterline};
 use crate::hollow::{
-    Certificate, Fill, Pass, Problem, Settings, Solution, TopCourse, prove, top_course,
+    Certificate, Fill, Pass, Problem, Settings, Solution, TopCourse, Trade, prove, top_course,
 };
 use crate::interior::Columns;
 use crate::run::{HeightProof, Placed, Solved};
@@ -132,7 +132,16 @@ fn course(placed: &Placed, problem: &Problem, solution: &Solution, watch: &Watch
     } else {
         of_top.passes
     };
-    TopCourse { passes, ..of_top }
+    let near = placed
+        .sparse
+        .as_ref()
+        .and_then(|nested| nested.near.as_ref());
+    let near = near.filter(|_| solution.is_usable());
+    TopCourse {
+        passes,
+        trade: near.map_or_else(Trade::default, |near| near.trade(problem, watch)),
+        ..of_top
+    }
 }
 
 /// Returns the pitches from coarse to fine, mm; the last is the printer's own.

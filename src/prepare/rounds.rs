@@ -1,6 +1,8 @@
 //! Rounds: a kit is sliced, its toolpaths are weighed, and what they lay beyond the written parts
 //! is made up for.
 
+use std::path::{Path, PathBuf};
+
 use super::drafts::{Aims, Drafts, draft};
 use super::judge::Draft;
 use super::outcome::{Impossible, Outcome};
@@ -11,6 +13,7 @@ use crate::base::watch::Watch;
 use crate::error::Error;
 use crate::job::{Job, SlicedKit, SlicedRound};
 use crate::run::Placed;
+use crate::slice::SliceOrder;
 
 /// The most rounds after the first kit.
 const MOST_ROUNDS: usize = 4;
@@ -30,14 +33,25 @@ pub struct SlicedOutcome {
 /// the promise.
 ///
 /// Cuts and pins of a hollow kit stay as they were planned; its voids are solved for again. One
-/// piece is solved anew. The kit's job holds the rounds and the figures of its own toolpaths. So it
-/// is made again without a slicer.
+/// piece is solved anew. `profile` is a profile of the slicer, whose settings hold where those of
+/// the printer say nothing. The kit's job holds the rounds and the figures of its own toolpaths.
+/// So it is made again without a slicer.
 ///
 /// # Errors
-/// As [`super::prepare`], or there is no slicer, or none for this printer.
-pub fn prepare_sliced(job: &Job, watch: &Watch) -> Result<SlicedOutcome, Error> {
+/// As [`super::prepare`], or there is no slicer, or none for this printer, or its profile cannot be
+/// used.
+pub fn prepare_sliced(
+    job: &Job,
+    profile: Option<&Path>,
+    watch: &Watch,
+) -> Result<SlicedOutcome, Error> {
     watch.begin_round();
-    let command = slice::find_for_rounds(job, watch)?;
+    let order = SliceOrder {
+        kit: PathBuf::new(),
+        slicer: Some(slice::find_for_rounds(job, watch)?),
+        profile: profile.map(Path::to_owned),
+    };
+    order.check_profile()?;
     let job = Job {
         sliced: Vec::new(),
         toolpaths: None,
@@ -65,7 +79,7 @@ pub fn prepare_sliced(job: &Job, watch: &Watch) -> Result<SlicedOutcome, Error> 
             Ok(Verdict::No(_)) | Err(_) => break,
         };
         let prepared = papers::finish(&round, &draft, None, watch)?;
-        let weighed = weigh(&command, &prepared, watch)?;
+        let weighed = weigh(&order, &prepared, watch)?;
         if rounds.add(round, draft, weighed) {
             break;
         }

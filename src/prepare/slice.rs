@@ -97,6 +97,7 @@ pub fn time<'a>(
     };
     Ok(PrintTimeRow {
         slicer: slicer.version().to_owned(),
+        has_profile: false,
         plates: plates.map(row).collect::<Result<_, SlicerError>>()?,
     })
 }

@@ -49,16 +49,15 @@ pub struct Weighed {
     pub record: SlicedKit,
 }
 
-/// Slices a kit in a folder of its own, and weighs the toolpaths.
-pub fn weigh(command: &str, prepared: &Prepared, watch: &Watch) -> Result<Weighed, Error> {
+/// Slices a kit in a folder of its own, as it is ordered for another, and weighs the toolpaths.
+pub fn weigh(order: &SliceOrder, prepared: &Prepared, watch: &Watch) -> Result<Weighed, Error> {
     watch.enter(Phase::Slice);
     let scratch = Scratch::new().map_err(crate::slicer::SlicerError::Folder)?;
     let [kit, toolpaths] = ["kit", "toolpaths"].map(|name| scratch.path().join(name));
     prepared.kit.write_watched(&kit, Existing::Keep, watch)?;
     let order = SliceOrder {
         kit: kit.clone(),
-        slicer: Some(command.to_owned()),
-        profile: None,
+        ..order.clone()
     };
     let sliced = slice_kit(&order, watch)?;
     sliced
@@ -73,6 +72,7 @@ pub fn weigh(command: &str, prepared: &Prepared, watch: &Watch) -> Result<Weighe
     let plates = plates.map(|plate| plate_row(plate, &prepared.kit));
     let kit = SlicedKit {
         slicer: sliced.slices.slicer.clone(),
+        profile_sha256: sliced.slices.profile_sha256.clone(),
         mass_g: 0.0,
         miss_mm: 0.0,
         tilt_deg: None,
@@ -194,6 +194,7 @@ mod tests {
             broken: Vec::new(),
             record: SlicedKit {
                 slicer: String::new(),
+                profile_sha256: None,
                 mass_g: 0.0,
                 miss_mm: 0.0,
                 tilt_deg: None,

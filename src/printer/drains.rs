@@ -6,6 +6,9 @@ use super::{CleaningRule, Printer, Quantity, Support};
 const DRAIN_AND_VENT: usize = 2;
 /// Holes of a void that powder leaves through small ones.
 const PAIR: usize = 2;
+/// Diameter of a hole for a plug in the outside, over that inside. In a wall of 2 mm, a hole of
+/// 5 mm then has flanks of 14° to its axis. They stop a plug, and it does not jam.
+const MOUTH_RATIO: f64 = 1.25;
 
 /// The holes that each void of an uncut piece needs.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -16,6 +19,19 @@ pub struct DrainNeed {
     pub count: usize,
     /// True if a liquid drains: one hole is low, and another one high.
     pub is_liquid: bool,
+    /// The gap on each side of the plug that closes each hole afterwards, mm; `None` without plugs.
+    pub plug_gap_mm: Option<f64>,
+}
+
+impl DrainNeed {
+    /// Returns the diameter of each hole in the outside, mm. For a plug it is wider there than
+    /// inside, so that the plug cannot fall in.
+    pub fn mouth_mm(&self) -> f64 {
+        match self.plug_gap_mm {
+            Some(_) => MOUTH_RATIO * self.diameter_mm,
+            None => self.diameter_mm,
+        }
+    }
 }
 
 /// The reason why drain holes do not empty a void.
@@ -69,6 +85,7 @@ impl Printer {
             diameter_mm,
             count,
             is_liquid,
+            plug_gap_mm: None,
         })
     }
 }

@@ -217,6 +217,13 @@ impl Printer {
         }
     }
 
+    /// Returns the gap on each side of what is pressed into a print, mm: that of a pressed joint.
+    /// If the profile does not know it, half of that of a glued one.
+    pub fn snug_gap_mm(&self) -> f64 {
+        let press = self.number(Quantity::ClearancePressPerSideMm);
+        press.map_or(0.5 * self.clearance_per_side_mm.value, |gap| gap.value)
+    }
+
     /// Returns every known number of the profile's `[numbers]`, in the order of [`Quantity`].
     pub fn numbers(&self) -> Vec<(Quantity, &Sourced<f64>)> {
         Quantity::ALL

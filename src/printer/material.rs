@@ -20,6 +20,10 @@ pub struct Material {
     /// Gap on each side for shells that slide; `None` if the printer's own holds.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub clearance_slide_per_side_mm: Option<Sourced<f64>>,
+    /// The share of the drawn lines' volume that is extruded, so that a print weighs what it
+    /// should: the extrusion multiplier of slicers. `None` if theirs holds.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub flow_ratio: Option<Sourced<f64>>,
     /// The lot on which the density was measured.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub lot: Option<String>,

@@ -48,6 +48,7 @@ pub(super) struct MaterialText {
     pub density_g_cm3: Spanned<ValueText<f64>>,
     pub density_spread_ratio: Option<Spanned<ValueText<f64>>>,
     pub clearance_slide_per_side_mm: Option<Spanned<ValueText<f64>>>,
+    pub flow_ratio: Option<Spanned<ValueText<f64>>>,
     pub lot: Option<Spanned<String>>,
     pub measured_on: Option<Spanned<Datetime>>,
 }

@@ -23,6 +23,8 @@ const DENSITY_G_CM3: RangeInclusive<f64> = 0.05..=25.0;
 
 /// Plausible relative spreads of the mass of sound prints. Larger values must be in per cent.
 const DENSITY_SPREAD_RATIO: RangeInclusive<f64> = 1e-4..=0.5;
+/// Plausible flows of filaments. The judge of toolpaths takes these off; others are faults.
+pub(super) const FLOW_RATIO: RangeInclusive<f64> = 0.92..=1.08;
 
 /// Plausible sides of an excluded corner, mm.
 const CORNER_MM: RangeInclusive<f64> = 0.1..=5_000.0;
@@ -241,6 +243,8 @@ impl<'a> Reader<'a> {
         let slide = Quantity::ClearanceSlidePerSideMm;
         let gap = text.clearance_slide_per_side_mm.as_ref();
         let gap = gap.and_then(|text| self.number_within(slide.key(), text, slide.plausible()));
+        let flow = text.flow_ratio.as_ref();
+        let flow = flow.and_then(|text| self.number_within("flow_ratio", text, FLOW_RATIO));
         let lot = text.lot.as_ref().map(|lot| self.words("lot", lot));
         let measured_on = text.measured_on.as_ref().and_then(|day| self.day(day));
         let density = density?;
@@ -254,6 +258,7 @@ impl<'a> Reader<'a> {
             density_g_cm3: density,
             density_spread_ratio,
             clearance_slide_per_side_mm: gap,
+            flow_ratio: flow,
             lot,
             measured_on,
         })

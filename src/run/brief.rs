@@ -6,7 +6,7 @@ use crate::cut::{Hollowed, Rod};
 use crate::goal::{Footing, Goal, Hardware, Placement, Request};
 use crate::hardware::Fitted;
 use crate::hollow::Fill;
-use crate::job::{CutMode, DrainOrder, Job};
+use crate::job::{CutMode, Job};
 use crate::mass::{Moments, moments_of_mesh};
 use crate::mesh::{Solid, TriMesh};
 use crate::printer::{Material, Printer, Quantity, WallChoice};
@@ -164,11 +164,10 @@ impl Placed {
         }
     }
 
-    /// Returns whether it stays in one uncut piece whose voids get drain holes.
+    /// Returns whether it stays in one uncut piece, whose voids need drain holes.
     pub fn is_drained(&self) -> bool {
         let job = &self.job;
-        let is_whole = job.cut == CutMode::Never && job.plan.is_none() && self.sparse.is_none();
-        is_whole && job.drain != DrainOrder::Never
+        job.cut == CutMode::Never && job.plan.is_none() && self.sparse.is_none()
     }
 
     /// Returns the gap between the halves of a yo-yo, mm, `None` for one body.

@@ -111,6 +111,19 @@ pub struct Course {
     /// Tops: the best speed for a height of the centre of mass, by ascending heights.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub speeds: Vec<SpeedRow>,
+    /// Prints near a wished infill: how much of it must change to keep how much of a figure.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub trade: Option<TradeRow>,
+}
+
+/// The least change of a wished infill for each of some figures.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct TradeRow {
+    /// The figure.
+    pub figure: FigureName,
+    /// The root mean square of the change, as a share of solid print, and the figure, by ascending
+    /// change. The last point is the best print.
+    pub points: Vec<[f64; 2]>,
 }
 
 /// A pass of the solver over the columns.

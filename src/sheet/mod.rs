@@ -18,7 +18,9 @@ mod timing;
 mod toolpaths;
 mod voids;
 
-pub use certificate::{Certificate, CleaningRow, Course, HeightProof, KeptRow, PassRow, SpeedRow};
+pub use certificate::{
+    Certificate, CleaningRow, Course, HeightProof, KeptRow, PassRow, SpeedRow, TradeRow,
+};
 pub use checklist::{
     Checklist, ChecklistError, LogRow, ModelRow, RedrawnRow, ThickenedRow, Tool, Verdict,
 };

@@ -4,11 +4,14 @@ use serde::{Deserialize, Serialize};
 
 use crate::base::units::show_minutes;
 
-/// What a slicer says that the plates take, with its default speeds.
+/// What a slicer says that the plates take.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct PrintTimeRow {
     /// The slicer's name and version, such as `PrusaSlicer 2.5.0`.
     pub slicer: String,
+    /// True if the speeds are those of the shop's profile, and not the slicer's default.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub has_profile: bool,
     /// The plates.
     pub plates: Vec<PlateTimeRow>,
 }
@@ -44,6 +47,15 @@ impl PlateTimeRow {
 }
 
 impl PrintTimeRow {
+    /// Names the slicer, and whose speeds it took.
+    pub fn slicer_words(&self) -> String {
+        let speeds = match self.has_profile {
+            true => "the speeds of the shop's profile",
+            false => "its default speeds",
+        };
+        format!("{} with {speeds}", self.slicer)
+    }
+
     /// Words the time and the filament of all plates: `about 5 h 50 min and 63.2 g of filament`.
     pub fn words(&self) -> String {
         let minutes: u32 = self.plates.iter().map(|plate| plate.minutes).sum();
@@ -69,8 +81,13 @@ mod tests {
         assert_eq!(plates[0].minutes, 350);
         let row = PrintTimeRow {
             slicer: "PrusaSlicer 2.5.0".to_owned(),
+            has_profile: true,
             plates,
         };
+        assert!(
+            row.slicer_words()
+                .ends_with("the speeds of the shop's profile")
+        );
         let words = row.words().replace('\u{a0}', " ");
         assert_eq!(
             words,
@@ -82,6 +99,7 @@ mod tests {
     fn filament_that_is_not_stated_is_not_told() {
         let row = PrintTimeRow {
             slicer: String::new(),
+            has_profile: false,
             plates: vec![PlateTimeRow::new("plate.3mf", 1500.0, None)],
         };
         assert_eq!(row.words().replace('\u{a0}', " "), "about 25 min");

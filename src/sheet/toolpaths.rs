@@ -9,6 +9,9 @@ use crate::base::units::show_minutes;
 pub struct ToolpathsRow {
     /// The slicer's name and version, such as `PrusaSlicer 2.5.0`.
     pub slicer: String,
+    /// The SHA-256 of the slicer's profile over which it was sliced; `None` for its defaults.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub profile_sha256: Option<String>,
     /// The mass of the object that they lay, with all that the kit adds to its parts, g.
     pub mass_g: f64,
     /// The distance between its centre and the promised one, mm.

@@ -31,6 +31,18 @@ pub struct SliceOrder {
     pub profile: Option<PathBuf>,
 }
 
+impl SliceOrder {
+    /// Checks the slicer's profile before any work begins.
+    ///
+    /// # Errors
+    /// The file cannot be read, or it is no profile.
+    pub fn check_profile(&self) -> Result<(), SliceError> {
+        self.profile
+            .as_deref()
+            .map_or(Ok(()), |path| read_profile(path).map(drop))
+    }
+}
+
 /// The toolpaths of a kit.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sliced {

@@ -56,15 +56,24 @@ fn preset(kind: &str, settings: &SliceSettings) -> Value {
     let own = match kind {
         "machine" => machine(settings),
         "process" => process(settings),
-        _ => json!({
-            "filament_diameter": [FILAMENT_MM.to_string()],
-            "filament_density": [settings.density_g_cm3().to_string()],
-        }),
+        _ => filament(settings),
     };
     all.extend(own.as_object().cloned().unwrap_or_default());
     let head = json!({"type": kind, "name": "equipoise", "from": "User"});
     all.extend(head.as_object().cloned().unwrap_or_default());
     Value::Object(all)
+}
+
+/// Returns the settings of the filament.
+fn filament(settings: &SliceSettings) -> Value {
+    let mut all = json!({
+        "filament_diameter": [FILAMENT_MM.to_string()],
+        "filament_density": [settings.density_g_cm3().to_string()],
+    });
+    if let Some(ratio) = settings.flow_ratio() {
+        all["filament_flow_ratio"] = json!([ratio.to_string()]);
+    }
+    all
 }
 
 /// Returns the settings of the machine.

@@ -43,6 +43,8 @@ pub struct SliceSettings {
     walls: Walls,
     /// Density of the filament, g/cm³.
     density_g_cm3: f64,
+    /// Flow of the filament over that of its lines; `None` for what the slicer's own profile says.
+    flow_ratio: Option<f64>,
     /// A profile of the slicer, whose settings hold where these say nothing; `None` for its own.
     profile: Option<String>,
 }
@@ -58,6 +60,7 @@ impl SliceSettings {
             line_mm: printer.pixel_x_mm.value,
             walls: printer.walls(),
             density_g_cm3: material.density_g_cm3.value,
+            flow_ratio: material.flow_ratio.as_ref().map(|flow| flow.value),
             profile: None,
         })
     }
@@ -71,6 +74,12 @@ impl SliceSettings {
     /// Returns the density of the filament, g/cm³.
     pub fn density_g_cm3(&self) -> f64 {
         self.density_g_cm3
+    }
+
+    /// Returns the flow of the filament over that of its lines; `None` if the slicer's profile has
+    /// it.
+    pub(super) fn flow_ratio(&self) -> Option<f64> {
+        self.flow_ratio
     }
 
     /// Returns the mass of a length of filament in mm, g.
@@ -132,8 +141,10 @@ impl SliceSettings {
         // A shop's profile has a width for every kind of line, and may change sizes.
         let line = || self.line_mm.to_string();
         let widths = LINE_KEYS.iter().map(|key| (*key, line()));
+        let flow = self.flow_ratio.iter();
+        let flow = flow.map(|ratio| ("extrusion_multiplier", ratio.to_string()));
         let sizes = SIZE_KEYS.iter().map(|key| (*key, "0".to_owned()));
-        let pairs = pairs.into_iter().chain(widths).chain(sizes);
+        let pairs = pairs.into_iter().chain(widths).chain(sizes).chain(flow);
         pairs.fold(String::new(), |mut ini, (key, value)| {
             // Writing into a string cannot fail.
             let _ = writeln!(ini, "{key} = {value}");
@@ -163,6 +174,20 @@ mod tests {
         ] {
             assert!(ini.lines().any(|found| found == line), "{line}: {ini}");
         }
+    }
+
+    #[test]
+    fn the_flow_of_a_filament_is_set_where_the_profile_says_one() {
+        let settings = of("prusa-mk4").unwrap();
+        let has_flow =
+            |settings: &SliceSettings| settings.to_ini().contains("extrusion_multiplier");
+        assert!(!has_flow(&settings), "a shop's own profile has it");
+        let flow_ratio = Some(0.97);
+        let own = SliceSettings {
+            flow_ratio,
+            ..settings
+        };
+        assert!(own.to_ini().contains("extrusion_multiplier = 0.97\n"));
     }
 
     #[test]

@@ -240,6 +240,7 @@ fn course(speed: f64) -> Course {
     Course {
         passes: [0.5, 0.1, 0.0].map(pass).into(),
         speeds: [12.0, 16.0, 20.0].map(at).into(),
+        trade: None,
     }
 }
 

@@ -11,7 +11,7 @@ use super::limits::{
 use super::play::worst_joint;
 use super::shape_checks::shape_checks;
 use super::thin_checks::thin_checks;
-use super::void_checks::{holes_check, regions_check, void_checks};
+use super::void_checks::{holes_check, plugs_check, regions_check, void_checks};
 use super::{
     Check, CheckKind, CupFacts, JigFacts, Judgement, Limit, PartFacts, Peg, PegFacts, Promise,
     PromisedPart,
@@ -46,6 +46,7 @@ pub fn checks(promise: &Promise, found: &Judgement) -> Vec<Check> {
     );
     checks.extend(cup_check(&found.cups));
     checks.extend(holes_check(&found.holes));
+    checks.extend(plugs_check(&found.plugs));
     checks.extend(void_checks(promise, &found.voids));
     checks.push(volume_check(promise, found));
     checks.extend(joint_checks(promise, found));
@@ -245,13 +246,17 @@ fn volume_check(promise: &Promise, found: &Judgement) -> Check {
         .sum();
     let whole = found.hollowed.volume_mm3;
     let drained_mm3: f64 = found.drained_mm3.iter().sum();
-    let error = (found.assembly.volume_mm3 - whole - joints + drained_mm3).abs() / whole;
+    let plugs_mm3: f64 = found.plugs.iter().map(|plug| plug.volume_mm3).sum();
+    let off_mm3 = found.assembly.volume_mm3 - whole - joints + drained_mm3 - plugs_mm3;
+    let error = off_mm3.abs() / whole;
     Check::new(
         CheckKind::Volumes,
         if found.holes.is_empty() {
             "the parts add up to the uncut body, its pins, sockets and engraved ids"
-        } else {
+        } else if found.plugs.is_empty() {
             "the piece is the uncut body, less its drain holes"
+        } else {
+            "the parts are the uncut body, less its drain holes, and their plugs"
         },
         Some(error),
         Limit::at_most(VOLUME_SUM_LIMIT_RATIO, ""),

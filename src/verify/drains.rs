@@ -96,7 +96,7 @@ impl Bored {
     }
 }
 
-/// Measures the promised holes on the parts, in their order.
+/// Measures the promised holes on the parts without plugs, in their order.
 pub(super) fn measure_holes(
     promise: &Promise,
     body: &Body,
@@ -129,7 +129,7 @@ fn lie_apart(one: &PromisedHole, other: &PromisedHole) -> bool {
         (at - start - along * share).norm()
     };
     let least_mm = (0..=STEPS).map(off_mm).fold(f64::INFINITY, f64::min);
-    one.id != other.id && least_mm >= 0.5 * (one.diameter_mm + other.diameter_mm)
+    one.id != other.id && least_mm >= 0.5 * (one.widest_mm() + other.widest_mm())
 }
 
 /// Returns whether a hole begins in the open and ends in its void.
@@ -146,6 +146,9 @@ fn leads_to(hole: &PromisedHole, promise: &Promise, body: &Body) -> bool {
 
 /// Returns the diameter of the widest ball that passes a hole along its axis, mm.
 fn free_mm(hole: &PromisedHole, probes: &[PartProbe]) -> f64 {
+    if probes.is_empty() {
+        return 0.0;
+    }
     let (from, to) = (Point::from(hole.from_mm), Point::from(hole.to_mm));
     let is_clear = probes
         .iter()

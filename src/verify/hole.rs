@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 use serde::{Deserialize, Serialize};
 
 use crate::geom::{Point, orthonormal_basis};
-use crate::mesh::Csg;
+use crate::mesh::{Csg, TriMesh};
 
 /// Number of sides of every bore, around the circle of its diameter.
 const SIDES: u32 = 48;
@@ -23,24 +23,65 @@ pub struct PromisedHole {
     pub to_mm: [f64; 3],
     /// The free diameter, mm.
     pub diameter_mm: f64,
+    /// The diameter at the outer end, mm, if the hole is wider there for a plug.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mouth_mm: Option<f64>,
+    /// The plug that closes it afterwards.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub plug: Option<PromisedPlug>,
     /// The volume of material that it takes, mm³.
     pub volume_mm3: f64,
 }
 
+/// A printed plug that closes a drain hole once the void is empty.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct PromisedPlug {
+    /// The name of its part, such as `P02`.
+    pub part: String,
+    /// The gap between its flank and that of the hole, mm.
+    pub gap_mm: f64,
+}
+
 impl PromisedHole {
+    /// Returns the plug as it should be in a body with this outside; `None` if it gets none, or if
+    /// its numbers bound none.
+    pub(super) fn plug_in(&self, outer: &TriMesh) -> Option<TriMesh> {
+        let gap_mm = self.plug.as_ref()?.gap_mm;
+        let outer = Csg::of_mesh(outer).ok()?;
+        let plug = outer.intersect(&self.prism_less(gap_mm)?).ok()?;
+        plug.to_mesh()
+            .ok()
+            .filter(|mesh| !mesh.triangles().is_empty())
+    }
+
+    /// Returns its diameter at the wider end, mm.
+    pub(super) fn widest_mm(&self) -> f64 {
+        self.diameter_mm.max(self.mouth_mm.unwrap_or(0.0))
+    }
+
     /// Returns the prism that is bored; `None` if its numbers bound none.
     pub(super) fn prism(&self) -> Option<Csg> {
+        self.prism_less(0.0)
+    }
+
+    /// Returns the prism that is bored, smaller by a gap normal to its flanks, mm.
+    fn prism_less(&self, gap_mm: f64) -> Option<Csg> {
         let (from, to) = (Point::from(self.from_mm), Point::from(self.to_mm));
         let along = to - from;
         let axis = along.try_normalize(f64::EPSILON)?;
         let (u, v) = orthonormal_basis(&axis);
-        let radius_mm = 0.5 * self.diameter_mm / (PI / f64::from(SIDES)).cos();
-        let corner = |side: u32| {
-            let (sin, cos) = (TAU * f64::from(side) / f64::from(SIDES)).sin_cos();
-            from + (u * cos + v * sin) * radius_mm
+        let mouth_mm = self.mouth_mm.unwrap_or(self.diameter_mm);
+        let slope = 0.5 * (mouth_mm - self.diameter_mm) / along.norm();
+        let less_mm = 2.0 * gap_mm * slope.hypot(1.0);
+        let rim = |middle: Point, diameter_mm: f64| {
+            let radius_mm = 0.5 * (diameter_mm - less_mm) / (PI / f64::from(SIDES)).cos();
+            (0..SIDES).map(move |side| {
+                let (sin, cos) = (TAU * f64::from(side) / f64::from(SIDES)).sin_cos();
+                middle + (u * cos + v * sin) * radius_mm
+            })
         };
-        let rim: Vec<Point> = (0..SIDES).map(corner).collect();
-        let ends: Vec<Point> = rim.iter().flat_map(|p| [*p, p + along]).collect();
+        let ends = rim(from, mouth_mm).chain(rim(to, self.diameter_mm));
+        let ends: Vec<Point> = ends.collect();
         Csg::convex_hull(&ends)
             .ok()
             .filter(|prism| !prism.is_empty())

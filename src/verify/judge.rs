@@ -15,12 +15,13 @@ use super::loads::Loads;
 use super::part_probe::PartProbe;
 use super::pegs::{count_overlaps, measure_pegs};
 use super::play::measure_joints;
+use super::plugs::{measure_plugs, unplugged};
 use super::regions::measure_inner_regions;
 use super::shape::measure_shapes;
 use super::slack::Slack;
 use super::{
-    Evidence, Figures, Fit, HoleFacts, JigFacts, Judgement, PartFacts, PegFacts, RegionFacts,
-    Setting, ShapeFacts, SpinFacts, SurfaceFacts, VoidFacts, assembly_moments,
+    Evidence, Figures, Fit, HoleFacts, JigFacts, Judgement, PartFacts, PegFacts, PlugFacts,
+    RegionFacts, Setting, ShapeFacts, SpinFacts, SurfaceFacts, VoidFacts, assembly_moments,
 };
 use crate::base::watch::{Cancelled, Watch};
 use crate::mass::{Moments, moments_of_mesh};
@@ -118,6 +119,7 @@ fn judge_beside(
         overlaps: inside.overlaps,
         voids: inside.voids,
         holes: inside.holes,
+        plugs: inside.plugs,
         drained_mm3: bored.map_or_else(Vec::new, |bored| bored.taken_mm3.clone()),
         beyond_ratio: figures.beyond_ratio,
         inner_regions: inside.inner_regions,
@@ -223,6 +225,7 @@ struct Inside {
     overlaps: usize,
     voids: Vec<VoidFacts>,
     holes: Vec<HoleFacts>,
+    plugs: Vec<PlugFacts>,
     lost_strokes: Option<usize>,
     inner_regions: Vec<RegionFacts>,
 }
@@ -233,12 +236,16 @@ impl Inside {
         let probes: Vec<PartProbe> = evidence.parts.par_iter().map(PartProbe::new).collect();
         let pegs = || measure_pegs(promise, &probes, &body.whole, watch);
         let overlaps = || count_overlaps(&probes, watch);
-        let voids = || inspect_voids(promise, &body.shells.inward, &probes, watch);
+        // Voids are emptied before plugs close their holes.
+        let unplugged = unplugged(promise, &evidence.parts);
+        let bodies = unplugged.as_ref().unwrap_or(&probes);
+        let voids = || inspect_voids(promise, &body.shells.inward, bodies, watch);
         let facts = |probe: &PartProbe| PartFacts::of_part(probe.part, &probe.surface, watch);
         let parts = || probes.par_iter().map(facts).collect::<Result<_, _>>();
         let ((pegs, overlaps), (voids, parts)) =
             both(|| both(pegs, overlaps), || both(voids, parts))?;
-        let holes = measure_holes(promise, body, &probes, watch)?;
+        let holes = measure_holes(promise, body, bodies, watch)?;
+        let plugs = measure_plugs(promise, body, &probes, watch)?;
         let mut voids = voids;
         open_through_holes(&mut voids, promise, body, &holes);
         Ok(Self {
@@ -247,6 +254,7 @@ impl Inside {
             overlaps,
             voids,
             holes,
+            plugs,
             lost_strokes: count_lost_strokes(promise, &probes),
             inner_regions: measure_inner_regions(evidence),
         })

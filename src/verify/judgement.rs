@@ -3,7 +3,7 @@
 use super::joints::FilmError;
 use super::{
     Check, CupFacts, Figures, FileChange, Fit, HoleFacts, JigFacts, JointFacts, PartFacts,
-    PegFacts, RegionFacts, ShapeFacts, SpinFacts, SurfaceFacts, VoidFacts,
+    PegFacts, PlugFacts, RegionFacts, ShapeFacts, SpinFacts, SurfaceFacts, VoidFacts,
 };
 use crate::thin::ThinFeatures;
 
@@ -53,6 +53,8 @@ pub struct Judgement {
     pub voids: Vec<VoidFacts>,
     /// Facts about every drain hole.
     pub holes: Vec<HoleFacts>,
+    /// The plugs of the drain holes, in the order of the holes.
+    pub plugs: Vec<PlugFacts>,
     /// The volume that the drain holes take from the uncut result, mm³; 0 without any.
     pub drained_mm3: Vec<f64>,
     /// The film of glue that differs most from its faces; `None` without films.

@@ -97,6 +97,8 @@ pub enum CheckKind {
     },
     /// Free diameters of the drain holes.
     DrainHoles,
+    /// Gaps of the plugs in their drain holes.
+    Plugs,
     /// Agreement of the voids with what the checklist states of them.
     VoidsAsStated,
     /// Sum of the parts' volumes against the uncut body.
@@ -281,6 +283,7 @@ impl fmt::Display for CheckKind {
             Self::VoidOpen { void } => return write!(f, "void {void} open"),
             Self::VoidClean { void } => return write!(f, "void {void} clean"),
             Self::DrainHoles => "drain holes",
+            Self::Plugs => "plugs",
             Self::VoidsAsStated => "voids as stated",
             Self::Volumes => "volumes",
             Self::Pins => "pins",
@@ -310,7 +313,8 @@ mod tests {
     use serde_json::json;
 
     /// The keys and names of all kinds without data.
-    const KEYS: [(CheckKind, &str, &str); 80] = [
+    const KEYS: [(CheckKind, &str, &str); 81] = [
+        (CheckKind::Plugs, "plugs", "plugs"),
         (CheckKind::DrainHoles, "drain-holes", "drain holes"),
         (CheckKind::MatchMass, "match-mass", "mass of the match"),
         (

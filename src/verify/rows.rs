@@ -173,6 +173,13 @@ fn lie(sheet: &Value, index: usize, evidence: &Evidence) -> String {
     if !facing.is_empty() {
         return facing.join(", ");
     }
+    let is_on_narrow_end = evidence.promise.way_of_plug(&part.id).is_some_and(|way| {
+        let z = (turn * way).z;
+        z < -LEVEL_COSINE
+    });
+    if is_on_narrow_end {
+        return "narrow end down".to_owned();
+    }
     match (turn * evidence.promise.goal.frame().axis()).z {
         z if z > LEVEL_COSINE => "as the model stands".to_owned(),
         z if z < -LEVEL_COSINE => "upside down".to_owned(),

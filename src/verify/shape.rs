@@ -53,6 +53,8 @@ struct Uncut {
     inner: Vec<Corners>,
     /// The walls of its drain holes.
     bores: Vec<Corners>,
+    /// Its outside without holes.
+    outside: TriMesh,
 }
 
 impl Uncut {
@@ -63,11 +65,13 @@ impl Uncut {
                 outer: bored.outer.clone(),
                 inner: bored.inner.clone(),
                 bores: bored.walls.clone(),
+                outside: shells.outer_mesh(),
             },
             None => Self {
                 outer: shells.outer_mesh().iter_corners().collect(),
                 inner: shells.inner_mesh().iter_corners().collect(),
                 bores: Vec::new(),
+                outside: TriMesh::default(),
             },
         }
     }
@@ -177,6 +181,7 @@ impl Sheets {
 
 impl Plan {
     fn new(evidence: &Evidence, uncut: Uncut, parts: &[Vec<Corners>]) -> Self {
+        let outside = uncut.outside;
         let (of_outer, of_body) = (uncut.outer.len(), uncut.outer.len() + uncut.inner.len());
         let body = uncut.outer.into_iter().chain(uncut.inner);
         let body: Vec<Corners> = body.chain(uncut.bores).collect();
@@ -187,6 +192,11 @@ impl Plan {
             wanted.extend(own.iter().map(|&corners| (corners, Some(index))));
             sheets.extend(own.into_iter().map(|c| sheet(c, Whose::Only(index))));
             sheets.extend(mouth.into_iter().map(|c| sheet(c, Whose::AllBut(index))));
+        }
+        for (index, plug) in plugs(evidence, &outside) {
+            let plug: Vec<Corners> = plug.iter_corners().collect();
+            wanted.extend(plug.iter().map(|&corners| (corners, Some(index))));
+            sheets.extend(plug.into_iter().map(|c| sheet(c, Whose::Only(index))));
         }
         let planes: Vec<Plane> = evidence
             .promise
@@ -266,6 +276,17 @@ fn reliefs(evidence: &Evidence) -> Vec<(usize, Relief)> {
         all.map(move |relief| (index, relief))
     });
     of_part.collect()
+}
+
+/// Returns the stated plugs as they should be, with the index of the part that is each.
+fn plugs(evidence: &Evidence, outside: &TriMesh) -> Vec<(usize, TriMesh)> {
+    let promise = &evidence.promise;
+    let plugs = promise.drains.iter().filter_map(|hole| {
+        let own = &hole.plug.as_ref()?.part;
+        let index = promise.parts.iter().position(|part| part.id == *own)?;
+        Some((index, hole.plug_in(outside)?))
+    });
+    plugs.collect()
 }
 
 /// Returns triangles as a mesh; corners at one place stay apart.

@@ -1,9 +1,9 @@
 //! The checks of the voids: every one open and clean by the printer's rule.
 
-use super::limits::{HOLE_LIMIT_MM, OPENING_SLACK_RATIO, SIGHT_TOLERANCE_RATIO};
+use super::limits::{GAP_TOLERANCE_MM, HOLE_LIMIT_MM, OPENING_SLACK_RATIO, SIGHT_TOLERANCE_RATIO};
 use super::{
-    Check, CheckKind, Cleaning, CleaningRule, HoleFacts, InfillOrder, Judgement, Limit, Promise,
-    PromisedVoid, VoidFacts,
+    Check, CheckKind, Cleaning, CleaningRule, HoleFacts, InfillOrder, Judgement, Limit, PlugFacts,
+    Promise, PromisedVoid, VoidFacts,
 };
 
 /// Checks that every drain hole is as free as stated and leads to its void; `None` without any.
@@ -26,6 +26,27 @@ pub(super) fn holes_check(holes: &[HoleFacts]) -> Option<Check> {
     let limit = Limit::at_most(HOLE_LIMIT_MM, "mm");
     let check = Check::new(CheckKind::DrainHoles, promise, Some(worst_mm), limit);
     Some(check.at((!narrow.is_empty()).then(|| narrow.join("; "))))
+}
+
+/// Checks that every plug has its gap in its hole; `None` without any.
+pub(super) fn plugs_check(plugs: &[PlugFacts]) -> Option<Check> {
+    // A missing plug lacks all of its gap and more.
+    let lack_mm = |plug: &PlugFacts| match plug.gap_mm {
+        Some(gap_mm) => (plug.ordered_gap_mm - gap_mm).max(0.0),
+        None => f64::INFINITY,
+    };
+    let worst_mm = plugs.iter().map(lack_mm).reduce(f64::max)?;
+    let tight = plugs.iter().filter(|plug| lack_mm(plug) > GAP_TOLERANCE_MM);
+    let tight: Vec<String> = tight
+        .map(|plug| match plug.gap_mm {
+            Some(gap_mm) => format!("{} in {}: {gap_mm:.3} mm", plug.part, plug.hole),
+            None => format!("{} for {}: not there", plug.part, plug.hole),
+        })
+        .collect();
+    let promise = "every plug has its gap on each side in its drain hole; short by at most";
+    let limit = Limit::at_most(GAP_TOLERANCE_MM, "mm");
+    let check = Check::new(CheckKind::Plugs, promise, Some(worst_mm), limit);
+    Some(check.at((!tight.is_empty()).then(|| tight.join("; "))))
 }
 
 /// Returns the check of a void that stays in one piece: holes wide enough, and for a liquid two.
@@ -153,7 +174,13 @@ fn opening_check(void: &VoidFacts, pair_mm: Option<f64>, least_mm: f64) -> Check
         }
     };
     let narrowest_mm = void.openings_mm.iter().map(by_pair).reduce(f64::min);
-    let promise = format!("every piece of {} opens by", void.id);
+    let promise = match pair_mm {
+        Some(pair_mm) => {
+            let id = &void.id;
+            format!("every piece of {id} opens by two ways of {pair_mm} mm, or by one of")
+        }
+        None => format!("every piece of {} opens by", void.id),
+    };
     let limit = Limit::at_least(least_mm * (1.0 - OPENING_SLACK_RATIO), "mm");
     // A void of dimples alone lies in plain sight.
     let value = narrowest_mm.or((void.sight_ratio > 0.0).then_some(least_mm));

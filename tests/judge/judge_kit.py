@@ -1272,11 +1272,17 @@ def hole_sides(hole):
     return start, axes, length, np.stack([-np.cos(middles), -np.sin(middles)], 1)
 
 
+def hole_radii(hole):
+    """The distances of a hole's flats from its axis at its outer and inner end, mm: a hole for a plug is wider outside."""
+    return hole.get("mouth_mm", hole["diameter_mm"]) / 2, hole["diameter_mm"] / 2
+
+
 def within_hole(points, hole, by=0.0):
     """Whether points lie in the prism of a drain hole, deeper than this under its flats, mm."""
     start, axes, length, inward = hole_sides(hole)
+    outer, inner = hole_radii(hole)
     local = (points - start) @ axes.T
-    depth = (local[:, :2] @ inward.T).min(axis=1) + hole["diameter_mm"] / 2
+    depth = (local[:, :2] @ inward.T).min(axis=1) + outer + (inner - outer) * local[:, 2] / length
     return (depth > by) & (local[:, 2] > -by) & (local[:, 2] < length + by)
 
 
@@ -1291,42 +1297,82 @@ def near_hole(corners, hole):
 def hole_walls(hole, body):
     """Points on the flats of a drain hole that bound material: on its way through the uncut body, off its rims."""
     start, axes, length, inward = hole_sides(hole)
-    around = start - hole["diameter_mm"] / 2 * (inward @ axes[:2])
-    points = []
-    for foot, met in zip(around, lines_through(near_hole(body, hole), around, axes[2])):
-        met = met[(met > 0) & (met < length)]
+    outer, inner = hole_radii(hole)
+    near, points = near_hole(body, hole), []
+    for out in -inward @ axes[:2]:
+        foot, along = start + outer * out, length * axes[2] + (inner - outer) * out
+        way = along / np.linalg.norm(along)
+        met = next(lines_through(near, foot[None], way))
+        met = met[(met > 0) & (met < np.linalg.norm(along))]
         for low, high in zip(met[0::2], met[1::2]):
-            points.append(foot + np.linspace(low, high, 12)[1:-1, None] * axes[2])
+            points.append(foot + np.linspace(low, high, 12)[1:-1, None] * way)
     return np.concatenate(points) if points else np.full((1, 3), np.inf)
+
+
+def hole_rings(hole, gap=0.0):
+    """The corners of a drain hole around its outer and inner end, or of what keeps a gap from its flats on each side."""
+    start, axes, length, _ = hole_sides(hole)
+    outer, inner = hole_radii(hole)
+    angles = np.arange(PEG_SIDES) * math.tau / PEG_SIDES
+    around = (np.cos(angles)[:, None] * axes[0] + np.sin(angles)[:, None] * axes[1]) / math.cos(math.pi / PEG_SIDES)
+    # The flats lean, and the gap is normal to them.
+    less = gap * math.hypot(1.0, (outer - inner) / length)
+    return start + (outer - less) * around, start + length * axes[2] + (inner - less) * around
+
+
+def plug_body(hole, outer):
+    """The triangles of the plug that closes a drain hole: what lies in it of the body without voids, less its gap."""
+    import manifold3d
+
+    surface = welded(np.concatenate(outer))
+    solid = manifold3d.Manifold(manifold3d.Mesh(surface.vertices.astype(np.float32), surface.faces.astype(np.uint32)))
+    prism = manifold3d.Manifold.hull_points(np.concatenate(hole_rings(hole, hole["plug"]["gap_mm"])))
+    plug = (solid ^ prism).to_mesh()
+    return np.asarray(plug.vert_properties, float)[:, :3][np.asarray(plug.tri_verts)]
+
+
+def plugs_of(sheet):
+    """The hole of each part that is a plug, by the name of the part."""
+    return {hole["plug"]["part"]: hole for hole in sheet.get("drains", []) if "plug" in hole}
 
 
 def hole_surface(hole):
     """The whole mantle of a drain hole, facing its axis."""
-    start, axes, length, _ = hole_sides(hole)
-    radius = hole["diameter_mm"] / 2 / math.cos(math.pi / PEG_SIDES)
-    angles = np.arange(PEG_SIDES) * math.tau / PEG_SIDES
-    low = start + radius * (np.cos(angles)[:, None] * axes[0] + np.sin(angles)[:, None] * axes[1])
-    high, after = low + length * axes[2], lambda ring: np.roll(ring, -1, axis=0)
+    low, high = hole_rings(hole)
+    after = lambda ring: np.roll(ring, -1, axis=0)
     return np.concatenate([np.stack(t, 1) for t in ((low, after(high), after(low)), (low, high, after(high)))])
 
 
 def hole_volume(hole, body):
     """The material in a drain hole, mm³: lines along it through a grid of points across it."""
     start, axes, length, inward = hole_sides(hole)
-    radius = hole["diameter_mm"] / 2 / math.cos(math.pi / PEG_SIDES)
+    outer, inner = hole_radii(hole)
+    radius = outer / math.cos(math.pi / PEG_SIDES)
     side = np.linspace(-radius, radius, 81)
     x, y = (grid.ravel() for grid in np.meshgrid((side[1:] + side[:-1]) / 2, (side[1:] + side[:-1]) / 2))
     flat = np.stack([x, y], 1)
-    flat = flat[((flat @ inward.T).min(axis=1) + hole["diameter_mm"] / 2) > 0]
+    from_axis = -(flat @ inward.T).min(axis=1)
+    flat, from_axis = flat[from_axis < outer], from_axis[from_axis < outer]
+    # A line far from the axis of a hole that narrows leaves it through a flat.
+    ends = np.where(from_axis <= inner, length, length * (outer - from_axis) / max(outer - inner, 1e-12))
     points, total = start + flat @ axes[:2], 0.0
-    for met in lines_through(near_hole(body, hole), points, axes[2]):
-        met = met[(met > 0) & (met < length)]
+    for met, end in zip(lines_through(near_hole(body, hole), points, axes[2]), ends):
+        met = met[(met > 0) & (met < end)]
+        met = np.append(met, end) if len(met) % 2 else met
         total += met[1::2].sum() - met[0::2].sum() if len(met) % 2 == 0 else math.nan
     return total * (side[1] - side[0]) ** 2
 
 
 def judge_holes(table, sheet, parts, whole, voids):
-    """Every drain hole begins in the open, ends in its void, is free by its diameter, and takes the stated volume."""
+    """Every drain hole begins in the open, ends in its void, is free by its diameter, and takes the stated volume. What closes it
+    afterwards is no part of the body then."""
+    plugs = plugs_of(sheet)
+    closing = {row["id"]: corners for row, corners in zip(sheet["parts"], parts) if row["id"] in plugs}
+    parts = [corners for row, corners in zip(sheet["parts"], parts) if row["id"] not in plugs]
+    for name, hole in plugs.items():
+        soup, plug = welded_soup(near_hole(np.concatenate(parts), hole)), spread_over(closing[name])[0]
+        gap = trimesh.proximity.closest_point(soup, plug)[1].min()
+        table.at_least(f"{name} gap in {hole['id']}, mm", hole["plug"]["gap_mm"] - GAP_TOLERANCE_MM, gap)
     for hole in sheet.get("drains", []):
         start, end = np.array(hole["from_mm"], float), np.array(hole["to_mm"], float)
         index = [void["id"] for void in sheet["voids"]].index(hole["void"])
@@ -1466,10 +1512,11 @@ def judge_surfaces(table, sheet, parts, outer, voids):
     """Every triangle of every part lies on the uncut body, on a cut face of another part, or on its own pins, sockets and ids;
     and nothing of these is missing. Returns the outer triangles of the parts, and those of voids."""
     body, of_outer = np.concatenate([*outer, *voids]), sum(map(len, outer))
-    own, mouths = [], []
+    own, mouths, plugs = [], [], plugs_of(sheet)
     for row in sheet["parts"]:
         bodies = [peg_body(pin, False) for pin in row["pins"]] + [peg_body(socket, True) for socket in row["sockets"]]
         bodies += [mark_body(mark) for mark in row.get("marks", [])]
+        bodies += [(plug_body(plugs[row["id"]], outer), np.empty((0, 3, 3)))] if row["id"] in plugs else []
         own.append(np.concatenate([np.empty((0, 3, 3)), *(surface for surface, _ in bodies)]))
         mouths.append(np.concatenate([np.empty((0, 3, 3)), *(mouth for _, mouth in bodies)]))
     in_cut = lambda corners, cut: (np.abs((corners - cut["point_mm"]) @ cut["normal"]) <= ON_SURFACE_MM).all(axis=1)
@@ -1494,15 +1541,16 @@ def judge_surfaces(table, sheet, parts, outer, voids):
     rest = body[left]
     if holes:
         # What a hole takes off a triangle is no loss: around the holes it is looked at in small pieces.
-        reach = lambda hole: hole["diameter_mm"] / 2 + np.linalg.norm(np.subtract(hole["to_mm"], hole["from_mm"]))
+        bored = np.concatenate([corners for row, corners in zip(sheet["parts"], parts) if row["id"] not in plugs])
+        reach = lambda hole: hole_radii(hole)[0] + np.linalg.norm(np.subtract(hole["to_mm"], hole["from_mm"]))
         near = np.any([np.linalg.norm(trimesh.triangles.closest_point(rest, np.tile(hole["from_mm"], (len(rest), 1))) - hole["from_mm"], axis=1) < reach(hole) + 1 for hole in holes], axis=0)
         pieces, _ = cut_up(rest[near], HOLE_RIM_MM)
         kept = ~np.any([within_hole(pieces.reshape(-1, 3), hole, -ON_SURFACE_MM).reshape(-1, 3).any(axis=1) for hole in holes], axis=0)
         rest = np.concatenate([rest[~near], pieces[kept]])
         # Nothing of what a part has of the body lies in a hole.
-        inside = [within_hole(np.concatenate(parts).mean(axis=1), hole, ON_SURFACE_MM).sum() for hole in holes]
+        inside = [within_hole(bored.mean(axis=1), hole, ON_SURFACE_MM).sum() for hole in holes]
         table.none("triangles in the drain holes", int(sum(inside)))
-        soup = lambda hole: welded_soup(near_hole(np.concatenate(parts), hole))
+        soup = lambda hole: welded_soup(near_hole(bored, hole))
         lack = [trimesh.proximity.closest_point(soup(hole), hole_walls(hole, body))[1].max(initial=0.0) for hole in holes]
         table.at_most("walls of the drain holes, off by mm", ON_SURFACE_MM, max(lack))
     off, _ = farthest_off(rest, np.concatenate(parts))
@@ -1690,7 +1738,8 @@ def judge_whole(table, sheet, volume, hollowed):
     pegs = lambda key: sum(peg["volume_mm3"] for part in sheet["parts"] for peg in part[key])
     marks = sum(mark["volume_mm3"] for part in sheet["parts"] for mark in part.get("marks", []))
     holes = sum(hole["volume_mm3"] for hole in sheet.get("drains", []))
-    error = abs(volume - hollowed - pegs("pins") + pegs("sockets") + marks + holes) / hollowed
+    plugs = sum(part["volume_mm3"] for part in sheet["parts"] if part["id"] in plugs_of(sheet))
+    error = abs(volume - hollowed - pegs("pins") + pegs("sockets") + marks + holes - plugs) / hollowed
     table.at_most("parts against hollowed, pins, sockets", VOLUME_SUM_LIMIT_RATIO, error)
 
 

@@ -6,9 +6,10 @@ use super::typed::has_model_ending;
 /// The commands that share their options.
 const ALIKE: [&str; 2] = ["prepare", "cuts"];
 /// Options of one run only, which take a value.
-const OWN_WITH_VALUE: [&str; 4] = ["--out", "--plans", "--cut", "--threads"];
+const OWN_WITH_VALUE: [&str; 5] = ["--out", "--plans", "--cut", "--threads", "--drain"];
 /// Options of one run only, which take none.
-const OWN: [&str; 8] = [
+const OWN: [&str; 9] = [
+    "--plugs",
     "--force",
     "--json",
     "--quiet",

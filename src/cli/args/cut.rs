@@ -26,6 +26,9 @@ pub struct CutArgs {
     /// powder, resin and wax [default: auto]
     #[arg(long, value_name = "auto|never|LENGTH", allow_hyphen_values = true)]
     pub drain: Option<DrainOrder>,
+    /// Print a plug for each drain hole, to be glued in once the void is empty
+    #[arg(long)]
+    pub plugs: bool,
     /// Hollow the inside (hollow), or print one uncut piece whose inside is sparse infill where
     /// that helps (graded). Graded is for filament printers [default: hollow]
     #[arg(long, value_parser = words::<Interior>(Interior::WORDS))]

@@ -1,7 +1,7 @@
 //! The arguments of `prepare` that a replayed job decides.
 
 /// The arguments that a replayed job decides.
-pub const DECIDED_BY_JOB: [&str; 49] = [
+pub const DECIDED_BY_JOB: [&str; 50] = [
     "slicer",
     "printer",
     "material",
@@ -35,6 +35,7 @@ pub const DECIDED_BY_JOB: [&str; 49] = [
     "pitch",
     "cut",
     "drain",
+    "plugs",
     "seam",
     "keep_clear",
     "least_part",

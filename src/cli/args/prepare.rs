@@ -181,6 +181,9 @@ pub struct PrepareArgs {
     /// Slice the kit, and make it again with what its toolpaths lay until they keep the promise
     #[arg(long, help_heading = "Kit", conflicts_with = "plans")]
     pub slice: bool,
+    /// With --slice: a configuration exported by the slicer, as `slice --profile` takes it
+    #[arg(long, value_name = "FILE", help_heading = "Kit", requires = "slice")]
+    pub slicer_profile: Option<PathBuf>,
     /// Leave the copy of the model out of the kit; `verify` then needs --model to compare with it
     #[arg(long, help_heading = "Kit")]
     pub no_model: bool,
@@ -203,6 +206,8 @@ pub struct Request {
     pub force: bool,
     /// True if the kit is sliced, and solved for again with its toolpaths.
     pub slice: bool,
+    /// The slicer's own profile for that.
+    pub slicer_profile: Option<PathBuf>,
     /// The command line that was typed, with the answers to questions.
     pub typed: Vec<String>,
 }
@@ -236,7 +241,7 @@ impl PrepareArgs {
             return Err(ArgsError::Missing(missing));
         }
         let (out, force, plans) = (self.out.clone(), self.force, self.plans);
-        let slice = self.slice;
+        let (slice, slicer_profile) = (self.slice, self.slicer_profile.clone());
         let typed = std::env::args_os().map(|word| word.to_string_lossy().into_owned());
         let typed = typed.chain(self.answered.iter().cloned()).collect();
         let job = match &self.job {
@@ -249,6 +254,7 @@ impl PrepareArgs {
             out,
             force,
             slice,
+            slicer_profile,
             typed,
         })
     }
@@ -282,6 +288,7 @@ impl PrepareArgs {
             cut,
             plan,
             drain: self.cutting.drain.unwrap_or_default(),
+            plugs: self.cutting.plugs,
             interior: self.cutting.interior.unwrap_or(default.interior),
             density: self.cutting.density,
             infill: self.cutting.infill,

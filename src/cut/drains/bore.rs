@@ -67,6 +67,7 @@ struct Felt {
 }
 
 impl<'a> Surfaces<'a> {
+    /// Gets the surfaces of a body ready for holes of this diameter in the outside, mm.
     pub(super) fn new(hollowed: &'a Hollowed, request: &'a PlanRequest, diameter_mm: f64) -> Self {
         let outer = hollowed.outer.mesh();
         Self {

@@ -29,6 +29,10 @@ pub struct DrainHole {
     pub to_mm: [f64; 3],
     /// The diameter that is free everywhere, mm.
     pub diameter_mm: f64,
+    /// The diameter at the outer end, mm: as that, or wider for a plug.
+    pub mouth_mm: f64,
+    /// The gap on each side of its plug, mm; `None` without a plug.
+    pub plug_gap_mm: Option<f64>,
     /// The volume of material that it takes, mm³.
     pub volume_mm3: f64,
 }
@@ -39,18 +43,31 @@ impl DrainHole {
         diameter_mm / 2.0 / (PI / SIDES as f64).cos()
     }
 
+    /// Returns the unit direction into the body.
+    pub(crate) fn axis(&self) -> Vector {
+        (Point::from(self.to_mm) - Point::from(self.from_mm)).normalize()
+    }
+
     /// Returns the prism that is taken away: what of it lies in the body is material.
     pub(crate) fn bore(&self) -> TriMesh {
+        self.prism(0.0)
+    }
+
+    /// Returns the prism of the hole, smaller by a gap on each side, mm.
+    pub(crate) fn prism(&self, gap_mm: f64) -> TriMesh {
         let (from, to) = (Point::from(self.from_mm), Point::from(self.to_mm));
-        let along: Vector = to - from;
-        let axis = along.normalize();
+        let (axis, length_mm) = (self.axis(), (to - from).norm());
         let (u, v) = orthonormal_basis(&axis);
-        let prism = cylinder(
-            Self::corner_mm(self.diameter_mm),
-            along.norm(),
-            SIDES as u32,
-        );
-        prism.map_vertices(|p| from + u * p.x + v * p.y + axis * p.z)
+        // A gap is normal to the flanks, which lean.
+        let slope = 0.5 * (self.mouth_mm - self.diameter_mm) / length_mm;
+        let less_mm = 2.0 * gap_mm * (1.0 + slope * slope).sqrt();
+        let mouth_mm = Self::corner_mm(self.mouth_mm - less_mm);
+        let narrowing = (self.diameter_mm - less_mm) / (self.mouth_mm - less_mm);
+        let prism = cylinder(mouth_mm, length_mm, SIDES as u32);
+        prism.map_vertices(|p| {
+            let share = 1.0 + (narrowing - 1.0) * p.z / length_mm;
+            from + u * (p.x * share) + v * (p.y * share) + axis * p.z
+        })
     }
 }
 

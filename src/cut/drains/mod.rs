@@ -3,10 +3,12 @@
 //! * `hole`: a hole, and what it takes away.
 //! * `bore`: whether a hole can be bored at a place.
 //! * `place`: which of these places is best.
+//! * `plug`: the parts that close holes afterwards.
 
 mod bore;
 pub(crate) mod hole;
 mod place;
+mod plug;
 
 #[cfg(test)]
 mod tests;
@@ -23,7 +25,7 @@ use crate::{
     },
     geom::Point,
     mass::{Moments, moments_of_mesh},
-    mesh::Csg,
+    mesh::{Csg, TriMesh},
     printer::DrainNeed,
 };
 
@@ -109,7 +111,8 @@ fn distance_mm<'a>(p: &Point, drains: impl Iterator<Item = &'a DrainHole>) -> f6
 }
 
 impl CutPlan {
-    /// Returns the moments of the material that its drain holes take from a body, model frame.
+    /// Returns the moments of the material that its drain holes take from a body, less those of
+    /// their plugs, model frame.
     ///
     /// # Errors
     /// A boolean failed.
@@ -120,9 +123,10 @@ impl CutPlan {
         let body = Csg::of_mesh(&hollowed.to_mesh())?;
         let bores = self.drains.iter();
         let moments = bores.map(|drain| Ok(moments_of_mesh(&taken(&body, drain)?)));
-        let moments = moments.collect::<Result<Vec<Moments>, CutError>>()?;
-        Ok(moments
-            .into_iter()
-            .fold(Moments::default(), |sum, m| sum + m))
+        let taken = moments.collect::<Result<Vec<Moments>, CutError>>()?;
+        let taken = taken.into_iter().fold(Moments::default(), |sum, m| sum + m);
+        let plugs = self.plug_bodies(&hollowed.outer)?;
+        let less = |rest, body: &TriMesh| rest - moments_of_mesh(body);
+        Ok(plugs.iter().fold(taken, less))
     }
 }

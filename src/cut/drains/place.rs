@@ -47,7 +47,7 @@ pub(super) fn place(
     request: &PlanRequest,
     need: &DrainNeed,
 ) -> Result<(Vec<DrainHole>, Vec<VoidId>), Cancelled> {
-    let surfaces = Surfaces::new(hollowed, request, need.diameter_mm);
+    let surfaces = Surfaces::new(hollowed, request, need.mouth_mm());
     let chooser = Chooser {
         surfaces: &surfaces,
         request,
@@ -67,6 +67,8 @@ pub(super) fn place(
                     from_mm: from.into(),
                     to_mm: to.into(),
                     diameter_mm: need.diameter_mm,
+                    mouth_mm: need.mouth_mm(),
+                    plug_gap_mm: need.plug_gap_mm,
                     volume_mm3: 0.0,
                 }
             })),

@@ -6,21 +6,25 @@ use crate::cut::Obstacle;
 use crate::cut::parts;
 use crate::cut::scenes::{ball, cuboid, request};
 use crate::geom::Vector;
+use crate::mesh::MeshDistance;
 
 const ONE: DrainNeed = DrainNeed {
     diameter_mm: 4.0,
     count: 1,
     is_liquid: false,
+    plug_gap_mm: None,
 };
 const PAIR: DrainNeed = DrainNeed {
     diameter_mm: 2.0,
     count: 2,
     is_liquid: false,
+    plug_gap_mm: None,
 };
 const RESIN: DrainNeed = DrainNeed {
     diameter_mm: 3.5,
     count: 2,
     is_liquid: true,
+    plug_gap_mm: None,
 };
 
 /// Returns a box of 40 mm with a void 2 mm below its surface.
@@ -78,6 +82,51 @@ fn a_hole_takes_a_prism_of_the_wall_and_leaves_one_body_without_a_cavity() {
     assert!((lost_mm3 / prism_mm3 - 1.0).abs() < 1e-9);
     assert_eq!(crate::mesh::shells(part.solid.mesh()).len(), 1);
     assert_eq!(part.voids, vec![VoidId::of(0)]);
+}
+
+#[test]
+fn a_plug_is_the_wall_in_its_hole_less_the_gap_and_has_a_flat_inner_end() {
+    let hollowed = hollow_box();
+    let gap_mm = 0.1;
+    let need = DrainNeed {
+        plug_gap_mm: Some(gap_mm),
+        ..ONE
+    };
+    let found = placed(&hollowed, &need);
+    let [hole] = &found.plan.drains[..] else {
+        panic!("one hole")
+    };
+    assert_eq!((hole.diameter_mm, hole.mouth_mm), (4.0, 5.0));
+    // The bore is 2.6 mm long, of which 0.3 mm stick out of the wall at either end.
+    let area_mm2 = |height_mm: f64, gap_mm: f64| {
+        let slope: f64 = 0.5 / 2.6;
+        let radius_mm = 2.5 - slope * height_mm - gap_mm * slope.hypot(1.0);
+        48.0 * (std::f64::consts::PI / 48.0).tan() * radius_mm * radius_mm
+    };
+    // Simpson's rule is exact for a frustum.
+    let volume_mm3 = |[from, to]: [f64; 2], gap_mm: f64| {
+        let [a, b, c] = [from, 0.5 * (from + to), to].map(|at| area_mm2(at, gap_mm));
+        (to - from) / 6.0 * (a + 4.0 * b + c)
+    };
+    let taken_mm3 = volume_mm3([0.3, 2.3], 0.0);
+    assert!((hole.volume_mm3 / taken_mm3 - 1.0).abs() < 1e-9, "{hole:?}");
+    let plug_mm3 = volume_mm3([0.3, 2.6], gap_mm);
+    let left_mm3 = found.plan.drained(&hollowed).unwrap().volume();
+    assert!(
+        (left_mm3 - (taken_mm3 - plug_mm3)).abs() < 1e-6,
+        "{left_mm3}"
+    );
+    let Verdict::Found(parts) = parts(&hollowed, &found.plan, &request()).unwrap() else {
+        panic!("no parts")
+    };
+    let [body, plug] = &parts[..] else {
+        panic!("a body and a plug")
+    };
+    assert!((plug.solid.mesh().signed_volume_mm3() / plug_mm3 - 1.0).abs() < 1e-9);
+    let apart_mm = MeshDistance::new(body.solid.mesh()).min_distance_to(plug.solid.mesh());
+    assert!((apart_mm - gap_mm).abs() < 1e-9, "{apart_mm}");
+    // It is printed with the wide end up.
+    assert!((plug.pose.size_mm[2] - 2.3).abs() < 1e-9, "{:?}", plug.pose);
 }
 
 #[test]

@@ -8,14 +8,14 @@ use rayon::prelude::*;
 use crate::{
     base::{verdict::Verdict, watch::Watch},
     cut::{
-        drains::hole::bored,
+        drains::hole::{DrainHole, bored},
         error::{CutError, Obstacle, verdict},
         geometry::{chart::Chart, tree::CutTree},
         hollowed::Hollowed,
         ids::{PartId, VoidId},
         joints::{contact::update_faces, label::Label, pin_shape::PinSite},
         pieces::{
-            pose::{Pose, Posed},
+            pose::{Pose, Posed, lay_on},
             rejoin::rejoin,
             split::{Piece, check_no_cavity, piece_at, split, split_for_trial},
         },
@@ -106,7 +106,9 @@ fn make_parts(
         tree: &tree,
         request,
     };
-    let parts = maker.make_parts(&pieces)?;
+    let mut parts = maker.make_parts(&pieces)?;
+    let first = parts.len();
+    parts.extend(maker.make_plugs(first)?);
     Ok((parts, update_faces(&pieces, &tree, plan.clone())))
 }
 
@@ -211,6 +213,26 @@ impl PartMaker<'_> {
             })
         };
         pieces.par_iter().enumerate().map(part).collect()
+    }
+
+    /// Makes the plugs of the drain holes, numbered on from `first`.
+    fn make_plugs(&self, first: usize) -> Result<Vec<Part>, CutError> {
+        let bodies = self.plan.plug_bodies(&self.hollowed.outer)?;
+        let holes: Vec<&DrainHole> = self.plan.plugged().map(|(hole, _)| hole).collect();
+        let watch = &self.request.watch;
+        let part = |(index, body): (usize, &TriMesh)| {
+            let solid = drop_short_edges(&Csg::of_mesh(body)?, watch)?;
+            Ok(Part {
+                id: PartId::of(first + index),
+                pose: lay_on(solid.mesh(), holes[index].axis(), self.request),
+                solid,
+                pins: Vec::new(),
+                sockets: Vec::new(),
+                labels: Vec::new(),
+                voids: Vec::new(),
+            })
+        };
+        bodies.par_iter().enumerate().map(part).collect()
     }
 }
 

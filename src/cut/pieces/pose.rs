@@ -43,6 +43,8 @@ pub enum Lie {
     OnItsSide,
     /// In any other direction.
     Leaning,
+    /// A plug, on its inner end.
+    InnerEndDown,
 }
 
 impl fmt::Display for Lie {
@@ -54,6 +56,7 @@ impl fmt::Display for Lie {
             Self::UpsideDown => f.write_str("upside down"),
             Self::OnItsSide => f.write_str("on its side"),
             Self::Leaning => f.write_str("leaning"),
+            Self::InnerEndDown => f.write_str("inner end down"),
         }
     }
 }
@@ -280,6 +283,15 @@ fn cut_faces(piece: &Piece, planes: &[Plane], pin_cuts: &[usize]) -> Vec<CutFace
         }
     }
     cut_faces
+}
+
+/// Returns the pose of a part that is no piece of the body, with a direction of the model down.
+pub(crate) fn lay_on(mesh: &TriMesh, down: Vector, request: &PlanRequest) -> Pose {
+    let side = Underside {
+        down,
+        lies: Lie::InnerEndDown,
+    };
+    lay(mesh, &side, 0.0, request)
 }
 
 /// Returns the pose with the side down, turned about the vertical. The mesh rests on z = 0, in the

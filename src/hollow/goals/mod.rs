@@ -11,5 +11,6 @@ pub(crate) mod kept;
 pub(crate) mod matching;
 pub(crate) mod near;
 pub(crate) mod stand;
+pub(crate) mod trade;
 pub(crate) mod two;
 pub(crate) mod yoyo;

@@ -6,6 +6,7 @@ use crate::base::watch::Watch;
 use crate::goal::{GoalKind, Objective};
 use crate::hollow::dual::answer::Answer;
 use crate::hollow::dual::work::Work;
+use crate::hollow::goals::trade::Trade;
 use crate::hollow::log::Pass;
 use crate::hollow::problem::Problem;
 use crate::hollow::problem::Settings;
@@ -24,6 +25,8 @@ pub struct TopCourse {
     /// Heights in ascending order, mm, each with the least critical speed of any interior balanced
     /// there, rpm. Only heights with a stable interior; the minimum is the optimum.
     pub speeds: Vec<[f64; 2]>,
+    /// Prints near a wished density: how much of it must change to keep how much of the figure.
+    pub trade: Trade,
 }
 
 /// Computes the course of a top solved for its critical speed on these columns; empty for anything
@@ -53,6 +56,7 @@ pub fn top_course(
     TopCourse {
         passes,
         speeds: sample_speeds(&heights),
+        trade: Trade::default(),
     }
 }
 

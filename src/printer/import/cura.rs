@@ -201,6 +201,7 @@ pub(super) fn read_material(file: &str, text: &str, all: &mut Imported) {
             source: format!("{file}, density"),
             is_computed: false,
         }),
+        flow_ratio: None,
     });
 }
 

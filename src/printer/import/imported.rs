@@ -73,6 +73,8 @@ pub struct ImportedMaterial {
     pub technology: Technology,
     /// Its density; `None` if the file omits it or sets it to zero.
     pub density_g_cm3: Option<Found<f64>>,
+    /// Its flow; `None` if the file omits it.
+    pub flow_ratio: Option<Found<f64>>,
 }
 
 /// Everything found in a set of files.

@@ -11,6 +11,8 @@ use super::{
 
 /// Default width of a line in these slicers over the diameter of the nozzle.
 const AUTO_WIDTH_RATIO: f64 = 1.125;
+/// The key of a filament's flow.
+const FLOW: &str = "extrusion_multiplier";
 
 /// Keys of a section, and its place for sources.
 struct Preset {
@@ -71,11 +73,12 @@ pub(super) fn read(file: &str, text: &str, all: &mut Imported) -> Result<(), Imp
         ("sla_material", "material_density", Technology::Resin),
     ] {
         for name in ini.names(kind) {
-            let density_g_cm3 = Preset::of(&ini, kind, name)?.number(key);
+            let preset = Preset::of(&ini, kind, name)?;
             all.materials.push(ImportedMaterial {
                 name: name.to_owned(),
                 technology,
-                density_g_cm3,
+                density_g_cm3: preset.number(key),
+                flow_ratio: preset.number(FLOW),
             });
         }
     }
@@ -138,6 +141,7 @@ fn read_flat(config: &Preset, all: &mut Imported) {
         name: first_name(material).to_owned(),
         technology: printer.technology,
         density_g_cm3: config.number(key),
+        flow_ratio: config.number(FLOW),
     });
     all.printers.push(printer);
 }
@@ -371,6 +375,7 @@ filament_density = 0
         let mut all = Imported::default();
         let text = "# generated\nbed_shape = 0x0,180x0,180x180,0x180\nmax_print_height = 180\n\
                     layer_height = 0.2\nextrusion_width = 0.45\nfilament_density = 1.27;1.24\n\
+                    extrusion_multiplier = 0.97,1\n\
                     filament_settings_id = \"My PETG\";\"x\"\n\
                     printer_settings_id = Mini of mine\n";
         read("config.ini", text, &mut all).unwrap();
@@ -381,6 +386,7 @@ filament_density = 0
         );
         assert_eq!(all.materials[0].name, "My PETG");
         assert_eq!(all.materials[0].density_g_cm3.as_ref().unwrap().value, 1.27);
+        assert_eq!(all.materials[0].flow_ratio.as_ref().unwrap().value, 0.97);
     }
 
     #[test]

@@ -5,6 +5,7 @@ use std::fmt::Write;
 
 use super::{Found, Imported, ImportedMaterial, ImportedPrinter};
 use crate::printer::Quantity;
+use crate::printer::reader::FLOW_RATIO;
 
 /// The comment at the head of an imported profile.
 const HEAD: &str = "\
@@ -118,8 +119,13 @@ fn material_table(id: &str, material: &ImportedMaterial) -> String {
     let density = density.map_or_else(String::new, |found| {
         line("density_g_cm3", &found.value.to_string(), found)
     });
+    let flow = material.flow_ratio.as_ref();
+    let flow = flow.filter(|found| FLOW_RATIO.contains(&found.value));
+    let flow = flow.map_or_else(String::new, |found| {
+        line("flow_ratio", &found.value.to_string(), found)
+    });
     format!(
-        "\n[[material]]\nid = \"{id}\"\nname = {}\n{density}",
+        "\n[[material]]\nid = \"{id}\"\nname = {}\n{density}{flow}",
         string(&material.name)
     )
 }
@@ -197,6 +203,7 @@ mod tests {
             name: name.into(),
             technology: Technology::Filament,
             density_g_cm3: density.and_then(found),
+            flow_ratio: found(0.95),
         };
         let materials = vec![
             material("ABS", Some(1.04)),
@@ -234,6 +241,8 @@ mod tests {
         let walls = mine.walls();
         assert_eq!((walls.perimeters, walls.solid_layers), (3, 5));
         assert_eq!(walls.overlap_ratio, 0.2);
+        let flow = mine.material(None).unwrap().flow_ratio.as_ref();
+        assert_eq!(flow.map(|flow| flow.value), Some(0.95));
         assert_eq!(mine.min_wall_mm.process_default_of.as_deref(), Some("fdm"));
         let ids: Vec<&str> = mine
             .materials

@@ -6,8 +6,8 @@ use super::joints::bosses_mm3;
 use super::voids::cleaning_rows;
 use crate::goal::{GoalKind, Objective, compute_figures};
 use crate::hollow;
-use crate::run::HeightProof;
-use crate::sheet::{Certificate, Course, LogRow, PassRow, SpeedRow};
+use crate::run::{HeightProof, Placed};
+use crate::sheet::{Certificate, Course, LogRow, PassRow, SpeedRow, TradeRow};
 use crate::verify::{BoundPoint, BoundProof, FigureName, KeptPlace};
 
 /// Returns the certificate in the units of the sheet.
@@ -32,7 +32,7 @@ pub fn certificate(facts: &Facts) -> Certificate {
             .as_ref()
             .filter(|proof| is_plain(facts, proof))
             .map(|proof| bound_proof(facts, proof)),
-        course: course(&facts.made.course, convert),
+        course: course(facts, convert),
     }
 }
 
@@ -71,7 +71,8 @@ fn bound_proof(facts: &Facts, proof: &hollow::Proof) -> BoundProof {
 }
 
 /// Returns the course of the search in the units of the sheet; `None` if it was not recorded.
-fn course(found: &hollow::TopCourse, convert: impl Fn(f64) -> f64) -> Option<Course> {
+fn course(facts: &Facts, convert: impl Fn(f64) -> f64) -> Option<Course> {
+    let found = &facts.made.course;
     let pass = |pass: &hollow::Pass| PassRow {
         value: convert(pass.value),
         bound: convert(pass.bound),
@@ -83,7 +84,23 @@ fn course(found: &hollow::TopCourse, convert: impl Fn(f64) -> f64) -> Option<Cou
     let is_finite = |row: &PassRow| row.value.is_finite() && row.bound.is_finite();
     let passes: Vec<PassRow> = found.passes.iter().map(pass).filter(is_finite).collect();
     let speeds = found.speeds.iter().map(speed).collect();
-    (!passes.is_empty()).then_some(Course { passes, speeds })
+    let trade = trade(facts.placed, &found.trade);
+    (!passes.is_empty() || trade.is_some()).then_some(Course {
+        passes,
+        speeds,
+        trade,
+    })
+}
+
+/// Returns the trade of infill for a figure in the units of the sheet; `None` if there is none.
+fn trade(placed: &Placed, found: &hollow::Trade) -> Option<TradeRow> {
+    let figure = found.figure.filter(|_| found.points.len() > 1)?;
+    let points = found.points.iter();
+    let points = points.map(|&[change, value]| [change, in_sheet_unit(placed, figure, value)]);
+    Some(TradeRow {
+        figure: figure_name(figure),
+        points: points.collect(),
+    })
 }
 
 /// Returns the certificate's figure of the written assembly. Spin-It's functional has the weights

@@ -8,6 +8,7 @@ use super::hardware::{half_of, halves};
 use super::promise::{infill_order, mark, pin, socket};
 use super::support::{Surfaces, support_row};
 use crate::base::digest::sha256_hex;
+use crate::cut::Lie;
 use crate::geom::Vector;
 use crate::run::{Placed, WrittenPart};
 use crate::sheet::{PartRow, part_picture_file};
@@ -87,6 +88,9 @@ fn drains(written: &WrittenPart, facts: &Facts) -> Vec<String> {
 
 /// Words the pose of a part on the plate: the cut faces that look down or up.
 fn pose_words(written: &WrittenPart, facts: &Facts) -> String {
+    if written.part.pose.lies == Lie::InnerEndDown {
+        return "narrow end down".to_owned();
+    }
     let pose = written.evidence().pose;
     let center = written.part.solid.mesh().aabb().center();
     let facing = |cut: &crate::cut::Cut| {

@@ -22,6 +22,7 @@ pub fn toolpaths_row(placed: &Placed) -> Option<ToolpathsRow> {
     });
     Some(ToolpathsRow {
         slicer: sliced.slicer.clone(),
+        profile_sha256: sliced.profile_sha256.clone(),
         mass_g: sliced.mass_g,
         miss_mm: sliced.miss_mm,
         tilt_deg: sliced.tilt_deg,
@@ -39,6 +40,7 @@ pub fn print_time_row(placed: &Placed) -> Option<PrintTimeRow> {
     });
     Some(PrintTimeRow {
         slicer: sliced.slicer.clone(),
+        has_profile: sliced.profile_sha256.is_some(),
         plates: plates.collect(),
     })
 }

@@ -5,7 +5,7 @@ use crate::cut::{Cut, CutPlan, CutSide, DrainHole, VoidAccess, VoidId};
 use crate::geom::Point;
 use crate::run::{CleaningRound, KeptSolid, Made, Placed, WrittenPart};
 use crate::sheet::{CleaningRow, CutRow, KeptRow, SideRow, VoidRow, is_clean};
-use crate::verify::{PromisedCut, PromisedHole, PromisedVoid, VoidFacts};
+use crate::verify::{PromisedCut, PromisedHole, PromisedPlug, PromisedVoid, VoidFacts};
 
 /// Distance up to which a vertex lies on a void's wall, mm; booleans keep vertices to 1e-6 mm.
 const SAME_MM: f64 = 1e-5;
@@ -59,12 +59,22 @@ fn holders(made: &Made, void: VoidId) -> Vec<String> {
 
 /// Returns the drain holes as the judge reads them.
 pub fn drain_holes(made: &Made) -> Vec<PromisedHole> {
+    // Plugs are the last parts, in the order of their holes.
+    let plugged = made.plan.plugged().count();
+    let mut plugs = made.parts[made.parts.len().saturating_sub(plugged)..].iter();
     let hole = |hole: &DrainHole| PromisedHole {
         id: hole.id.to_string(),
         void: hole.void.to_string(),
         from_mm: hole.from_mm,
         to_mm: hole.to_mm,
         diameter_mm: hole.diameter_mm,
+        mouth_mm: hole.plug_gap_mm.map(|_| hole.mouth_mm),
+        plug: hole.plug_gap_mm.and_then(|gap_mm| {
+            Some(PromisedPlug {
+                part: plugs.next()?.part.id.to_string(),
+                gap_mm,
+            })
+        }),
         volume_mm3: hole.volume_mm3,
     };
     made.plan.drains.iter().map(hole).collect()

@@ -58,6 +58,10 @@ pub(super) fn finish(
         };
         writeln!(out, "{line}").map_err(SlicerError::Folder)?;
     }
+    // The engine does not say its flow, and the judge takes a filament's calibration off.
+    if let Some(ratio) = work.settings.flow_ratio() {
+        writeln!(out, "; extrusion_multiplier = {ratio}").map_err(SlicerError::Folder)?;
+    }
     out.flush().map_err(SlicerError::Folder)?;
     match layers {
         0 => Err(work.no_toolpaths(said)),

@@ -38,6 +38,20 @@ const HEIGHTS: [&str; 5] = [
     "support_infill_sparse_thickness",
     "support_z_distance",
 ];
+/// The flows of the lines of parts and supports, of which the engine derives none.
+const FLOWS: [&str; 11] = [
+    "material_flow",
+    "wall_material_flow",
+    "wall_0_material_flow",
+    "wall_x_material_flow",
+    "skin_material_flow",
+    "infill_material_flow",
+    "skirt_brim_material_flow",
+    "support_material_flow",
+    "support_interface_material_flow",
+    "support_roof_material_flow",
+    "support_bottom_material_flow",
+];
 /// Solid print is infill alone: the engine cuts regions into infill, and never into skin.
 const NO_SKIN: [&str; 4] = [
     "top_layers",
@@ -141,10 +155,17 @@ fn adhesion(line_mm: f64, objects: &[PlateObject]) -> Vec<Pair> {
 
 /// Returns the settings of the extruder, whose own list would hold otherwise.
 pub(super) fn of_extruder(settings: &SliceSettings) -> Vec<Pair> {
-    vec![
+    let mut pairs = vec![
         pair("material_diameter", FILAMENT_MM),
         pair("machine_nozzle_size", mm(settings.nozzle_mm())),
-    ]
+    ];
+    let percent = settings.flow_ratio().map(|ratio| ratio * SOLID_PERCENT);
+    pairs.extend(
+        percent
+            .into_iter()
+            .flat_map(|percent| FLOWS.map(|key| pair(key, mm(percent)))),
+    );
+    pairs
 }
 
 /// Returns the settings of an object.

@@ -1,0 +1,56 @@
+//! The words for the best that is possible, and for what a kit reaches of it.
+
+use crate::base::numbers::measured;
+use crate::goal::GoalKind;
+use crate::sheet::Checklist;
+use crate::verify::FigureName;
+
+/// Returns the best that is possible and what this kit reaches.
+pub fn bound_words(checklist: &Checklist) -> String {
+    let proof = &checklist.certificate;
+    let unit = proof.figure.unit();
+    let best = measured(proof.bound, unit);
+    if proof.figure == FigureName::InfillChangeRatio {
+        return format!(
+            "the infill differs from the wished one by {} of solid print (root mean square); what \
+             was asked needs {best}{}{}",
+            measured(proof.value, unit),
+            match checklist.goal.aim.kind {
+                GoalKind::Top => " with the centre of mass at this height",
+                _ => "",
+            },
+            kept_words(checklist)
+        );
+    }
+    let is_cut = checklist.infill.is_none();
+    let is_solid = is_cut && proof.kept_solid_mm3 + proof.bosses_mm3 > 0.0;
+    let of_what = if is_solid {
+        match checklist.cuts.is_empty() {
+            true => " with what must stay solid",
+            false => " with these cuts and pins",
+        }
+    } else {
+        ""
+    };
+    let Some(written) = proof.written_value else {
+        return format!("{} {best} is possible{of_what}", proof.figure.name());
+    };
+    let [name, written] = [proof.figure.name().to_owned(), measured(written, unit)];
+    format!("{name} {written}; at best {best} is possible{of_what}")
+}
+
+/// Returns what a print near a wished infill keeps of the best figure; empty if that is not known.
+fn kept_words(checklist: &Checklist) -> String {
+    let course = checklist.certificate.course.as_ref();
+    let trade = course.and_then(|course| course.trade.as_ref());
+    let kept = trade.and_then(|trade| {
+        let [_, best] = *trade.points.last()?;
+        let (name, unit) = (trade.figure.name(), trade.figure.unit());
+        let own = measured(checklist.assembly.value_of(trade.figure)?, unit);
+        Some(format!(
+            "; its {name} is {own}, at any infill {} is possible",
+            measured(best, unit)
+        ))
+    });
+    kept.unwrap_or_default()
+}
