@@ -1,4 +1,4 @@
-//! The flow of a filament: slicers lay it as the profile says, and it changes no promise; and the
+//! The flow of a filament: slicers lay it as the profile says, and it changes no promise. And the
 //! shop's own profile in the rounds of a kit.
 
 #![allow(

@@ -126,9 +126,7 @@ fn orders(sheet: &Checklist, part: &PartRow) -> Markup {
         p class="tick" {
             strong class="part-id" { (part.id) }
             @if let Some(half) = part.half { ", half " (half_name(half)) }
-            @if let Some(hole) = sheet.drains.iter().find(|hole| hole.plug.as_ref().is_some_and(|plug| plug.part == part.id)) {
-                ", plug of " (hole.id)
-            }
+            @if let Some(hole) = sheet.hole_of_plug(&part.id) { ", plug of " (hole.id) }
             ": " (part.lies) ". Part OK ☐"
         }
         p { (file_name(&part.file)) }

@@ -49,11 +49,8 @@ pub(super) fn weigh_parts(sheet: &Checklist) -> Markup {
 
 /// Returns the parts that are weighed: plugs are too light to tell anything.
 fn weighed(sheet: &Checklist) -> impl Iterator<Item = &PartRow> {
-    let is_plug = |part: &PartRow| {
-        let mut plugs = sheet.drains.iter().filter_map(|hole| hole.plug.as_ref());
-        plugs.any(|plug| plug.part == part.id)
-    };
-    sheet.parts.iter().filter(move |part| !is_plug(part))
+    let parts = sheet.parts.iter();
+    parts.filter(|part| sheet.hole_of_plug(&part.id).is_none())
 }
 
 /// Returns the line of a part, or of all parts, with the limits beyond which it is not used.

@@ -244,6 +244,12 @@ pub enum ChecklistError {
 }
 
 impl Checklist {
+    /// Returns the drain hole that a part closes; `None` for a part that is no plug.
+    pub fn hole_of_plug(&self, part: &str) -> Option<&PromisedHole> {
+        let mut drains = self.drains.iter();
+        drains.find(|hole| hole.plug.as_ref().is_some_and(|plug| plug.part == part))
+    }
+
     /// Version of the keys that this program writes.
     pub const SCHEMA: u32 = SCHEMA;
 
