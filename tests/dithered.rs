@@ -54,12 +54,12 @@ fn two_stacks_share_the_pixels_and_weigh_what_the_field_does() {
         (
             "ramp",
             "jet.toml --materials vero-white,light",
-            "ramp:1,0,1@2mm..9mm:0.55..0.95",
+            "ramp:1,0,1@1mm..5mm:0.55..0.95",
         ),
         (
             "wave",
             "jet.toml --materials light,vero-white",
-            "sine:5,3,4@6mm:0.5..1",
+            "sine:3,2,2@4mm:0.5..1",
         ),
         (
             "even",
@@ -69,10 +69,10 @@ fn two_stacks_share_the_pixels_and_weigh_what_the_field_does() {
         (
             "tango",
             "tango.toml --materials vero-white,tango",
-            "ramp:0,0,1@0mm..8mm:0.97..0.99",
+            "ramp:0,0,1@0mm..5mm:0.97..0.99",
         ),
     ] {
-        let options = format!("--size 12mm --printer {profile} --field {field}");
+        let options = format!("--size 7mm --printer {profile} --field {field}");
         let output = dither(folder.path(), &options, name);
         let found = json(&output);
         let [mass, center_mm, inertia] = off(&found);
@@ -83,7 +83,7 @@ fn two_stacks_share_the_pixels_and_weigh_what_the_field_does() {
             "{name}"
         );
         // What the program measures by `inspect` is what the images are held against.
-        let options = format!("--size 12mm --field {field}");
+        let options = format!("--size 7mm --field {field}");
         let told = equipoise(&[&["--json", "inspect", ELLIPSOID][..], &words(&options)].concat());
         let told = json(&told);
         let wanted = &found["dithered"]["wanted"];
@@ -100,7 +100,7 @@ fn two_stacks_share_the_pixels_and_weigh_what_the_field_does() {
     }
     let found = dither(
         folder.path(),
-        "--size 12mm --printer jet.toml --materials vero-white,light --field uniform:1",
+        "--size 7mm --printer jet.toml --materials vero-white,light --field uniform:1",
         "pure",
     );
     // Nothing can be changed in pure material: the pixels of the surface are what is off.

@@ -10,7 +10,7 @@ const PERCENTS: [f64; 7] = [10.0, 15.0, 20.0, 30.0, 50.0, 70.0, 90.0];
 /// Solid print, per cent.
 pub(super) const SOLID_PERCENT: f64 = 100.0;
 /// Diameters of the small and the large blocks, mm. A balance of 0.01 g is then right to 0.4 % of
-/// an infill of 15 %. The set weighs some 130 g.
+/// an infill of 15 %. The set weighs some 120 g.
 const DIAMETERS_MM: [f64; 2] = [20.0, 40.0];
 /// Height of the blocks, mm: two waves or more of an infill of 15 % on top of each other.
 const HEIGHT_MM: f64 = 20.0;
