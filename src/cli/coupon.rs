@@ -5,12 +5,16 @@ use std::path::PathBuf;
 
 use super::args::CouponArgs;
 use super::exit::Exit;
-use super::flags::{commands_on_coupon_sheet, commands_on_cut_coupon_sheet};
+use super::flags::{
+    command_for_coupons, commands_on_coupon_sheet, commands_on_cut_coupon_sheet,
+    commands_on_density_sheet,
+};
 use super::signals::Stop;
 use super::voice::Voice;
 use crate::base::watch::Watch;
 use crate::coupon::{
-    CouponError, CouponSet, CutCouponError, CutCouponSet, coupon_kit, cut_coupon_kit,
+    CouponError, CouponSet, CutCouponError, CutCouponSet, DensitySet, NoInfill, coupon_kit,
+    cut_coupon_kit, density_kit,
 };
 use crate::cutter::{self, Cutter, StockSheet};
 use crate::kit::{Existing, Kit, KitError};
@@ -26,6 +30,17 @@ pub enum CouponCommandError {
     /// The printer has no such material.
     #[error(transparent)]
     Material(#[from] MaterialError),
+    /// The printer has no infill to weigh.
+    #[error(
+        "{source}; remedy: weigh its solid coupons (`{}`)",
+        command_for_coupons(id)
+    )]
+    NoInfill {
+        /// The printer's id.
+        id: String,
+        /// The reason.
+        source: NoInfill,
+    },
     /// The profile of the cutter or the sheet cannot be used.
     #[error(transparent)]
     CutProfile(#[from] cutter::ProfileError),
@@ -55,6 +70,7 @@ pub fn coupon(
 ) -> Result<Exit, CouponCommandError> {
     let made = match (&args.cutter, &args.sheet, &args.printer) {
         (Some(cutter), Some(sheet), _) => of_cutter(cutter, sheet)?,
+        (_, _, Some(printer)) if args.density => of_infill(printer, args)?,
         (_, _, printer) => of_printer(printer.as_deref().unwrap_or_default(), args)?,
     };
     let target = args
@@ -107,6 +123,22 @@ fn of_printer(printer: &str, args: &CouponArgs) -> Result<Made, CouponCommandErr
         what: format!("{} ({})", set.printer_name, set.material_name),
         sizes: serde_json::to_string_pretty(&set)?,
         id: printer.id,
+    })
+}
+
+fn of_infill(printer: &str, args: &CouponArgs) -> Result<Made, CouponCommandError> {
+    let printer = Printer::find(printer)?;
+    let material = printer.material(args.material.as_deref())?;
+    let no_infill = |source| CouponCommandError::NoInfill {
+        id: printer.id.clone(),
+        source,
+    };
+    let set = DensitySet::of(&printer, material).map_err(no_infill)?;
+    Ok(Made {
+        kit: density_kit(&set, &printer, &commands_on_density_sheet(&set))?,
+        what: format!("the infill of {} ({})", set.printer_name, set.material_name),
+        sizes: serde_json::to_string_pretty(&set)?,
+        id: format!("{}-density", printer.id),
     })
 }
 

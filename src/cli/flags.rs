@@ -1,7 +1,7 @@
 //! The flags of the command line: the one file that words a setting as a flag.
 
 use crate::base::setting::{Key, Setting, reword};
-use crate::coupon::{Commands, CouponSet, CutCommands, CutCouponSet};
+use crate::coupon::{Commands, CouponSet, CutCommands, CutCouponSet, DensityCommands, DensitySet};
 use crate::job::Job;
 
 /// Returns the flag of a setting, such as `--ballast=auto`.
@@ -65,6 +65,26 @@ pub fn commands_on_coupon_sheet(set: &CouponSet) -> Commands {
     }
 }
 
+/// Returns the commands that the sheet of a printer's density coupon names.
+pub fn commands_on_density_sheet(set: &DensitySet) -> DensityCommands {
+    let profile = format!("shop-{}.toml", set.printer);
+    let masses = set.percents().into_iter().map(|percent| match percent {
+        100.0 => format!(" --infill {percent}%=G"),
+        _ => format!(" --infill {percent}%=G,G"),
+    });
+    let masses: String = masses.collect();
+    DensityCommands {
+        make_profile: format!(
+            "equipoise printers new --from {0} --id shop-{0} --out {profile}",
+            set.printer
+        ),
+        calibrate: format!(
+            "equipoise printers calibrate {profile} --material {} --lot LOT{masses}",
+            set.material
+        ),
+    }
+}
+
 /// Returns the command that writes a shop's own profile from a cutter or a sheet.
 pub fn command_for_new_cutter(id: &str) -> String {
     format!("equipoise cutters new --from {id} --id shop-{id} --out shop-{id}.toml")
@@ -86,7 +106,8 @@ pub fn commands_on_cut_coupon_sheet(set: &CutCouponSet) -> CutCommands {
 pub const OTHER_PLANS: &str = "equipoise cuts";
 
 /// The flags of which `printers calibrate` needs one.
-pub const MEASUREMENTS: &str = "--weighed, --clearance, --press, --loose, --pin or --wall";
+pub const MEASUREMENTS: &str =
+    "--weighed, --infill, --clearance, --press, --loose, --pin or --wall";
 
 /// The mark before the table of printers in README.
 pub const TABLE_BEGIN: &str = "<!-- equipoise printers list --markdown -->";
@@ -147,6 +168,19 @@ mod tests {
             sheet.choose_profile
         );
         for line in [sheet.make_profile, measured, prepare] {
+            let parsed = Cli::try_parse_from(line.split_whitespace());
+            assert!(parsed.is_ok(), "{line}: {parsed:?}");
+        }
+    }
+
+    #[test]
+    fn the_commands_on_the_sheet_of_the_density_coupon_can_be_typed() {
+        let printer = Printer::find("prusa-mk4").unwrap();
+        let set = DensitySet::of(&printer, printer.material(None).unwrap()).unwrap();
+        let sheet = commands_on_density_sheet(&set);
+        let measured = sheet.calibrate.replace("=G", "=2").replace(",G", ",1");
+        assert_eq!(measured.matches("--infill").count(), set.percents().len());
+        for line in [sheet.make_profile, measured] {
             let parsed = Cli::try_parse_from(line.split_whitespace());
             assert!(parsed.is_ok(), "{line}: {parsed:?}");
         }

@@ -8,6 +8,7 @@ pub mod core_kit;
 pub mod coupon;
 mod cuts;
 pub mod cutters;
+pub mod dithered;
 mod exit;
 mod field_facts;
 mod flags;

@@ -9,10 +9,10 @@ use super::flags::{MEASUREMENTS, command_for_coupons, command_for_new_profile};
 use super::new_files::{self, NewFileError, check_free, draft};
 use super::shop::today;
 use crate::base::units::{format_count, show_percent};
-use crate::coupon::CouponSet;
+use crate::coupon::{CouponSet, DensitySet, NoInfill, WeighError};
 use crate::printer::import::{ImportError, Imported, slug};
 use crate::printer::{
-    self, CalibrateError, MaterialError, Measured, Printer, ProfileError, Quantity,
+    self, CalibrateError, MaterialError, Measured, MeasuredInfill, Printer, ProfileError, Quantity,
 };
 
 /// A reason why no profile was written.
@@ -31,6 +31,12 @@ pub enum ProfilesError {
     /// The measurements cannot be used.
     #[error(transparent)]
     Calibrate(CalibrateError),
+    /// The printer has no infill that was weighed.
+    #[error("{0}; remedy: give the masses of its solid coupons ({MEASUREMENTS})")]
+    NoInfill(#[from] NoInfill),
+    /// The masses of the blocks of infill cannot be used.
+    #[error(transparent)]
+    Weigh(#[from] WeighError),
     /// The printer has no such material.
     #[error(transparent)]
     Material(#[from] MaterialError),
@@ -223,11 +229,29 @@ fn measurements(args: &CalibrateArgs, printer: &Printer) -> Result<Measured, Pro
         material: Some((material.id.clone(), material.name.clone())),
         weighed_g: args.weighed.clone(),
         coupon_mm3: args.volume.unwrap_or(set.density_volume_mm3),
+        infill: weighed_infill(args, printer)?,
         lengths: lengths
             .into_iter()
             .filter_map(|(quantity, value)| Some((quantity, value?)))
             .collect(),
     })
+}
+
+/// Returns the infill whose blocks were weighed; `None` if none were.
+fn weighed_infill(
+    args: &CalibrateArgs,
+    printer: &Printer,
+) -> Result<Option<MeasuredInfill>, ProfilesError> {
+    if args.infill.is_empty() {
+        return Ok(None);
+    }
+    let material = printer.material(args.material.as_deref())?;
+    let set = DensitySet::of(printer, material)?;
+    let core_ratio = set.core_ratios(&args.infill)?;
+    Ok(Some(MeasuredInfill {
+        pattern: set.pattern,
+        core_ratio,
+    }))
 }
 
 /// Prints each new number with the one it replaces.
@@ -248,6 +272,16 @@ fn print_changes(
             .number(*quantity)
             .map_or_else(|| "not known".to_owned(), |number| number.value.to_string());
         writeln!(out, "{quantity}: {value} (was {before})")?;
+    }
+    let rows = measured.infill.iter().flat_map(|infill| &infill.core_ratio);
+    for [nominal, laid] in rows {
+        let before = printer.infill.as_ref().map(|it| it.laid_ratio(*nominal));
+        let before = before.map_or_else(|| "not known".to_owned(), |it| format!("{it:.4}"));
+        let nominal = show_percent(*nominal);
+        writeln!(
+            out,
+            "infill of {nominal}: {laid:.4} of solid print (was {before})"
+        )?;
     }
     Ok(())
 }

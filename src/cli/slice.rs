@@ -6,17 +6,19 @@ use std::path::{Path, PathBuf};
 use serde::Serialize;
 
 use super::args::SliceArgs;
+use super::dithered::{DitheredError, slice_dithered};
 use super::exit::Exit;
 use super::quoted::{QuotedError, ToQuote, quote_words};
 use super::show::{say, table};
 use super::signals::Stop;
 use super::toolpaths::toolpaths_text;
 use super::voice::{Manner, Voice};
+use super::wing::Ends;
 use crate::base::numbers::quantity;
 use crate::base::units::show_mm3;
 use crate::base::watch::Watch;
 use crate::io::layers::StackRow;
-use crate::kit::{Existing, KitError};
+use crate::kit::KitError;
 use crate::quote::Quote;
 use crate::slice::{
     ImageOrder, Imaged, SliceError, SliceFormat, SliceOrder, Slices, image_kit, slice_kit,
@@ -39,6 +41,9 @@ pub enum SliceCommandError {
     /// The kit cannot be quoted.
     #[error(transparent)]
     Quoted(#[from] QuotedError),
+    /// The model cannot be printed in two materials.
+    #[error(transparent)]
+    Dithered(#[from] DitheredError),
     /// An option says nothing in this format.
     #[error("{0} says nothing in this format; remedy: leave it out")]
     Needless(&'static str),
@@ -78,6 +83,10 @@ pub fn slice(
     if let Some(option) = args.needless() {
         return Err(SliceCommandError::Needless(option));
     }
+    if args.dither.field.is_some() {
+        let target = target(args, "layers");
+        return Ok(slice_dithered(args, &target, Ends { voice, stop, out })?);
+    }
     match args.format {
         None | Some(SliceFormat::Gcode) => slice_toolpaths(args, voice, stop, out),
         Some(_) => slice_images(args, voice, stop, out),
@@ -92,7 +101,7 @@ fn slice_toolpaths(
     out: &mut dyn Write,
 ) -> Result<Exit, SliceCommandError> {
     let target = target(args, "gcode");
-    let existing = existing(args);
+    let existing = args.existing();
     existing.allows(&target)?;
     let to_quote = args.quote.then(|| ToQuote::read(&args.kit)).transpose()?;
     let watch = Watch::silent_until(stop.flag());
@@ -149,7 +158,7 @@ fn slice_images(
     out: &mut dyn Write,
 ) -> Result<Exit, SliceCommandError> {
     let target = target(args, "layers");
-    let existing = existing(args);
+    let existing = args.existing();
     existing.allows(&target)?;
     let watch = Watch::silent_until(stop.flag());
     let order = ImageOrder {
@@ -189,15 +198,6 @@ fn slice_images(
     } else {
         Exit::NotKept
     })
-}
-
-/// Returns whether a folder may be replaced.
-fn existing(args: &SliceArgs) -> Existing {
-    if args.force {
-        Existing::Replace
-    } else {
-        Existing::Keep
-    }
 }
 
 /// Returns the folder to write: the one that was asked for, or one beside the kit.
@@ -264,19 +264,17 @@ fn text(slices: &Slices, judgement: &PrintedJudgement, folder: &Path, manner: Ma
 
 #[cfg(test)]
 mod tests {
+    use clap::Parser;
+
     use super::*;
+    use crate::cli::args::{Cli, Command};
 
     #[test]
     fn the_toolpaths_lie_beside_their_kit() {
         let beside = |kit: &str, ending: &str| {
-            let args = SliceArgs {
-                kit: kit.into(),
-                format: None,
-                slicer: None,
-                profile: None,
-                quote: false,
-                out: None,
-                force: false,
+            let line = ["equipoise", "slice", kit];
+            let Command::Slice(args) = Cli::try_parse_from(line).unwrap().command else {
+                panic!("{kit}")
             };
             target(&args, ending).display().to_string()
         };

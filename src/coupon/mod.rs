@@ -3,6 +3,7 @@
 
 mod bodies;
 mod cutting;
+mod density;
 mod sheet;
 mod sizes;
 
@@ -10,10 +11,14 @@ pub use bodies::Coupon;
 pub use cutting::{
     CutCommands, CutCouponError, CutCouponSet, DRAWINGS, JointTrial, Slot, cut_coupon_kit,
 };
+pub use density::{
+    Block, DensityCommands, DensitySet, NoInfill, WeighError, WeighedInfill, density_kit,
+};
 pub use sheet::Commands;
 pub use sizes::{CouponSet, Hole};
 
 use crate::io::stl;
+use crate::io::threemf::PackageError;
 use crate::kit::{COUPON_FILE, Kit};
 use crate::mesh::ClipError;
 
@@ -24,6 +29,9 @@ pub enum CouponError {
     /// A body could not be made.
     #[error(transparent)]
     Clip(#[from] ClipError),
+    /// A plate could not be put together.
+    #[error(transparent)]
+    Package(#[from] PackageError),
     /// The sizes cannot be written as JSON.
     #[error("the sizes of the coupons cannot be written as JSON")]
     Json(#[from] serde_json::Error),

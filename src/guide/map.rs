@@ -15,6 +15,8 @@
 //! | Where is a density that varies integrated? | `measure` in `field/measure.rs`, over the signed cones of `mass/cones.rs` and the rays of `mass/rays.rs` |
 //! | Which infill is enough, and which is nearest to a wished one? | `greatest_low` in `hollow/range.rs`, `least_change` in `hollow/change.rs`, in steps by `least_level_change` in `hollow/levels.rs` |
 //! | Where does a match get its numbers, and who says that they are met? | `resolved` in `prepare/like.rs` reads the file, `Mismatch` in `verify/handling.rs` compares; `MatchMiss` in `hollow/miss.rs` words what is out of reach |
+//! | How dense is printed infill, and how does a shop measure it? | `laid_ratio` in `printer/infill.rs`; `core_ratios` in `coupon/density/weighed.rs` takes the masses of blocks |
+//! | Where does a model get two materials, pixel by pixel? | `dither_model` in `slice/dither/run.rs`, by `Diffusion` in `raster/dither.rs`; `slice/dither/correct.rs` makes the moments right |
 //! | What is tried if the goal cannot be met? | `remedies` in `prepare/advise.rs`; the trials are in `advice/remedy.rs` |
 //! | Which cut is better than another, and by how much? | `penalty` and `Term` in `cut/planner/score.rs` |
 //! | What of a seam is seen, and what does it cost? | `look` in `cut/seam/look.rs` weighs the outside, `Skin` in `cut/seam/skin.rs` prices a seam |

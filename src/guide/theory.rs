@@ -126,6 +126,16 @@
 //! has kinks. A wave of the distance to a point, and level sets of a quadric, are integrated along
 //! rays in closed form. What is left is quadrature, and its error is told ([`crate::field`]).
 //!
+//! Two materials print any density between theirs, a pixel at a time. The share of the heavier one
+//! is s = (d − ρ₂/ρ₁)/(1 − ρ₂/ρ₁). Error diffusion hands what each pixel lacks on to its
+//! neighbours, so sums over a region are right within about a pixel. Pixels that the surface cuts
+//! are whole or none, and that is the greater error. The share gets the quadratic of least squares
+//! that makes it up, and single pixels make up the rest ([`crate::slice`]).
+//!
+//! Real infill has a boundary. A prism of width a weighs u = w + b a + c r a² over its height and
+//! the density of solid print. Here r is the density of its core, c a² its area, and b holds walls
+//! and the ends of lines. Two widths give r ([`crate::coupon::DensitySet::core_ratios`]).
+//!
 //! # 9. Bosses
 //! If walls leave no room for pins, material around the pins is taken out of Ω and the same problem
 //! is solved again. The certificate then holds for the rest of Ω. Filling a set B of the void

@@ -2,7 +2,7 @@
 
 use std::fs;
 use std::io::{self, Write};
-use std::path::{Component, Path};
+use std::path::{Component, Path, PathBuf};
 
 use super::error::{KitError, write_error};
 use super::staging::{Staging, folder_of, sweep};
@@ -74,16 +74,55 @@ impl Kit {
         existing: Existing,
         watch: &Watch,
     ) -> Result<(), KitError> {
+        let writer = KitWriter::begin(target, existing, watch)?;
+        for (file, bytes) in self.files() {
+            writer.add(file, bytes)?;
+        }
+        writer.finish()
+    }
+}
+
+/// A folder that is written file by file, and takes its place when it is whole. Dropped before, it
+/// leaves nothing.
+#[derive(Debug)]
+pub struct KitWriter<'a> {
+    staging: Staging,
+    folder: PathBuf,
+    watch: &'a Watch,
+}
+
+impl<'a> KitWriter<'a> {
+    /// Begins a folder beside its place `target`, and makes its parents if they are missing.
+    ///
+    /// # Errors
+    /// The target may not be replaced, or cannot be written.
+    pub fn begin(target: &Path, existing: Existing, watch: &'a Watch) -> Result<Self, KitError> {
         sweep(folder_of(target));
         check_target(target, existing)?;
         let staging = Staging::beside(target)?;
-        let folder = staging.kit();
-        for (file, bytes) in self.files() {
-            watch.check()?;
-            write_file(&folder, file, bytes)?;
-        }
-        watch.check()?;
-        staging.replace_target()
+        Ok(Self {
+            folder: staging.kit(),
+            staging,
+            watch,
+        })
+    }
+
+    /// Writes a file, by its path relative to the folder with `/` between folders.
+    ///
+    /// # Errors
+    /// The file cannot be written, or the watch was stopped.
+    pub fn add(&self, file: &str, bytes: &[u8]) -> Result<(), KitError> {
+        self.watch.check()?;
+        write_file(&self.folder, file, bytes)
+    }
+
+    /// Puts the folder in its place.
+    ///
+    /// # Errors
+    /// The watch was stopped, or the folder cannot be moved; then the old one stays.
+    pub fn finish(self) -> Result<(), KitError> {
+        self.watch.check()?;
+        self.staging.replace_target()
     }
 }
 
@@ -96,8 +135,17 @@ pub const PLANS_FILE: &str = "plans.html";
 /// The list that marks a folder as the toolpaths of a kit.
 pub const SLICES_FILE: &str = "slices.json";
 
+/// The list that marks a folder as images of layers.
+const LAYERS_FILE: &str = "layers.json";
+
 /// The files that mark a folder as one of ours.
-const SIGNS: [&str; 4] = ["checklist.json", COUPON_FILE, PLANS_FILE, SLICES_FILE];
+const SIGNS: [&str; 5] = [
+    "checklist.json",
+    COUPON_FILE,
+    PLANS_FILE,
+    SLICES_FILE,
+    LAYERS_FILE,
+];
 
 /// Returns an error if the target may not be written.
 fn check_target(target: &Path, existing: Existing) -> Result<(), KitError> {

@@ -22,6 +22,7 @@ const NEW: &str = "new";
 const OLD: &str = "old";
 
 /// A staging folder. Dropping it, on a panic too, removes it and the parents made for it.
+#[derive(Debug)]
 pub(super) struct Staging {
     path: PathBuf,
     target: PathBuf,
@@ -78,6 +79,7 @@ impl Staging {
 }
 
 /// The parents that were made for a target; dropping them removes those that are empty.
+#[derive(Debug)]
 struct MadeParents(Vec<PathBuf>);
 
 impl MadeParents {

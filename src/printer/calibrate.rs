@@ -37,6 +37,18 @@ pub struct Measured {
     pub coupon_mm3: f64,
     /// Clearances, pins, walls and the like, mm.
     pub lengths: Vec<(Quantity, f64)>,
+    /// The infill whose blocks were weighed; `None` if none were.
+    pub infill: Option<MeasuredInfill>,
+}
+
+/// The infill that a printer lays, as weighed blocks have it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MeasuredInfill {
+    /// Its pattern, in the words of slicers.
+    pub pattern: String,
+    /// Pairs of a nominal density and the one laid in the core, both over that of solid print;
+    /// ascending.
+    pub core_ratio: Vec<[f64; 2]>,
 }
 
 /// An error that keeps measured values from being written.
@@ -92,7 +104,7 @@ impl Measured {
     }
 
     fn check(&self) -> Result<(), CalibrateError> {
-        if self.weighed_g.is_empty() && self.lengths.is_empty() {
+        if self.weighed_g.is_empty() && self.lengths.is_empty() && self.infill.is_none() {
             return Err(CalibrateError::Nothing);
         }
         if let Some(&bad) = self
@@ -141,6 +153,17 @@ pub fn calibrate(file: &str, text: &str, measured: &Measured) -> Result<String, 
     if !added.is_empty() {
         edits.add_numbers(&added);
     }
+    if let Some(infill) = &measured.infill {
+        let entry = ratio_table(&infill.core_ratio, &measured.source("blocks weighed"));
+        match &profile.infill_core_ratio {
+            Some(old) => edits.replace(old.span(), entry),
+            None => {
+                let pattern = string(&infill.pattern);
+                let lines = format!("infill_pattern = {pattern}\ninfill_core_ratio = {entry}\n");
+                edits.add_after_line(profile.name.span().end, &lines);
+            }
+        }
+    }
     if let (Some((id, name)), Some(density_g_cm3)) = (&measured.material, measured.density_g_cm3())
     {
         let entries = MaterialEntries::new(measured, density_g_cm3);
@@ -162,6 +185,17 @@ fn inline_table(value: f64, source: &str) -> String {
         "{{ value = {value}, source = {}, sure = \"measured\" }}",
         string(source)
     )
+}
+
+/// Formats measured pairs of densities with their source as an inline table.
+fn ratio_table(rows: &[[f64; 2]], source: &str) -> String {
+    // A balance of 0.01 g says no more.
+    let rows = rows
+        .iter()
+        .map(|[nominal, laid]| format!("[{nominal}, {laid:.4}]"));
+    let rows = rows.collect::<Vec<String>>().join(", ");
+    let source = string(source);
+    format!("{{ value = [{rows}], source = {source}, sure = \"measured\" }}")
 }
 
 /// Formats a text as a TOML string.
@@ -222,6 +256,20 @@ struct Edits<'a> {
 impl Edits<'_> {
     fn replace(&mut self, range: Range<usize>, new: String) {
         self.edits.push((range, new));
+    }
+
+    /// Adds lines after the line in which a place lies.
+    fn add_after_line(&mut self, place: usize, lines: &str) {
+        match self.text[place..].find('\n') {
+            Some(end) => {
+                let at = place + end + 1;
+                self.replace(at..at, lines.to_owned());
+            }
+            None => {
+                let at = self.text.len();
+                self.replace(at..at, format!("\n{lines}"));
+            }
+        }
     }
 
     /// Adds lines at the head of `[numbers]`, which is added if missing.
@@ -336,6 +384,7 @@ mod tests {
                 (Quantity::MinWallMm, 1.2),
                 (Quantity::ClearancePerSideMm, 0.15),
             ],
+            infill: None,
         }
     }
 
@@ -419,6 +468,30 @@ mod tests {
             pla.is_measured() && pla.weighing_window_g(1.0).is_none(),
             "one coupon has no spread"
         );
+    }
+
+    #[test]
+    fn the_table_of_an_infill_is_added_after_the_name_and_then_replaced() {
+        let of = |laid: f64| Measured {
+            day: "2026-11-21".into(),
+            lot: "A7".into(),
+            infill: Some(MeasuredInfill {
+                pattern: "gyroid".to_owned(),
+                core_ratio: vec![[0.15, laid], [0.5, 0.47]],
+            }),
+            ..Measured::default()
+        };
+        let once = calibrate("shop.toml", OWN, &of(0.1441)).unwrap();
+        let twice = calibrate("shop.toml", &once, &of(0.1438)).unwrap();
+        assert_eq!(twice.matches("infill_core_ratio").count(), 1, "{twice}");
+        let infill = read(&twice).infill.unwrap();
+        assert_eq!(infill.core_ratio.value, [[0.15, 0.1438], [0.5, 0.47]]);
+        assert_eq!(infill.core_ratio.sure, Sure::Measured);
+        assert_eq!(
+            infill.core_ratio.source,
+            "blocks weighed, lot A7, 2026-11-21"
+        );
+        assert!(twice.starts_with("# the one by the window"), "{twice}");
     }
 
     #[test]

@@ -54,7 +54,7 @@ mod size;
 mod wall;
 
 pub use crate::base::sourced::{Sourced, Sure};
-pub use calibrate::{CalibrateError, Measured, calibrate};
+pub use calibrate::{CalibrateError, Measured, MeasuredInfill, calibrate};
 pub use cleaning::{Cleaning, CleaningRule};
 pub use corner::{Corner, ExcludedCorner};
 pub use drains::{DrainNeed, Undrainable};

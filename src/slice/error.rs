@@ -2,9 +2,12 @@
 
 use std::path::PathBuf;
 
+use super::dither::DitherError;
 use crate::base::watch::Cancelled;
+use crate::io::layers::ReadLayersError;
 use crate::io::threemf::ThreeMfError;
 use crate::job::JobError;
+use crate::kit::KitError;
 use crate::printer::{MaterialError, ProfileError};
 use crate::slicer::SlicerError;
 
@@ -123,6 +126,15 @@ pub enum SliceError {
     /// The slicer fails.
     #[error(transparent)]
     Slicer(#[from] SlicerError),
+    /// A model cannot be printed in two materials as asked.
+    #[error(transparent)]
+    Dither(#[from] DitherError),
+    /// The images that were written cannot be read.
+    #[error(transparent)]
+    Layers(#[from] ReadLayersError),
+    /// The folder cannot be written.
+    #[error(transparent)]
+    Folder(#[from] KitError),
     /// The list of the slices cannot be written as JSON.
     #[error("the list of the slices cannot be written as JSON")]
     Json(#[from] serde_json::Error),

@@ -4,8 +4,10 @@
 //! * `plates` slices each plate and weighs its toolpaths.
 //! * `row` is the list of what was sliced, and its figures.
 //! * `images` draws each plate layer by layer.
+//! * `dither` prints a model in two materials, whose density follows a field.
 //! * `scaled` scales the extrusion of toolpaths, so that densities follow a field.
 
+mod dither;
 mod error;
 mod format;
 mod images;
@@ -13,6 +15,10 @@ mod plates;
 mod row;
 mod scaled;
 
+pub use dither::{
+    BodyRow, DITHER_FILE, DitherError, DitherOrder, DitherRow, MaterialRow, Off, dither_model,
+    weigh_stacks,
+};
 pub use error::SliceError;
 pub use format::SliceFormat;
 pub use images::{ImageOrder, Imaged, image_kit};

@@ -182,12 +182,12 @@ const ARROWS: &[(&str, &[&str])] = &[
     // reads no packages, the plate is taken apart into meshes.
     ("slicer", &["base", "geom", "io", "mesh", "printer"]),
     // Slicing a kit reads its job and its plates, and draws them as layers for machines of pixels.
-    // The judge looks at the slices afterwards.
+    // The judge looks at the slices afterwards. Two materials are weighed while they are dithered.
     (
         "slice",
         &[
-            "base", "field", "geom", "io", "job", "kit", "mesh", "printer", "raster", "slicer",
-            "verify",
+            "base", "field", "geom", "io", "job", "kit", "mass", "mesh", "printer", "raster",
+            "slicer", "verify",
         ],
     ),
     // A quote puts the shop's rates on what was sliced.

@@ -24,6 +24,7 @@ mod telescope;
 mod tests;
 mod typed;
 mod values;
+mod weighed;
 
 use std::path::PathBuf;
 

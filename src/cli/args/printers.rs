@@ -4,6 +4,9 @@ use std::path::PathBuf;
 
 use clap::{Args, Subcommand};
 
+use super::weighed::weighed_infill;
+use crate::coupon::WeighedInfill;
+
 /// The arguments of `printers`.
 #[derive(Debug, Args)]
 pub struct PrintersArgs {
@@ -100,6 +103,10 @@ pub struct CalibrateArgs {
     /// The mass of a density coupon, g; once per coupon
     #[arg(long, value_name = "G", allow_hyphen_values = true)]
     pub weighed: Vec<f64>,
+    /// The masses of the large and the small block of an infill, such as 15%=6.52g,2.12g. The solid
+    /// one is alone: 100%=7.84g. Needs every infill of `equipoise coupon --density`
+    #[arg(long, value_name = "P%=G,G", value_parser = weighed_infill)]
+    pub infill: Vec<WeighedInfill>,
     /// The nominal volume of a density coupon, mm³ [default: that of `equipoise coupon`]
     #[arg(long, value_name = "MM3", allow_hyphen_values = true)]
     pub volume: Option<f64>,
@@ -129,6 +136,9 @@ pub struct CouponArgs {
     /// A material that the printer offers [default: the printer's]
     #[arg(long, value_name = "ID")]
     pub material: Option<String>,
+    /// Make blocks of every infill in place of the usual coupons, to weigh what is really laid
+    #[arg(long, conflicts_with = "cutter")]
+    pub density: bool,
     /// A known laser cutter's id, or a profile file, in place of a printer
     #[arg(long, value_name = "ID|FILE", requires = "sheet", conflicts_with_all = ["printer", "material"])]
     pub cutter: Option<String>,

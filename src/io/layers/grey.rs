@@ -31,6 +31,39 @@ pub fn encode_grey(count: [u32; 2], bytes: &[u8]) -> Result<Vec<u8>, png::Encodi
     Ok(file)
 }
 
+/// Writes an image of pixels that are black or white as PNG, a bit a pixel. Columns and rows are
+/// counted from the left and the top.
+///
+/// # Errors
+/// The image has no pixels, or too many.
+pub fn encode_bits(
+    count: [u32; 2],
+    is_white: impl Fn(usize, usize) -> bool,
+) -> Result<Vec<u8>, png::EncodingError> {
+    let (columns, rows) = (count[0] as usize, count[1] as usize);
+    let bytes_of = |row: usize| {
+        let is_white = &is_white;
+        (0..columns.div_ceil(8)).map(move |byte| {
+            let bits = (8 * byte..8 * byte + 8).map(|column| {
+                let is_white = column < columns && is_white(column, row);
+                u8::from(is_white)
+            });
+            bits.fold(0, |byte, bit| byte << 1 | bit)
+        })
+    };
+    let bytes: Vec<u8> = (0..rows).flat_map(bytes_of).collect();
+    let mut file = Vec::new();
+    let mut encoder = png::Encoder::new(&mut file, count[0], count[1]);
+    encoder.set_color(png::ColorType::Grayscale);
+    encoder.set_depth(png::BitDepth::One);
+    encoder.set_compression(png::Compression::Fastest);
+    encoder.set_filter(png::Filter::NoFilter);
+    let mut writer = encoder.write_header()?;
+    writer.write_image_data(&bytes)?;
+    writer.finish()?;
+    Ok(file)
+}
+
 impl GreyImage {
     /// Reads a PNG file in grey with this number of columns and rows. One with 1, 2, 4 or 16 bits
     /// is brought to 8. Another size is refused before memory is taken for it.
@@ -62,5 +95,23 @@ impl GreyImage {
             .next_frame(&mut bytes)
             .map_err(|error| fault(error.to_string()))?;
         Ok(Self { count, bytes })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_image_of_bits_reads_back_as_black_and_white() {
+        let is_white = |column: usize, row: usize| (column * 7 + row * 3) % 5 < 2;
+        let file = encode_bits([13, 4], is_white).unwrap();
+        let read = GreyImage::decode("a", &file, [13, 4]).unwrap();
+        for row in 0..4 {
+            for column in 0..13 {
+                let grey = if is_white(column, row) { 255 } else { 0 };
+                assert_eq!(read.bytes[row * 13 + column], grey, "{column} {row}");
+            }
+        }
     }
 }

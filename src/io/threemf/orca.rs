@@ -65,11 +65,12 @@ fn pairs(subject: &Subject, settings: &PrintSettings) -> Vec<Pair> {
 
 /// Returns the settings of a region.
 fn region_pairs(infill: &Infill) -> Vec<Pair> {
+    let [anchor, most] = infill.anchors();
     vec![
         ("sparse_infill_density", format!("{}%", infill.percent)),
         ("sparse_infill_pattern", infill.pattern.clone()),
-        ("infill_anchor", "600%".to_owned()),
-        ("infill_anchor_max", "50".to_owned()),
+        anchor,
+        most,
         ("minimum_sparse_infill_area", "0".to_owned()),
         ("top_shell_layers", "0".to_owned()),
         ("bottom_shell_layers", "0".to_owned()),

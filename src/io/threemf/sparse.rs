@@ -26,7 +26,14 @@ pub struct Infill {
     pub pattern: String,
     /// The density to set, per cent of that of solid print.
     pub percent: f64,
+    /// Whether lines turn along the edge of the region and hold on to the lines around it.
+    pub is_anchored: bool,
 }
+
+/// Anchors of infill, in the words of PrusaSlicer and OrcaSlicer: their usual ones.
+const ANCHORS: [&str; 2] = ["600%", "50"];
+/// Settings by which lines end at the edge of a region.
+const NO_ANCHORS: [&str; 2] = ["0", "0"];
 
 /// What the slicer lays where the solid print meets a region, in PrusaSlicer's words: its usual
 /// values. Presets of machines have others. Six layers for a shell moved the centre of a bunny of
@@ -37,6 +44,13 @@ const AROUND_REGIONS: [[&str; 2]; 5] = [
     ["solid_infill_below_area", "70"],
     ["bridge_flow_ratio", "1"],
     ["thick_bridges", "1"],
+];
+
+/// What a region has nothing of, in PrusaSlicer's words.
+const BARE: [&str; 3] = [
+    "solid_infill_below_area",
+    "top_solid_layers",
+    "bottom_solid_layers",
 ];
 
 /// Returns the settings that an object with a region has besides those of solid objects, in
@@ -55,7 +69,21 @@ impl Infill {
             first,
             pattern: region.pattern.clone(),
             percent: region.percent,
+            is_anchored: true,
         }
+    }
+
+    /// Returns the anchors of its lines. PrusaSlicer and OrcaSlicer have the same words for them.
+    pub(super) fn anchors(&self) -> [Pair; 2] {
+        let [length, most] = if self.is_anchored {
+            ANCHORS
+        } else {
+            NO_ANCHORS
+        };
+        [
+            ("infill_anchor", length.to_owned()),
+            ("infill_anchor_max", most.to_owned()),
+        ]
     }
 
     /// Returns the settings of the region in PrusaSlicer's words.
@@ -69,18 +97,16 @@ impl Infill {
     pub fn for_prusa(&self) -> Vec<Pair> {
         // Without the sign, PrusaSlicer reads a multiple of solid print.
         let percent = format!("{}%", self.percent);
-        vec![
+        let mut pairs = vec![
             ("name", "sparse infill".to_owned()),
             ("modifier", "1".to_owned()),
             ("volume_type", "ParameterModifier".to_owned()),
             ("fill_density", percent),
             ("fill_pattern", self.pattern.clone()),
-            ("infill_anchor", "600%".to_owned()),
-            ("infill_anchor_max", "50".to_owned()),
-            ("solid_infill_below_area", "0".to_owned()),
-            ("top_solid_layers", "0".to_owned()),
-            ("bottom_solid_layers", "0".to_owned()),
-        ]
+        ];
+        pairs.extend(self.anchors());
+        pairs.extend(BARE.map(|key| (key, "0".to_owned())));
+        pairs
     }
 }
 

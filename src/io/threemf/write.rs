@@ -158,9 +158,15 @@ impl Object {
             foot_mm2,
         }
     }
-}
 
-impl Object {
+    /// Returns the object with lines that end at the edges of their regions.
+    pub fn without_anchors(mut self) -> Self {
+        for infill in &mut self.infill {
+            infill.is_anchored = false;
+        }
+        self
+    }
+
     /// Returns it as its settings name it.
     fn subject(&self, id: usize) -> Subject<'_> {
         Subject {
