@@ -25,6 +25,7 @@ pub mod stl;
 #[cfg(test)]
 mod tests;
 pub mod threemf;
+mod values;
 
 pub use cut_svg::encode_cut_svg;
 pub use drawing::{CutDrawing, CutLayer, DrawnLine, DrawnShape, Rgb};
