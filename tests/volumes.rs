@@ -157,7 +157,7 @@ fn what_cannot_be_inspected_is_refused_in_words_with_what_to_type() {
     let wrong = RISING.replace("8 0.6", "8 1240");
     let said = refused("box.msh", &format!("{BOX}{wrong}"), &[]);
     assert!(
-        said.contains("line 40: the density of corner 8 is 1240"),
+        said.contains("line 39: the density of corner 8 is 1240"),
         "{said}"
     );
     let doubled = BOX.replace("5\n1 4 2 1 1", "6\n9 4 2 1 1 4 2 3 8\n1 4 2 1 1");
@@ -313,7 +313,7 @@ fn a_field_is_written_as_a_volume_mesh_that_reads_back_with_its_stated_error() {
 fn a_graded_print_is_written_as_a_volume_mesh_with_the_mass_of_its_levels() {
     let folder = tempfile::tempdir().unwrap();
     let [kit, file, other] = ["kit", "part.msh", "other.msh"].map(|name| folder.path().join(name));
-    let options = "--printer prusa-mk4 --size 60mm --goal stand --interior graded \
+    let options = "--printer prusa-mk4 --size 60mm --goal stand --least-angle 1.5 --interior graded \
                    --density 15%..60% --tets";
     let order = |kit: &Path, file: &Path, threads: &str| {
         let arguments = [
