@@ -2,7 +2,7 @@
 
 use super::boundary::Boundary;
 use super::error::TetsError;
-use super::faces::{Faces, middle};
+use super::faces::{FACES, Faces, middle};
 use super::overlap;
 use super::parts::{Densities, TetsParts};
 use crate::field::Density;
@@ -250,12 +250,19 @@ fn orient(cells: &mut [[u32; 4]], vertices: &[Point]) -> Result<usize, TetsError
 }
 
 /// Returns the volume that rounding can make of four points in a plane, mm³.
+///
+/// Coordinates are right to their last place, and a corner that moves changes the volume by the
+/// area opposite. The products that make the volume are rounded too.
 fn rounding_mm3(corners: &[Point; 4]) -> f64 {
-    let from_first = corners.map(|corner| corner - corners[0]);
-    let longest = from_first.iter().map(Vector::norm).fold(0.0, f64::max);
     let farthest = corners.iter().map(|corner| corner.coords.amax());
-    let farthest = farthest.fold(longest, f64::max);
-    FLAT_ULPS * f64::EPSILON * longest * longest * farthest / 6.0
+    let farthest = farthest.fold(0.0, f64::max);
+    let areas = FACES.map(|face| {
+        let [a, b, c] = face.map(|corner| corners[corner]);
+        0.5 * (b - a).cross(&(c - a)).norm()
+    });
+    let edges = [1, 2, 3].map(|corner: usize| (corners[corner] - corners[0]).norm());
+    let products = edges.iter().product::<f64>() / 6.0;
+    FLAT_ULPS * f64::EPSILON * (farthest * areas.iter().sum::<f64>() / 3.0 + products)
 }
 
 /// Numbers the places of the vertices: equal coordinates have one number. Returns the number of
