@@ -60,10 +60,10 @@ pub mod prepare;
 pub mod printer;
 pub mod verify;
 
-/// Points, meshes, their files, repair, mass, and densities that vary.
+/// Points, meshes of triangles and tetrahedra, their files, repair, mass, and densities that vary.
 pub mod model {
     #[doc(inline)]
-    pub use crate::{field, geom, io, mass, mend, mesh, repair};
+    pub use crate::{field, geom, io, mass, mend, mesh, repair, tets};
 }
 
 /// From a goal to the best void: what is asked, what may be emptied, the solver and its surfaces.
@@ -177,6 +177,8 @@ pub mod slicer;
 pub mod telescope;
 #[cfg(test)]
 pub(crate) mod testing;
+#[doc(hidden)]
+pub mod tets;
 #[doc(hidden)]
 pub mod thin;
 #[doc(hidden)]

@@ -140,6 +140,8 @@ choice! {
         Slice = "slice",
         /// The list of a slicer's printers; it is not part of a job.
         List = "list",
+        /// The data of a volume mesh that is its density; it is not part of a job.
+        Data = "data",
     }
 }
 

@@ -5,7 +5,7 @@ use serde::Serialize;
 use super::mass_facts::plain;
 use crate::base::units::MM3_PER_CM3;
 use crate::field::{Measured, NotADensity, Order, check, measure};
-use crate::mass::{Body, moments_of_mesh};
+use crate::mass::{Body, Moments, moments_of_mesh};
 use crate::mesh::Solid;
 
 /// The mass properties of a solid with a field, model axes, scaled as ordered.
@@ -26,7 +26,7 @@ pub(super) struct FieldFacts {
 
 /// The centre and the inertia.
 #[derive(Debug, Serialize)]
-struct BodyFacts {
+pub(super) struct BodyFacts {
     center_mm: [f64; 3],
     center_error_mm: f64,
     /// Principal moments about the centre of mass, ascending.
@@ -37,7 +37,8 @@ struct BodyFacts {
     inertia_error_ratio: f64,
 }
 
-/// Measures a solid with a field; `name` is how it was typed.
+/// Measures a solid with a field; `name` is how it was typed. Returns the facts and the moments,
+/// mm³ to mm⁵ of solid material.
 ///
 /// # Errors
 /// A place in the solid where the field is no density.
@@ -46,22 +47,23 @@ pub(super) fn field_facts(
     order: &Order,
     solid: &Solid,
     material_g_cm3: f64,
-) -> Result<FieldFacts, NotADensity> {
+) -> Result<(FieldFacts, Moments), NotADensity> {
     let field = order.on(solid);
     check(solid, field.as_ref())?;
     let measured = measure(solid.mesh(), field.as_ref());
     let volume_mm3 = measured.moments.volume();
-    Ok(FieldFacts {
+    let facts = FieldFacts {
         field: name,
         material_g_cm3,
         mass_g: volume_mm3 * material_g_cm3 / MM3_PER_CM3,
         mean_density_ratio: volume_mm3 / moments_of_mesh(solid.mesh()).volume(),
         body: body_facts(&measured, material_g_cm3 / MM3_PER_CM3),
         mass_error_ratio: measured.mass_error_ratio(),
-    })
+    };
+    Ok((facts, measured.moments))
 }
 
-fn body_facts(measured: &Measured, density_g_mm3: f64) -> Option<BodyFacts> {
+pub(super) fn body_facts(measured: &Measured, density_g_mm3: f64) -> Option<BodyFacts> {
     let center = measured.center()?;
     let principal = Body::new(&measured.moments, density_g_mm3).principal();
     let axis = |i| principal.axes.column(i).into_owned().into();
@@ -86,14 +88,20 @@ pub(super) fn field_text(facts: &FieldFacts) -> String {
     let Some(body) = &facts.body else {
         return text + "the field has no mass, so it has no centre of mass\n";
     };
+    text += &body_text(body);
+    text + &error_text(facts, body)
+}
+
+/// Returns centre, principal moments and axes in words.
+pub(super) fn body_text(body: &BodyFacts) -> String {
     let [x, y, z] = body.center_mm;
     let moments = body.principal_moments_g_mm2.map(|moment| plain(moment, ""));
-    text += &format!("centre of mass ({x:.3}, {y:.3}, {z:.3}) mm\n");
+    let mut text = format!("centre of mass ({x:.3}, {y:.3}, {z:.3}) mm\n");
     text += &format!("principal moments {} g·mm² about\n", moments.join(", "));
     for [x, y, z] in body.principal_axes {
         text += &format!("  ({x:.4}, {y:.4}, {z:.4})\n");
     }
-    text + &error_text(facts, body)
+    text
 }
 
 /// Returns the error that was reached, in words.
@@ -110,6 +118,6 @@ fn error_text(facts: &FieldFacts, body: &BodyFacts) -> String {
 }
 
 /// Returns a small share in per cent.
-fn share(ratio: f64) -> String {
+pub(super) fn share(ratio: f64) -> String {
     format!("{:.1e} %", 100.0 * ratio)
 }

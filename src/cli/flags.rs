@@ -150,8 +150,13 @@ mod tests {
         let import = find(&find(&cli, "printers"), "import");
         let telescope = find(&cli, "telescope");
         let core = find(&cli, "core");
+        let inspect = find(&cli, "inspect");
         for &key in Key::ALL {
-            let command = if key == Key::List { &import } else { &prepare };
+            let command = match key {
+                Key::List => &import,
+                Key::Data => &inspect,
+                _ => &prepare,
+            };
             let others = knows(&telescope, key) || knows(&core, key);
             assert!(knows(command, key) || others, "{key}");
         }

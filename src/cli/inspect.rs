@@ -10,9 +10,12 @@ use super::broken::{BrokenPictureError, check_name, places, redraw_hint, write_p
 use super::exit::Exit;
 use super::field_facts::{FieldFacts, field_facts, field_text};
 use super::flags::{flag, flags, with_flags};
+use super::inspect_volume::{InspectVolumeError, inspect_volume};
 use super::mass_facts::{Mass, mass, mass_text, plain};
 use super::show::{say, table};
+use super::tets_file::{TetsFileError, WrittenTets, check_sampled, write_sampled, written_text};
 use super::voice::Voice;
+use super::wonted::{density_g_cm3, size_hint};
 use crate::advice::{Case, Prospect, name_direction, prospects};
 use crate::base::setting::{Key, Setting};
 use crate::base::units::{format_count, show_mm};
@@ -20,7 +23,8 @@ use crate::base::watch::{Cancelled, Watch};
 use crate::field::{FileError, NotADensity, Order};
 use crate::geom::Vector;
 use crate::goal::{Contact, GoalKind, Request, find_upright};
-use crate::io::{ReadError, read_model};
+use crate::io::{ReadError, is_volume_name, read_model};
+use crate::mass::Moments;
 use crate::mend::{MendError, mend};
 use crate::mesh::{Defects, MeshFacts, Solid, scaled};
 use crate::printer::{MaterialError, Printer, ProfileError, WallError};
@@ -42,6 +46,12 @@ pub enum InspectError {
         /// The reason.
         source: Box<MendError>,
     },
+    /// The volume mesh cannot be inspected.
+    #[error(transparent)]
+    Volume(#[from] InspectVolumeError),
+    /// The volume mesh cannot be written.
+    #[error(transparent)]
+    Tets(#[from] TetsFileError),
     /// The picture cannot be written.
     #[error(transparent)]
     Picture(#[from] BrokenPictureError),
@@ -94,6 +104,9 @@ struct Findings {
     solid: Option<Mass>,
     /// The mass properties with the field ordered; `None` without one, or if it is not a solid.
     field: Option<FieldFacts>,
+    /// The volume mesh that was written with it; `None` without an order.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    tets: Option<WrittenTets>,
     /// The goals it could reach with a wall; `None` if it is not a solid of one body, or if nobody
     /// prints its size.
     could_become: Option<Becoming>,
@@ -108,14 +121,6 @@ struct Becoming {
     prospects: Vec<Prospect>,
 }
 
-/// The least plausible longest side, mm. Half of a smaller model would be wall, so its unit is
-/// wrong.
-const MIN_SIZE_MM: f64 = 5.0;
-/// The greatest plausible longest side, mm. A longer one fits no printer.
-const MAX_SIZE_MM: f64 = 2000.0;
-
-/// The density of the print, g/cm³, without a printer: about that of PLA, PA and resins.
-const PLAIN_DENSITY_G_CM3: f64 = 1.2;
 /// The bore in what to type for a rotor: that of a common ball bearing, 608.
 const EXAMPLE_BORE: &str = "8mm";
 /// The wall over the longest side, if neither a wall nor a printer is given.
@@ -129,7 +134,15 @@ pub fn inspect(
     voice: Voice,
     out: &mut dyn Write,
 ) -> Result<Exit, InspectError> {
+    if is_volume_name(&args.model) {
+        return Ok(inspect_volume(args, voice, out)?);
+    }
+    if let Some(option) = args.only_for_volumes() {
+        let path = args.model.clone();
+        return Err(InspectVolumeError::ForVolumes { option, path }.into());
+    }
     args.picture.as_deref().map_or(Ok(()), check_name)?;
+    check_sampled(&args.tets, args.field.is_some())?;
     let field = args.field.as_ref().map(FieldChoice::order).transpose()?;
     let factor = |longest| args.scaling.scaling().factor(longest);
     let order = args.repair.unwrap_or_default();
@@ -153,7 +166,9 @@ pub fn inspect(
     let mut findings = findings(&facts, mended.repairs.to_string(), &solid);
     findings.not_one_body = refusal.map(|why| why.to_string());
     if let (Ok(solid), Some(order)) = (&solid, &field) {
-        findings.field = Some(with_field(args, order, solid)?);
+        let (facts, exact) = with_field(args, order, solid)?;
+        findings.field = Some(facts);
+        findings.tets = write_sampled(&args.tets, solid, order.on(solid).as_ref(), exact)?;
     }
     // Without its size, walls and speeds would be those of another object.
     let is_sized = findings.size_hint.is_none() || args.wall.is_some();
@@ -195,39 +210,18 @@ fn findings(facts: &MeshFacts, repairs: String, solid: &Result<Solid, Defects>) 
         not_one_body: None,
         solid: solid.as_ref().ok().map(|solid| mass(solid.mesh())),
         field: None,
+        tets: None,
         could_become: None,
     }
 }
 
-/// Returns a remedy for a longest side, mm, that nobody prints.
-pub(super) fn size_hint(longest_mm: f64) -> Option<String> {
-    let is_plausible = (MIN_SIZE_MM..=MAX_SIZE_MM).contains(&longest_mm);
-    (!is_plausible).then(|| {
-        format!(
-            "its longest side would be {}: the file's numbers are hardly mm; give their unit, cm, m \
-             or in (`{}`), or the size of the object (`{}`)",
-            long_words(longest_mm),
-            Setting::open(Key::Unit),
-            Setting::new(Key::Size, "100mm")
-        )
-    })
-}
-
-/// Returns a length in words; beyond a kilometre as a power of ten.
-fn long_words(mm: f64) -> String {
-    if mm < 1e6 {
-        plain(mm, "mm")
-    } else {
-        format!("{mm:.1e} mm")
-    }
-}
-
-/// Returns the mass properties of the solid with the field ordered, of the printer's material.
+/// Returns the mass properties of the solid with the field ordered, of the printer's material, and
+/// its moments.
 fn with_field(
     args: &InspectArgs,
     order: &Order,
     solid: &Solid,
-) -> Result<FieldFacts, InspectError> {
+) -> Result<(FieldFacts, Moments), InspectError> {
     let printer = args.printer.as_deref().map(Printer::find).transpose()?;
     let name = args
         .field
@@ -239,12 +233,6 @@ fn with_field(
         solid,
         density_g_cm3(printer.as_ref())?,
     )?)
-}
-
-/// Returns the density of the printer's material, g/cm³; a plain one without a printer.
-fn density_g_cm3(printer: Option<&Printer>) -> Result<f64, InspectError> {
-    let material = printer.map(|printer| printer.material(None)).transpose()?;
-    Ok(material.map_or(PLAIN_DENSITY_G_CM3, |material| material.density_g_cm3.value))
 }
 
 /// Returns the goals the solid could reach with the wall ordered, or the printer's minimum.
@@ -319,6 +307,7 @@ fn text(findings: &Findings) -> String {
         _ => {}
     }
     text += &findings.field.as_ref().map_or(String::new(), field_text);
+    text += &findings.tets.as_ref().map_or(String::new(), written_text);
     let is_sound = findings.solid.is_some() && findings.not_one_body.is_none();
     text + &match &findings.could_become {
         Some(becoming) => becoming_text(becoming),

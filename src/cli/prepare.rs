@@ -6,14 +6,15 @@ use super::args::{ArgsError, PrepareArgs, Request};
 use super::bars::Bars;
 use super::exit::Exit;
 use super::flags::{flags, with_flags};
-use super::inspect::size_hint;
 use super::print_time::print_time;
 use super::questions::{AskError, Unanswered, ask};
 use super::show::say;
 use super::signals::Stop;
 use super::summary::{broken, details, ten_lines};
+use super::tets_file::{TetsFileError, check_graded, write_graded, written_text};
 use super::values::show_box;
 use super::voice::Voice;
+use super::wonted::size_hint;
 use super::wrap::wrapped;
 use crate::advice::Remedy;
 use crate::base::units::{Length, show_mm};
@@ -39,6 +40,9 @@ pub enum PrepareError {
     /// A stage failed.
     #[error(transparent)]
     Run(#[from] Error),
+    /// The volume mesh cannot be written.
+    #[error(transparent)]
+    Tets(#[from] TetsFileError),
     /// The standard output is closed.
     #[error("cannot write to the standard output")]
     Output(#[from] std::io::Error),
@@ -60,6 +64,9 @@ pub fn prepare(
         }
         args => args?.request()?,
     };
+    if let Some(path) = &request.tets.tets {
+        check_graded(path, &request.job, request.force)?;
+    }
     if !voice.manner.quiet && !voice.json {
         beyond_plate(&request.job).iter().for_each(|note| say(note));
     }
@@ -87,6 +94,9 @@ pub fn prepare(
                 stop,
             };
             ending.print(&prepared, out)?;
+            let written = write_graded(&request.tets, &request.job, &prepared)?;
+            let shown = written.filter(|_| !voice.manner.quiet);
+            shown.iter().for_each(|it| say(written_text(it).trim_end()));
             let is_broken = rounds.is_some_and(|rounds| !rounds.broken.is_empty());
             Ok(if prepared.passes() && !is_broken {
                 Exit::Kept

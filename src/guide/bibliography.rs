@@ -24,6 +24,9 @@
 //!   optimization", SIAM Journal on Scientific Computing 16, 1995.
 //! * **Tetrahedron tensor**: F. Tonon, "Explicit exact formulas for the 3-D tetrahedron inertia
 //!   tensor in terms of its vertex coordinates", Journal of Mathematics and Statistics 1(1), 2005.
+//! * **Recovered gradients** (the error of sampled densities): O. C. Zienkiewicz, J. Z. Zhu, "A
+//!   simple error estimator and adaptive procedure for practical engineering analysis",
+//!   International Journal for Numerical Methods in Engineering 24, 1987.
 //! * **Density**: D. R. Bukenberger, H. P. A. Lensch, "Tetrahedra of Varying Density and Their
 //!   Applications", The Visual Computer 37, 2021.
 //! * **Cone rules and Gauss–Jacobi nodes**: A. H. Stroud, "Approximate Calculation of Multiple

@@ -13,6 +13,8 @@
 //! | Who decides if a top needs a tip, and which? | `choose_contact` in `prepare/place.rs`; `Lean` in `goal/lean.rs` says how far it leans, `TipPlace` in `goal/tips.rs` picks the pin |
 //! | Where is the bound computed? | `Visit` in `hollow/dual/visit.rs` evaluates the dual, `climb` in `hollow/dual/ascent.rs` raises it |
 //! | Where is a density that varies integrated? | `measure` in `field/measure.rs`, over the signed cones of `mass/cones.rs` and the rays of `mass/rays.rs` |
+//! | Who says that tetrahedra fill a solid once, and what do they weigh? | `Tets::new` in `tets/volume.rs`, over `tets/faces.rs` and `tets/overlap.rs`; files are read in `io/volume/read.rs` |
+//! | Where is a solid filled with tetrahedra? | `stuff` in `tets/stuffing.rs`, cut by `Clipper` in `tets/clip.rs`; `NestedDensity` in `tets/nested.rs` gives them the levels of a print |
 //! | Which infill is enough, and which is nearest to a wished one? | `greatest_low` in `hollow/range.rs`, `least_change` in `hollow/change.rs`, in steps by `least_level_change` in `hollow/levels.rs` |
 //! | Where does a match get its numbers, and who says that they are met? | `resolved` in `prepare/like.rs` reads the file, `Mismatch` in `verify/handling.rs` compares; `MatchMiss` in `hollow/miss.rs` words what is out of reach |
 //! | How dense is printed infill, and how does a shop measure it? | `laid_ratio` in `printer/infill.rs`; `core_ratios` in `coupon/density/weighed.rs` takes the masses of blocks |

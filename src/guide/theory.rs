@@ -136,6 +136,13 @@
 //! the density of solid print. Here r is the density of its core, c a² its area, and b holds walls
 //! and the ends of lines. Two widths give r ([`crate::coupon::DensitySet::core_ratios`]).
 //!
+//! A volume mesh with densities at its corners is exact too, for the density that is linear in each
+//! tetrahedron ([`crate::tets`]). That density is not the one that was sampled: between corners it
+//! misses the curvature, and steps are smeared. Once all tetrahedra have positive volume, the
+//! winding number of their surface counts how many hold a point. So a mesh fills space once if that
+//! surface does not cross itself and no shell of it lies inside another's filling. The sum of the
+//! volumes says nothing of this: it always equals what the surface encloses.
+//!
 //! # 9. Bosses
 //! If walls leave no room for pins, material around the pins is taken out of Ω and the same problem
 //! is solved again. The certificate then holds for the rest of Ω. Filling a set B of the void

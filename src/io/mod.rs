@@ -5,6 +5,7 @@
 //! * `points` reads curves, a point a line; `lines` reads them as OBJ lines or PLY edges, too.
 //! * [`gcode`] reads what a print lays down; it writes nothing.
 //! * [`layers`] writes and weighs layer images.
+//! * `volume` reads tetrahedra with densities: `.msh`, legacy `.vtk`, `.node` with `.ele`.
 //! * `drawing` holds drawings for cutters, which `dxf` and `cut_svg` write; `read_drawing` reads
 //!   them back.
 
@@ -25,6 +26,8 @@ pub mod stl;
 #[cfg(test)]
 mod tests;
 pub mod threemf;
+mod values;
+mod volume;
 
 pub use cut_svg::encode_cut_svg;
 pub use drawing::{CutDrawing, CutLayer, DrawnLine, DrawnShape, Rgb};
@@ -36,3 +39,7 @@ pub use points::{PointsError, decode_points};
 pub use read::{ContentError, ReadError, decode_model, file_near, read_bytes, read_model};
 pub use read_drawing::{DrawingError, decode_cut_svg, decode_dxf};
 pub use stl::{StlError, WriteError};
+pub use volume::{
+    DataChoice, DensitySource, Ignored, On, Place, ReadVolumeError, Volume, VolumeError,
+    decode_tetgen, decode_volume, encode_msh, encode_vtk, is_volume_name, read_volume,
+};

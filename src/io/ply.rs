@@ -1,6 +1,7 @@
 //! Reads PLY, the Stanford triangle format: text and both binary forms, with polygons cut into
 //! triangles.
 
+use super::values::{Form, Kind, Values};
 use crate::geom::Point;
 use crate::mesh::{TriMesh, ear_clip};
 
@@ -54,27 +55,6 @@ pub enum PlyError {
     },
 }
 
-/// The encoding of the numbers.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Form {
-    Text,
-    LittleEndian,
-    BigEndian,
-}
-
-/// The type of a number.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Kind {
-    I8,
-    U8,
-    I16,
-    U16,
-    I32,
-    U32,
-    F32,
-    F64,
-}
-
 /// The names of the number types, old and new.
 const KINDS: [(&str, Kind); 16] = [
     ("char", Kind::I8),
@@ -119,7 +99,7 @@ pub(super) struct Element {
 /// skipped.
 pub(super) fn decode(bytes: &[u8]) -> Result<TriMesh, PlyError> {
     let (form, elements, body) = header(bytes)?;
-    let mut body = Body { rest: body, form };
+    let mut body = Body(Values::new(body, form));
     let (mut vertices, mut faces) = (Vec::new(), Vec::new());
     for element in &elements {
         match element.name.as_str() {
@@ -302,10 +282,7 @@ fn property(words: &[&str]) -> Option<Property> {
 }
 
 /// The part of the file after the header that is still to be read.
-pub(super) struct Body<'a> {
-    pub rest: &'a [u8],
-    pub form: Form,
-}
+pub(super) struct Body<'a>(pub Values<'a>);
 
 impl Body<'_> {
     /// Calls `take` with the index of each item and its values, one list for each property.
@@ -326,7 +303,7 @@ impl Body<'_> {
         for index in 0..element.count {
             for (property, values) in element.properties.iter().zip(&mut values) {
                 let length = match property.length {
-                    Some(kind) => self.number(kind).ok_or_else(|| cut(index))?,
+                    Some(kind) => self.0.number(kind).ok_or_else(|| cut(index))?,
                     None => 1.0,
                 };
                 if !(length >= 0.0 && length.fract() == 0.0) {
@@ -339,48 +316,12 @@ impl Body<'_> {
                 }
                 values.clear();
                 for _ in 0..length as u64 {
-                    values.push(self.number(property.kind).ok_or_else(|| cut(index))?);
+                    values.push(self.0.number(property.kind).ok_or_else(|| cut(index))?);
                 }
             }
             take(index, &values)?;
         }
         Ok(())
-    }
-
-    /// Reads the next number; NaN if a word is not a number, `None` at the end.
-    fn number(&mut self, kind: Kind) -> Option<f64> {
-        if self.form == Form::Text {
-            let text = self.rest.trim_ascii_start();
-            let end = text
-                .iter()
-                .position(u8::is_ascii_whitespace)
-                .unwrap_or(text.len());
-            let (word, rest) = text.split_at(end);
-            self.rest = rest;
-            let number = || std::str::from_utf8(word).ok()?.parse().ok();
-            return (!word.is_empty()).then(|| number().unwrap_or(f64::NAN));
-        }
-        Some(match kind {
-            Kind::I8 => f64::from(i8::from_le_bytes(self.bytes()?)),
-            Kind::U8 => f64::from(u8::from_le_bytes(self.bytes()?)),
-            Kind::I16 => f64::from(i16::from_le_bytes(self.bytes()?)),
-            Kind::U16 => f64::from(u16::from_le_bytes(self.bytes()?)),
-            Kind::I32 => f64::from(i32::from_le_bytes(self.bytes()?)),
-            Kind::U32 => f64::from(u32::from_le_bytes(self.bytes()?)),
-            Kind::F32 => f64::from(f32::from_le_bytes(self.bytes()?)),
-            Kind::F64 => f64::from_le_bytes(self.bytes()?),
-        })
-    }
-
-    /// Reads the next `N` bytes and returns them in little-endian order.
-    fn bytes<const N: usize>(&mut self) -> Option<[u8; N]> {
-        let (bytes, rest) = self.rest.split_first_chunk::<N>()?;
-        self.rest = rest;
-        let mut bytes = *bytes;
-        if self.form == Form::BigEndian {
-            bytes.reverse();
-        }
-        Some(bytes)
     }
 }
 

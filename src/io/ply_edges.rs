@@ -1,12 +1,13 @@
 //! Reads the edges of a PLY file.
 
 use super::ply::{Body, Element, PlyError, fault, header, read_vertices};
+use super::values::Values;
 use crate::geom::Point;
 
 /// Returns the vertices of a PLY file, and its edges as pairs of them.
 pub(super) fn decode_edges(bytes: &[u8]) -> Result<(Vec<Point>, Vec<[usize; 2]>), PlyError> {
     let (form, elements, body) = header(bytes)?;
-    let mut body = Body { rest: body, form };
+    let mut body = Body(Values::new(body, form));
     let (mut vertices, mut edges) = (Vec::new(), Vec::new());
     for element in &elements {
         match element.name.as_str() {

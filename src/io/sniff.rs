@@ -20,7 +20,9 @@ pub(super) enum Format {
 }
 
 /// First bytes of formats that people mistake for STL or OBJ, with a name for each.
-const SIGNATURES: [(&[u8], &str); 7] = [
+const SIGNATURES: [(&[u8], &str); 9] = [
+    (b"$MeshFormat", "a Gmsh mesh"),
+    (b"# vtk DataFile", "a VTK file"),
     (b"glTF", "a binary glTF file"),
     (b"ISO-10303", "a STEP file"),
     (b"OFF", "an OFF file"),

@@ -17,6 +17,7 @@ mod bead;
 mod film;
 mod lump;
 mod of_mesh;
+mod of_tetrahedra;
 mod submerged;
 
 #[cfg(test)]
@@ -31,6 +32,7 @@ pub(crate) use lump::rims;
 pub use lump::{Lump, LumpShape};
 pub use moments::Moments;
 pub use of_mesh::moments_of_mesh;
+pub use of_tetrahedra::moments_of_tetrahedra;
 pub use rule::{ConeRule, Node, gauss_jacobi};
 pub use split::Split;
 pub use submerged::{Section, Submerged, clip_below};

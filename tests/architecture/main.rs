@@ -36,8 +36,9 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("curve", &["base", "geom"]),
     ("mesh", &["base", "geom"]),
     ("repair", &["base", "geom", "mesh"]),
-    // G-code is weighed bead by bead as it is read, so that no file is too long.
-    ("io", &["repair", "geom", "mass", "mesh", "base"]),
+    // G-code is weighed bead by bead as it is read, so that no file is too long. Volume meshes are
+    // checked as they are read.
+    ("io", &["repair", "geom", "mass", "mesh", "base", "tets"]),
     ("shell", &["geom", "mesh", "base"]),
     ("thin", &["geom", "mesh", "base"]),
     // A skeleton is found in a solid alone; what shells need comes as two lengths.
@@ -45,6 +46,8 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("mass", &["geom", "mesh", "base"]),
     // A density is a function in space: it is integrated over a mesh, and knows no printer.
     ("field", &["base", "geom", "mass", "mesh"]),
+    // Tetrahedra are weighed with their densities, and sample those that are known as a field.
+    ("tets", &["base", "field", "geom", "mass", "mesh"]),
     // Layer images are made of a mesh alone; what machine shows them comes as pixels and layers.
     ("raster", &["geom", "mass", "mesh", "base"]),
     ("goal", &["geom", "mass", "mesh", "shell", "base"]),
@@ -273,6 +276,7 @@ const ARROWS: &[(&str, &[&str])] = &[
             "skeleton",
             "slice",
             "telescope",
+            "tets",
             "verify",
             "wing",
         ],
@@ -317,6 +321,7 @@ const ARROWS: &[(&str, &[&str])] = &[
             "slice",
             "slicer",
             "telescope",
+            "tets",
             "voids",
             "wing",
         ],

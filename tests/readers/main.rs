@@ -11,6 +11,7 @@
 
 mod damage;
 mod seeds;
+mod volumes;
 
 use std::fs;
 use std::io::Cursor;
@@ -27,7 +28,8 @@ use equipoise::io::gcode::{Options, read_plates};
 use equipoise::io::layers::read_layers;
 use equipoise::io::threemf::{decode_orders, decode_plate};
 use equipoise::io::{
-    DrawnLine, DrawnShape, decode_curve, decode_cut_svg, decode_dxf, decode_model, decode_points,
+    DataChoice, DrawnLine, DrawnShape, Volume, decode_curve, decode_cut_svg, decode_dxf,
+    decode_model, decode_points, decode_tetgen, decode_volume,
 };
 use equipoise::job::core_kit::CoreJob;
 use equipoise::job::telescope::TelescopeJob;
@@ -104,6 +106,35 @@ fn models_as_stl_obj_ply_and_3mf() {
         &[seeds::package(), seeds::package_of_components()],
         reads_model,
     );
+}
+
+/// Returns true for a volume mesh whose moments are finite, and whose densities are some.
+fn is_sound_volume(volume: &Volume) -> bool {
+    let tets = &volume.tets;
+    assert!(tets.moments().0.iter().all(|moment| moment.is_finite()));
+    let densities = (0..tets.cells().len()).flat_map(|cell| tets.densities_of(cell));
+    for density in densities {
+        assert!((-1e-5..1.00001).contains(&density), "{density}");
+    }
+    assert!(tets.solid_moments().volume() > 0.0);
+    true
+}
+
+#[test]
+fn volume_meshes_as_msh_vtk_and_tetgen() {
+    let reads = |bytes: &[u8]| {
+        decode_volume(bytes, &DataChoice::Auto).is_ok_and(|volume| is_sound_volume(&volume))
+    };
+    fuzz("msh, text", &volumes::text_msh(), reads);
+    fuzz("msh, binary", &volumes::binary_msh(), reads);
+    fuzz("vtk, text", &volumes::text_vtk(), reads);
+    fuzz("vtk, binary", &volumes::binary_vtk(), reads);
+    let [node, ele] = volumes::tetgen();
+    let reads_pair = |files: [&[u8]; 2]| {
+        decode_tetgen(files, &DataChoice::Auto).is_ok_and(|volume| is_sound_volume(&volume))
+    };
+    fuzz("node", &[node.to_vec()], |bytes| reads_pair([bytes, ele]));
+    fuzz("ele", &[ele.to_vec()], |bytes| reads_pair([node, bytes]));
 }
 
 #[test]

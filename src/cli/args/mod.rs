@@ -22,6 +22,7 @@ mod slice;
 mod telescope;
 #[cfg(test)]
 mod tests;
+mod tets;
 mod typed;
 mod values;
 mod weighed;
@@ -46,10 +47,12 @@ pub use scaling::ScalingArgs;
 pub use skeleton::{Root, RootError, SkeletonArgs};
 pub use slice::SliceArgs;
 pub use telescope::TelescopeArgs;
+pub use tets::TetsArgs;
 pub use typed::SplitUnit;
 pub use values::NumberError;
 
 use crate::base::units::Length;
+use crate::io::DataChoice;
 use crate::repair::RepairOrder;
 use values::{ALSO, EXAMPLES, EXIT_CODES};
 
@@ -156,7 +159,7 @@ pub enum Command {
 /// The arguments of `inspect`.
 #[derive(Debug, Args)]
 pub struct InspectArgs {
-    /// The model: an STL, OBJ, PLY or 3MF file
+    /// The model: an STL, OBJ, PLY or 3MF file, or a volume mesh: .msh, .vtk, .node with .ele
     pub model: PathBuf,
     /// Show what it could become on this printer: a known printer's id, or a profile file
     #[arg(long, value_name = "ID|FILE", help_heading = "Printer")]
@@ -177,6 +180,12 @@ pub struct InspectArgs {
     /// Lengths are those of the model as scaled, in the axes of its file.
     #[arg(long, value_name = "FIELD", allow_hyphen_values = true)]
     pub field: Option<FieldChoice>,
+    /// The data of a volume mesh that is its density, or none [default: density, or the only one]
+    #[arg(long, value_name = "NAME", value_parser = |name: &str| name.parse::<DataChoice>())]
+    pub data: Option<DataChoice>,
+    /// The volume mesh to write.
+    #[command(flatten)]
+    pub tets: TetsArgs,
     /// Repair the model as `prepare --repair` does: cavities, fill, remesh or remesh:TOLERANCE
     /// [default: auto]
     #[arg(long, value_name = "HOW")]
@@ -187,6 +196,26 @@ pub struct InspectArgs {
     /// The size of the model.
     #[command(flatten, next_help_heading = "Size")]
     pub scaling: ScalingArgs,
+}
+
+impl InspectArgs {
+    /// Returns an option that was given and says nothing of a volume mesh, as it is typed.
+    pub fn only_for_surfaces(&self) -> Option<&'static str> {
+        let given = [
+            ("--wall", self.wall.is_some()),
+            ("--repair", self.repair.is_some()),
+            ("--picture", self.picture.is_some()),
+            ("--tets", self.tets.tets.is_some()),
+        ];
+        given
+            .into_iter()
+            .find_map(|(name, is_given)| is_given.then_some(name))
+    }
+
+    /// Returns an option that was given and says nothing of a surface, as it is typed.
+    pub fn only_for_volumes(&self) -> Option<&'static str> {
+        self.data.as_ref().map(|_| "--data")
+    }
 }
 
 /// The arguments of `verify`.

@@ -13,6 +13,7 @@ use super::error::ArgsError;
 use super::goal::{HardwareArgs, MatchArgs, PromiseArgs, RotorArgs, WaterArgs};
 use super::missing::Missing;
 use super::scaling::ScalingArgs;
+use super::tets::TetsArgs;
 use super::values::{EXIT_CODES, GoalReader, PREPARE_EXAMPLES, words};
 use crate::base::units::Length;
 use crate::cli::shop::chosen_printer;
@@ -155,6 +156,10 @@ pub struct PrepareArgs {
     #[command(flatten)]
     pub load: BallastArgs,
 
+    /// The volume mesh to write.
+    #[command(flatten)]
+    pub tets: TetsArgs,
+
     /// The folder of the kit [default: such as elephant-top]
     #[arg(long, value_name = "DIR", help_heading = FIRST)]
     pub out: Option<PathBuf>,
@@ -208,6 +213,8 @@ pub struct Request {
     pub slice: bool,
     /// The slicer's own profile for that.
     pub slicer_profile: Option<PathBuf>,
+    /// The volume mesh to write beside the kit.
+    pub tets: TetsArgs,
     /// The command line that was typed, with the answers to questions.
     pub typed: Vec<String>,
 }
@@ -242,6 +249,7 @@ impl PrepareArgs {
         }
         let (out, force, plans) = (self.out.clone(), self.force, self.plans);
         let (slice, slicer_profile) = (self.slice, self.slicer_profile.clone());
+        let tets = self.tets.clone();
         let typed = std::env::args_os().map(|word| word.to_string_lossy().into_owned());
         let typed = typed.chain(self.answered.iter().cloned()).collect();
         let job = match &self.job {
@@ -255,6 +263,7 @@ impl PrepareArgs {
             force,
             slice,
             slicer_profile,
+            tets,
             typed,
         })
     }
