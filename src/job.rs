@@ -5,6 +5,7 @@ pub mod core_kit;
 mod densities;
 mod drain;
 mod effort;
+mod field;
 mod filling;
 mod like;
 mod model;
@@ -21,6 +22,7 @@ pub use choices::{CutMode, IdStyle, Interior, ModelUnit, PartFormat, PinStyle};
 pub use densities::{DensityError, DensityOrder, InfillDensity, KeptShare, LevelCount};
 pub use drain::{DrainOrder, DrainOrderError};
 pub use effort::Effort;
+pub use field::{FieldOrder, FieldOrderError, GivenField};
 pub use filling::Filling;
 pub use like::Like;
 pub use model::ModelChoice;
@@ -126,6 +128,9 @@ pub struct Job {
     /// if the key is missing.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub keep: Option<KeptShare>,
+    /// The field of densities of a graded print; the best densities if the key is missing.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub field: Option<FieldOrder>,
     /// The repairs of the model asked for; those that everyone gets if the key is missing.
     #[serde(default, skip_serializing_if = "RepairOrder::is_auto")]
     pub repair: RepairOrder,
@@ -281,6 +286,7 @@ impl Job {
             infill: None,
             levels: None,
             keep: None,
+            field: None,
             repair: RepairOrder::default(),
             model,
             printer,
@@ -430,6 +436,7 @@ mod tests {
         other.infill = Some("40%".parse().unwrap());
         other.levels = Some("6".parse().unwrap());
         other.keep = Some("95%".parse().unwrap());
+        other.field = Some("ramp:0,0,1@20mm..60mm:0.2..1".parse().unwrap());
         other.sliced = vec![SlicedRound {
             miss_mm: 0.0317,
             beyond: [460.1, -3.0, 0.1 + 0.2, 0.0, 1e-7, 2.0, 3.0, 4e9, 5.0, 6.0],

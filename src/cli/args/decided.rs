@@ -1,7 +1,7 @@
 //! The arguments of `prepare` that a replayed job decides.
 
 /// The arguments that a replayed job decides.
-pub const DECIDED_BY_JOB: [&str; 49] = [
+pub const DECIDED_BY_JOB: [&str; 50] = [
     "slicer",
     "printer",
     "material",
@@ -50,5 +50,6 @@ pub const DECIDED_BY_JOB: [&str; 49] = [
     "infill",
     "levels",
     "keep",
+    "field",
     "repair",
 ];

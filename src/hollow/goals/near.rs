@@ -92,7 +92,7 @@ impl NearWished {
     }
 
     /// Returns what must be kept, `None` for nothing; or the best print, if it does not do either.
-    fn kept(
+    pub(super) fn kept(
         &self,
         problem: &Problem,
         known: Option<&Solution>,
