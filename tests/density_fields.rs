@@ -19,7 +19,7 @@ mod scene;
 use equipoise::base::verdict::Verdict;
 use equipoise::field::{Density, DensityRange, Ramp, Sine, measure};
 use equipoise::geom::Vector;
-use equipoise::goal::{GoalKind, Request, Up, place};
+use equipoise::goal::{GoalKind, Objective, Request, Up, place};
 use equipoise::hollow::{Family, Row, Shape, fit_smooth, greatest_low, least_change, rows};
 use equipoise::mass::{Moments, moments_of_mesh};
 use scene::{DYNAMIC, NO_WALL_MM, STATIC, Scene, rotor_frame, shared};
@@ -33,7 +33,10 @@ fn range(low: f64) -> DensityRange {
 
 fn rocker_arm() -> Option<Scene> {
     let solid = shared("rocker-arm.obj", 100.0)?;
-    Some(Scene::new(solid, NO_WALL_MM, 100.0 / COLUMNS))
+    let mut scene = Scene::new(solid, NO_WALL_MM, 100.0 / COLUMNS);
+    // All of it has the density in question, so what columns miss is left out.
+    scene.shell = Moments::default();
+    Some(scene)
 }
 
 #[test]
@@ -102,8 +105,9 @@ fn with_only_the_centre_on_the_axis_the_least_change_of_the_rocker_arm_is_a_ramp
     };
     let mesh = scene.solid.mesh().in_frame(&scene.frame);
     let mass = measure(&mesh, ramp.as_ref()).moments.volume();
-    let ratio = mass / fit.moments.volume();
-    assert!((ratio - 1.0).abs() < 0.01, "{ratio}");
+    let mean = mass / moments_of_mesh(&mesh).volume();
+    let of_columns = fit.moments.volume() / scene.columns.moments().volume();
+    assert!((mean - of_columns).abs() < 5e-3, "{mean} {of_columns}");
 }
 
 #[test]
@@ -120,11 +124,12 @@ fn with_the_axis_prescribed_too_no_ramp_of_the_rocker_arm_reaches_the_least_chan
     assert!(fit.miss > 1e-7 || fit.cost > 1.01 * least.cost);
 }
 
-/// Returns Humpty without a shell, and the rows by which he stands on his head.
+/// Returns Humpty without a shell, and the rows by which his centre is over the middle of his head.
 fn humpty() -> Option<(Scene, Vec<Row>)> {
     let solid = shared("humpty.obj", 100.0)?;
     let request = Request {
         up: Up::Along((-Vector::y()).into()),
+        objective: Objective::LowestCenter,
         ..Request::new(GoalKind::Stand)
     };
     let goal = place(&solid, 1.0, &request).unwrap().goal;

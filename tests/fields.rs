@@ -33,11 +33,15 @@ fn prepare(out: &Path, options: &str) -> Output {
 }
 
 fn bench(name: &str, options: &str) -> Bench {
+    bench_of(name, &format!("{SMALL} {options}"))
+}
+
+fn bench_of(name: &str, options: &str) -> Bench {
     let kit = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("fields_{name}"));
     if kit.exists() {
         fs::remove_dir_all(&kit).unwrap();
     }
-    let output = prepare(&kit, &format!("{SMALL} {options}"));
+    let output = prepare(&kit, options);
     assert_exit(&output, 0);
     let sheet = json(&output);
     Bench { kit, sheet }
@@ -68,7 +72,7 @@ fn a_fitted_field_keeps_the_promise_in_its_written_regions() {
         assert!(levels(&bench.sheet).len() >= 2);
         let (code, said) = common::verify(&bench.kit);
         assert_eq!(code, Some(0), "{name} {said}");
-        let reached_deg = number(&bench.sheet, "/goal/topples_deg");
+        let reached_deg = number(&bench.sheet, "/assembly/topples_deg");
         assert!(reached_deg >= 3.5, "{reached_deg}");
     }
 }
@@ -99,7 +103,7 @@ fn a_field_changes_the_infill_no_less_than_the_best_densities_and_says_both() {
     let said = printed(&output).replace('\n', " ");
     assert!(said.contains("the field ramp:"), "{said}");
     assert!(said.contains("the best densities differ by"), "{said}");
-    let sheet = fs::read_to_string(kit.join("sheet.html")).unwrap();
+    let sheet = fs::read_to_string(kit.join("job.html")).unwrap();
     assert!(sheet.contains("The field that was ordered has"), "{sheet}");
 }
 
@@ -142,29 +146,48 @@ fn a_job_of_a_field_makes_the_same_parts_again() {
 fn a_given_field_that_does_not_do_it_is_an_answer_with_how_far_it_is_off() {
     let folder = TempDir::new().unwrap();
     let kit = folder.path().join("kit");
-    let upside_down = "ramp:0,1,0@-5mm..5mm:0.2..0.6";
-    let options = SMALL.replace("--least-angle 3.5", "--least-angle 6");
-    let output = prepare(&kit, &format!("{options} --field {upside_down}"));
+    // Dense above, sparse below.
+    for field in ["ramp:0,0,1@5mm..25mm:0.2..0.6", "uniform:40%"] {
+        let output = prepare(&kit, &format!("{SMALL} --infill 40% --field {field}"));
+        assert_exit(&output, 1);
+        let answer = json(&output);
+        let reason = answer["reason"].as_str().unwrap();
+        assert!(reason.starts_with("Not met: the field"), "{reason}");
+        assert!(reason.contains("3.51° are asked"), "{reason}");
+        assert!(!kit.exists());
+    }
+}
+
+/// The options of a rotor that is balanced by its infill.
+const ROTOR: &str = "--goal balance --up y --bore 6mm --printer prusa-mk4 --size 60mm \
+    --pitch 0.6mm --interior graded --levels 4 --density 15%..90% --infill 50%";
+
+#[test]
+fn where_a_field_does_not_do_it_and_the_best_densities_do_they_are_offered() {
+    let folder = TempDir::new().unwrap();
+    let kit = folder.path().join("kit");
+    let output = prepare(&kit, &format!("{ROTOR} --field ramp"));
     assert_exit(&output, 1);
     let answer = json(&output);
     let reason = answer["reason"].as_str().unwrap();
-    assert!(reason.starts_with("Not met: the field"), "{reason}");
-    assert!(reason.contains("are asked"), "{reason}");
-    assert!(!kit.exists());
+    assert!(reason.starts_with("Not met: no ramp"), "{reason}");
+    assert!(reason.contains("mm beside the axis"), "{reason}");
+    let hints = answer["hints"].to_string();
+    assert!(hints.contains("leave `field"), "{answer}");
+    // What is offered works.
+    assert_exit(&prepare(&kit, ROTOR), 0);
 }
 
 #[test]
-fn where_no_field_of_a_family_does_it_the_best_densities_are_offered_if_they_do() {
-    let folder = TempDir::new().unwrap();
-    let kit = folder.path().join("kit");
-    // A wave as long as the model has too little at its foot.
-    let options = SMALL.replace("--least-angle 3.5", "--least-angle 6.4");
-    let output = prepare(&kit, &format!("{options} --density 15%..90% --field sine"));
-    let answer = json(&output);
-    if output.status.code() == Some(1) {
-        let hints = answer["hints"].to_string();
-        assert!(hints.contains("field"), "{answer}");
-    }
+fn a_wave_balances_a_rotor_that_no_ramp_does_and_is_told_beside_the_best() {
+    let bench = bench_of("rotor", &format!("{ROTOR} --field sine"));
+    assert!(field(&bench).starts_with("sine:"));
+    let off_mm = number(&bench.sheet, "/assembly/axis_offset_mm");
+    assert!(off_mm < 0.005, "{off_mm}");
+    let [value, bound] =
+        ["/certificate/value", "/certificate/bound"].map(|at| number(&bench.sheet, at));
+    assert!(value > 2.0 * bound, "{value} {bound}");
+    assert_eq!(common::verify(&bench.kit).0, Some(0));
 }
 
 #[test]

@@ -14,6 +14,7 @@
 //! | Where is the bound computed? | `Visit` in `hollow/dual/visit.rs` evaluates the dual, `climb` in `hollow/dual/ascent.rs` raises it |
 //! | Where is a density that varies integrated? | `measure` in `field/measure.rs`, over the signed cones of `mass/cones.rs` and the rays of `mass/rays.rs` |
 //! | Which infill is enough, and which is nearest to a wished one? | `greatest_low` in `hollow/range.rs`, `least_change` in `hollow/change.rs`, in steps by `least_level_change` in `hollow/levels.rs` |
+//! | How is a ramp or a wave fitted to a goal, and how is it printed? | `fit_all` in `hollow/family/starts.rs`, `regions` in `hollow/family/regions.rs`; `with_field` in `prepare/fields.rs` puts it into a print |
 //! | Where does a match get its numbers, and who says that they are met? | `resolved` in `prepare/like.rs` reads the file, `Mismatch` in `verify/handling.rs` compares; `MatchMiss` in `hollow/miss.rs` words what is out of reach |
 //! | What is tried if the goal cannot be met? | `remedies` in `prepare/advise.rs`; the trials are in `advice/remedy.rs` |
 //! | Which cut is better than another, and by how much? | `penalty` and `Term` in `cut/planner/score.rs` |

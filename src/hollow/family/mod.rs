@@ -26,6 +26,6 @@ pub use fits::{SmoothFit, fit_smooth};
 pub use regions::Region;
 pub(super) use regions::regions;
 pub use shape::{Family, Shape};
-pub(super) use starts::{cost, fit_steps};
+pub(super) use starts::{compare, cost, fit_steps};
 pub(super) use state::stepped;
 pub(super) use task::Task;

@@ -12,11 +12,11 @@ use super::smooth::smooth;
 use super::state::{State, stepped};
 use super::task::Task;
 use crate::base::random::Random;
-use crate::geom::{Aabb, Point, Vector};
+use crate::geom::{Aabb, Point, Quadric, Vector};
 use crate::hollow::change::least_change;
 use crate::hollow::dual::units::Vector10;
 use crate::hollow::graded::{Graded, InUnits};
-use crate::hollow::levels::PrintLevels;
+use crate::hollow::levels::{PrintLevels, least_level_change};
 use crate::interior::Columns;
 
 /// Starts of a fit.
@@ -76,6 +76,29 @@ impl Task<'_> {
         (is_finite && is_long).then_some(shape)
     }
 
+    /// Returns a ramp as near to a least change as one can be; `None` for waves.
+    pub fn shape_near(&self, change: &Quadric) -> Option<Shape> {
+        let mut quadric = *change;
+        quadric.0[0] -= self.wished;
+        let ramp = Shape::of_quadric(Family::Ramp, &quadric);
+        (self.family == Family::Ramp).then_some(ramp)
+    }
+
+    /// Returns the field of printed steps near a smooth one, with its miss and its change.
+    fn refined_step(&self, smooth: Shape, levels: &PrintLevels) -> ([f64; 2], Stepped) {
+        let own = regions(&smooth, levels.densities(), self.graded.columns);
+        let shape = self.refine(&smooth, &own);
+        // A wave that has moved may need other regions.
+        let regions = regions(&shape, levels.densities(), self.graded.columns);
+        let shape = self.refine(&shape, &regions);
+        let moments = stepped(self.units, &shape, &regions).moments;
+        let miss = self.rows().greatest_miss(self.units, &moments);
+        (
+            [miss, cost(self, &shape, &regions)],
+            Stepped { shape, regions },
+        )
+    }
+
     /// Returns the nearest field of printed steps to one with these regions.
     pub fn refine(&self, shape: &Shape, regions: &[Region]) -> Shape {
         let start = shape.numbers(self.units.length_mm());
@@ -126,18 +149,11 @@ pub(in crate::hollow) fn fit_steps(task: &Task, levels: &PrintLevels) -> Stepped
     let mut fits = fit_all(&few);
     fits.sort_by(|a, b| compare([a.miss, a.cost], [b.miss, b.cost]));
     fits.truncate(MOST_STEPPED);
-    let step = |fit: &Fitted| {
-        let own = regions(&fit.shape, levels.densities(), task.graded.columns);
-        let shape = task.refine(&fit.shape, &own);
-        // A wave that has moved may need other regions.
-        let regions = regions(&shape, levels.densities(), task.graded.columns);
-        let shape = task.refine(&shape, &regions);
-        let moments = stepped(task.units, &shape, &regions).moments;
-        let miss = task.rows().greatest_miss(task.units, &moments);
-        let cost = cost(task, &shape, &regions);
-        ([miss, cost], Stepped { shape, regions })
-    };
-    let ends = fits.iter().map(step);
+    let levelled = least_level_change(task.graded, levels, task.wished).found();
+    let levelled = levelled.and_then(|least| task.shape_near(&least.quadric));
+    let levelled = levelled.map(|shape| task.refined_step(shape, levels));
+    let ends = fits.iter().map(|fit| task.refined_step(fit.shape, levels));
+    let ends = levelled.into_iter().chain(ends);
     let first = ends.min_by(|a, b| compare(a.0, b.0)).map(|end| end.1);
     first.unwrap_or_else(|| Stepped {
         shape: Shape::uniform(task.wished),
@@ -146,7 +162,7 @@ pub(in crate::hollow) fn fit_steps(task: &Task, levels: &PrintLevels) -> Stepped
 }
 
 /// Compares two ends by miss and change: what meets the rows comes first, and then the less change.
-pub(super) fn compare(a: [f64; 2], b: [f64; 2]) -> Ordering {
+pub(in crate::hollow) fn compare(a: [f64; 2], b: [f64; 2]) -> Ordering {
     let rank = |[miss, cost]: [f64; 2]| match miss <= MET {
         true => (false, cost),
         false => (true, miss),
@@ -190,11 +206,7 @@ fn starts(task: &Task) -> Vec<Shape> {
     let longest_mm = region.size().max();
     let mut random = Random::new(SEED);
     let least = least_change(task.graded, task.range, task.wished).found();
-    let least = least.filter(|_| task.family == Family::Ramp).map(|change| {
-        let mut quadric = change.quadric;
-        quadric.0[0] -= task.wished;
-        Shape::of_quadric(Family::Ramp, &quadric)
-    });
+    let least = least.and_then(|change| task.shape_near(&change.quadric));
     let mut starts: Vec<Shape> = least.into_iter().collect();
     while starts.len() < STARTS {
         starts.push(match task.family {

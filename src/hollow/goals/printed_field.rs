@@ -9,7 +9,9 @@ use crate::field::DensityRange;
 use crate::geom::Frame;
 use crate::goal::compute_figures;
 use crate::hollow::Problem;
-use crate::hollow::family::{Family, Region, Shape, Task, cost, fit_steps, regions, stepped};
+use crate::hollow::family::{
+    Family, Region, Shape, Task, compare, cost, fit_steps, regions, stepped,
+};
 use crate::hollow::field_miss::FieldMiss;
 use crate::hollow::graded::{Graded, InUnits, Row};
 use crate::hollow::levels::{PrintLevels, least_level_change};
@@ -20,7 +22,7 @@ use crate::mass::Moments;
 /// Residual of the rows, in units of the body, up to which they count as met.
 const MET: f64 = 1e-7;
 /// The same for a fitted field that the columns cannot meet better.
-const NEARLY_MET: f64 = 1e-4;
+const NEARLY_MET: f64 = 1e-5;
 /// The same for a given field: the judge of the written parts decides about the rest.
 const GIVEN_MET: f64 = 1e-3;
 
@@ -41,6 +43,14 @@ pub struct PrintField {
 struct Asked {
     rows: Vec<Row>,
     kept: Option<Kept>,
+}
+
+/// A field of printed steps: its moments, its miss of the rows, and its change.
+struct End {
+    shape: Shape,
+    moments: Moments,
+    miss: f64,
+    cost: f64,
 }
 
 impl PrintField {
@@ -109,26 +119,47 @@ impl PrintField {
             Shape::of_quadric(family, &known.quadric)
         });
         asked.with_task(problem, near, family, |task| {
-            let shape = match self.is_given {
-                true => self.shape,
-                false => task.refine(&start, &self.regions),
+            let least = match least_level_change(task.graded, &near.levels, near.wished) {
+                Verdict::Found(least) => least,
+                // No density does it, so no field does.
+                Verdict::No(proof) => return near.refused(problem, task.graded, &proof),
             };
-            let moments = stepped(task.units, &shape, &self.regions).moments;
-            let residual = task.rows().greatest_miss(task.units, &moments);
-            let moments = task.units.to_mm(&moments);
-            let change = cost(task, &shape, &self.regions);
-            let least = least_level_change(task.graded, &near.levels, near.wished).found();
-            let bound = least.map_or(f64::NAN, |least| least.bound);
+            // A ramp may be the least change itself.
+            let beside = task.shape_near(&least.quadric);
+            let starts = std::iter::once(start).chain(beside.filter(|_| !self.is_given));
+            let ends = starts.map(|start| self.end(task, start));
+            let best = ends.min_by(|a, b| compare([a.miss, a.cost], [b.miss, b.cost]));
+            let End {
+                shape,
+                moments,
+                miss: residual,
+                cost: change,
+            } = best.unwrap_or_else(|| self.end(task, start));
             let found = Found {
                 status: self.status(problem, near, residual, &moments),
                 quadric: shape.quadric(),
-                certificate: certificate([change, bound], residual),
+                certificate: certificate([change, least.bound], residual),
                 moments,
                 passes: 0,
                 kept: asked.kept.clone(),
             };
             solution(problem, found)
         })
+    }
+
+    /// Returns where a field ends from a start: a given one stays.
+    fn end(&self, task: &Task, start: Shape) -> End {
+        let shape = match self.is_given {
+            true => self.shape,
+            false => task.refine(&start, &self.regions),
+        };
+        let moments = stepped(task.units, &shape, &self.regions).moments;
+        End {
+            shape,
+            miss: task.rows().greatest_miss(task.units, &moments),
+            cost: cost(task, &shape, &self.regions),
+            moments: task.units.to_mm(&moments),
+        }
     }
 
     fn status(
