@@ -83,7 +83,7 @@ fn bound_words(checklist: &Checklist) -> String {
     if let Some(field) = infill.and_then(|infill| infill.field.as_ref()) {
         return format!(
             "the field {field} differs from the wished infill by {} of solid print (root mean \
-             square); the best densities differ by {best}",
+             square); no densities that do what was asked differ by less than {best}",
             measured(proof.value, unit)
         );
     }

@@ -38,7 +38,7 @@ pub struct CutArgs {
     /// goal allows
     #[arg(long, value_name = "PERCENT", allow_hyphen_values = true)]
     pub infill: Option<InfillDensity>,
-    /// The number of densities: 3 to 12 near an infill [default: 4], 2 without one
+    /// The number of densities: 3 to 12 near an infill or of a field [default: 4], 2 without them
     #[arg(long, value_name = "N", allow_hyphen_values = true)]
     pub levels: Option<LevelCount>,
     /// Keep this share of the best that is calculated near that infill, such as 95%: of a speed, an
