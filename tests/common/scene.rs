@@ -23,7 +23,7 @@ pub struct Scene {
     pub solid: Solid,
     /// The columns' frame.
     pub frame: Frame,
-    columns: Columns,
+    pub columns: Columns,
     /// Moments of the shell: the solid's own less those of the columns.
     pub shell: Moments,
 }
