@@ -126,6 +126,18 @@ mod tests {
     }
 
     #[test]
+    fn what_weighs_nothing_does_not_count_as_balanced() {
+        let columns = leaning_block(1.0);
+        // The centre far outside: only a body of nothing has it there.
+        let mut row = Quadric([0.0; 10]);
+        (row.0[0], row.0[1]) = (-90.0, 1.0);
+        let rows = [Row::zero(row)];
+        let graded = graded(&columns, &rows);
+        let fit = fit_smooth(&graded, Family::Ramp, DensityRange::FULL, 0.5);
+        assert!(fit.found == 0 && fit.miss > 1e-7, "{fit:?}");
+    }
+
+    #[test]
     fn the_slopes_of_smooth_fields_are_differences_of_their_moments() {
         const STEP: f64 = 1e-5;
         let columns = leaning_block(0.5);

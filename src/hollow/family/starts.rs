@@ -35,6 +35,8 @@ const BESIDE: f64 = 0.5;
 const SHORTEST_WAVE: f64 = 0.25;
 /// Fits of the smooth field of which steps are fitted too.
 const MOST_STEPPED: usize = 8;
+/// Least volume of a body, over that of the solid.
+const LEAST_VOLUME: f64 = 1e-6;
 /// Greatest miss of a field that meets its rows, in units of the body.
 pub(super) const MET: f64 = 1e-7;
 
@@ -123,7 +125,11 @@ pub(super) fn fit_all(task: &Task) -> Vec<Fitted> {
         let (state, cost) = smooth(task.units, task, &shape);
         Fitted {
             shape,
-            miss: task.rows().greatest_miss(task.units, &state.moments),
+            miss: match state.moments[0] > LEAST_VOLUME {
+                true => task.rows().greatest_miss(task.units, &state.moments),
+                // What weighs nothing is balanced, and is no body.
+                false => f64::INFINITY,
+            },
             cost,
             moments: state.moments,
         }
