@@ -69,7 +69,7 @@ mod tests {
     use crate::interior::Columns;
 
     /// Sweeps of Powell's search.
-    const SWEEPS: usize = 20;
+    const SWEEPS: usize = 60;
 
     fn range() -> DensityRange {
         DensityRange::new(0.15, 1.0).unwrap()
@@ -213,7 +213,7 @@ mod tests {
 
     #[test]
     fn powells_search_of_the_paper_ends_nowhere_below_the_best_fit() {
-        let columns = leaning_block(1.0);
+        let columns = leaning_block(0.5);
         let rows = rows(&columns, &[1, 2, 6, 5]);
         let graded = graded(&columns, &rows);
         let units = InUnits::new(&graded);
