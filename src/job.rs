@@ -2,9 +2,11 @@
 
 mod choices;
 pub mod core_kit;
+mod defaults;
 mod densities;
 mod drain;
 mod effort;
+mod field;
 mod filling;
 mod like;
 mod model;
@@ -21,6 +23,7 @@ pub use choices::{CutMode, IdStyle, Interior, ModelUnit, PartFormat, PinStyle};
 pub use densities::{DensityError, DensityOrder, InfillDensity, KeptShare, LevelCount};
 pub use drain::{DrainOrder, DrainOrderError};
 pub use effort::Effort;
+pub use field::{FieldOrder, FieldOrderError, GivenField};
 pub use filling::Filling;
 pub use like::Like;
 pub use model::ModelChoice;
@@ -70,22 +73,34 @@ pub struct Job {
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub plugs: bool,
     /// The kind of seam; hidden ones if the key is missing.
-    #[serde(default = "default_seam", skip_serializing_if = "SeamStyle::is_hidden")]
+    #[serde(
+        default = "defaults::seam",
+        skip_serializing_if = "SeamStyle::is_hidden"
+    )]
     pub seam: SeamStyle,
     /// The least part; the usual limit if the key is missing.
     #[serde(
-        default = "default_least_part",
+        default = "defaults::least_part",
         skip_serializing_if = "LeastPart::is_usual"
     )]
     pub least_part: LeastPart,
     /// The pins that align the parts; printed ones if the key is missing.
-    #[serde(default = "default_pins", skip_serializing_if = "PinStyle::is_printed")]
+    #[serde(
+        default = "defaults::pins",
+        skip_serializing_if = "PinStyle::is_printed"
+    )]
     pub pins: PinStyle,
     /// The marking of parts with their ids; engraved into cut faces if the key is missing.
-    #[serde(default = "default_ids", skip_serializing_if = "IdStyle::is_engraved")]
+    #[serde(
+        default = "defaults::ids",
+        skip_serializing_if = "IdStyle::is_engraved"
+    )]
     pub ids: IdStyle,
     /// The effort of the search for cuts and pins; the usual one if the key is missing.
-    #[serde(default = "default_effort", skip_serializing_if = "Effort::is_normal")]
+    #[serde(
+        default = "defaults::effort",
+        skip_serializing_if = "Effort::is_normal"
+    )]
     pub effort: Effort,
     /// The greatest share of the goal's figure that joints may cost; the policy's own if `None`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -110,7 +125,7 @@ pub struct Job {
     pub fill: Option<Filling>,
     /// The inside of the print; hollow if the key is missing.
     #[serde(
-        default = "default_interior",
+        default = "defaults::interior",
         skip_serializing_if = "Interior::is_hollow"
     )]
     pub interior: Interior,
@@ -129,6 +144,9 @@ pub struct Job {
     /// if the key is missing.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub keep: Option<KeptShare>,
+    /// The field of densities of a graded print; the best densities if the key is missing.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub field: Option<FieldOrder>,
     /// The repairs of the model asked for; those that everyone gets if the key is missing.
     #[serde(default, skip_serializing_if = "RepairOrder::is_auto")]
     pub repair: RepairOrder,
@@ -268,8 +286,8 @@ impl Job {
             cut: CutMode::Auto,
             drain: DrainOrder::Auto,
             plugs: false,
-            seam: default_seam(),
-            least_part: default_least_part(),
+            seam: defaults::seam(),
+            least_part: defaults::least_part(),
             pins: PinStyle::Printed,
             ids: IdStyle::Engraved,
             effort: Effort::Normal,
@@ -285,6 +303,7 @@ impl Job {
             infill: None,
             levels: None,
             keep: None,
+            field: None,
             repair: RepairOrder::default(),
             model,
             printer,
@@ -362,30 +381,6 @@ fn without_solver(text: &str) -> String {
     head.split_inclusive('\n').map(kept).collect::<String>() + tables
 }
 
-fn default_pins() -> PinStyle {
-    PinStyle::Printed
-}
-
-fn default_seam() -> SeamStyle {
-    SeamStyle::Hidden
-}
-
-fn default_interior() -> Interior {
-    Interior::Hollow
-}
-
-fn default_effort() -> Effort {
-    Effort::Normal
-}
-
-fn default_least_part() -> LeastPart {
-    LeastPart::USUAL
-}
-
-fn default_ids() -> IdStyle {
-    IdStyle::Engraved
-}
-
 fn read_schema<'de, D: Deserializer<'de>>(deserializer: D) -> Result<u32, D::Error> {
     match u32::deserialize(deserializer)? {
         JOB_SCHEMA => Ok(JOB_SCHEMA),
@@ -434,6 +429,7 @@ mod tests {
         other.infill = Some("40%".parse().unwrap());
         other.levels = Some("6".parse().unwrap());
         other.keep = Some("95%".parse().unwrap());
+        other.field = Some("ramp:0,0,1@20mm..60mm:0.2..1".parse().unwrap());
         other.sliced = vec![SlicedRound {
             miss_mm: 0.0317,
             beyond: [460.1, -3.0, 0.1 + 0.2, 0.0, 1e-7, 2.0, 3.0, 4e9, 5.0, 6.0],

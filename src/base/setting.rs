@@ -61,6 +61,8 @@ choice! {
         Levels = "levels",
         /// The share of the best figure that is kept near that infill.
         Keep = "keep",
+        /// The field of densities of a graded print.
+        Field = "field",
         /// The repairs of the model.
         Repair = "repair",
         /// The unit of the model file's numbers.

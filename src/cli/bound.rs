@@ -10,6 +10,14 @@ pub fn bound_words(checklist: &Checklist) -> String {
     let proof = &checklist.certificate;
     let unit = proof.figure.unit();
     let best = measured(proof.bound, unit);
+    let infill = checklist.infill.as_ref();
+    if let Some(field) = infill.and_then(|infill| infill.field.as_ref()) {
+        return format!(
+            "the field {field} differs from the wished infill by {} of solid print (root mean \
+             square); no densities that do what was asked differ by less than {best}",
+            measured(proof.value, unit)
+        );
+    }
     if proof.figure == FigureName::InfillChangeRatio {
         return format!(
             "the infill differs from the wished one by {} of solid print (root mean square); what \

@@ -3,7 +3,7 @@
 use crate::ballast::Order;
 use crate::base::setting::{Key, Setting};
 use crate::job::{
-    DensityOrder, Filling, InfillDensity, Interior, KeptShare, LevelCount, PartFormat,
+    DensityOrder, FieldOrder, Filling, InfillDensity, Interior, KeptShare, LevelCount, PartFormat,
 };
 
 /// A reason why a print cannot be graded.
@@ -192,6 +192,61 @@ pub enum GradedError {
         /// The number of levels.
         count: usize,
     },
+    /// A field was ordered for a goal that it has no numbers for.
+    #[error(
+        "`{}` has four numbers, and what floats or matches needs more; remedy: leave the field \
+         out, so that the best densities are found",
+        Setting::new(Key::Field, field)
+    )]
+    FieldOfGoal {
+        /// The field.
+        field: FieldOrder,
+    },
+    /// Densities were ordered of a field that has its own.
+    #[error(
+        "`{}` has its densities, and `{}` orders others; remedy: leave one of them out",
+        Setting::new(Key::Field, field),
+        Setting::new(Key::Density, order)
+    )]
+    FieldDensities {
+        /// The field.
+        field: FieldOrder,
+        /// The densities.
+        order: DensityOrder,
+    },
+    /// A field has a density that the printer's infill cannot be.
+    #[error(
+        "`{}` goes beyond what {printer} lays; remedy: give it densities from {least:.3} to \
+         {most:.3}, or 1 for solid print around infill",
+        Setting::new(Key::Field, field)
+    )]
+    FieldBeyond {
+        /// The field.
+        field: FieldOrder,
+        /// The printer's name.
+        printer: String,
+        /// The least density.
+        least: f64,
+        /// The greatest.
+        most: f64,
+    },
+    /// A wave needs a density below solid print, as its dense shells lie in sparse ones.
+    #[error(
+        "a wave has dense shells in sparse infill, and solid print is no infill; remedy: order \
+         less (`{}`)",
+        Setting::new(Key::Density, usual)
+    )]
+    SolidSine {
+        /// The usual densities of a wave.
+        usual: DensityOrder,
+    },
+    /// Two levels were ordered of a field.
+    #[error(
+        "a field in two densities is no field; remedy: order three levels or more (`{}`), or leave \
+         the field out for the best two",
+        Setting::new(Key::Levels, 3)
+    )]
+    TwoLevelsOfField,
     /// Floating depends on the mass, which a wished infill leaves open.
     #[error(
         "what floats has one right mass, and `{}` asks for another; remedy: leave it out, so that \

@@ -1,5 +1,7 @@
 //! A density that rises between two planes and is constant beyond: the paper's ramp (Fig. 4).
 
+use std::fmt;
+
 use super::density::{Density, Form};
 use crate::geom::{Aabb, Plane, Point, Vector};
 
@@ -27,11 +29,36 @@ impl Ramp {
         })
     }
 
+    /// Returns the direction in which it goes from its first density to the second; of length 1.
+    pub fn direction(&self) -> Vector {
+        self.direction
+    }
+
+    /// Returns the places along the direction between which it is linear, mm.
+    pub fn ends_mm(&self) -> [f64; 2] {
+        self.ends_mm
+    }
+
+    /// Returns the densities below the first place and above the second.
+    pub fn densities(&self) -> [f64; 2] {
+        self.densities
+    }
+
     fn at_height(&self, height_mm: f64) -> f64 {
         let [low, high] = self.ends_mm;
         let [below, above] = self.densities;
         let share = ((height_mm - low) / (high - low)).clamp(0.0, 1.0);
         below + (above - below) * share
+    }
+}
+
+/// Prints as it is typed, to a nanometre.
+impl fmt::Display for Ramp {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [x, y, z]: [f64; 3] = self.direction.into();
+        let [from, to] = self.ends_mm;
+        write!(f, "ramp:{x:.9},{y:.9},{z:.9}@{from:.6}mm..{to:.6}mm")?;
+        write!(f, ":{:.6}..{:.6}", self.densities[0], self.densities[1])
     }
 }
 

@@ -1,6 +1,7 @@
 //! A density that is a wave of the distance to a point: the paper's radial sine (eq. 5).
 
 use std::f64::consts::TAU;
+use std::fmt;
 
 use super::density::{AlongRays, Density, Form};
 use crate::geom::{Aabb, Point, Vector};
@@ -33,10 +34,35 @@ impl Sine {
         })
     }
 
+    /// Returns the centre, mm.
+    pub fn center(&self) -> Point {
+        self.center
+    }
+
+    /// Returns the length of the wave, mm.
+    pub fn wave_mm(&self) -> f64 {
+        self.wave_mm
+    }
+
+    /// Returns the least and the greatest density.
+    pub fn densities(&self) -> [f64; 2] {
+        self.densities
+    }
+
     /// Returns the mean density and half the difference of the two.
     fn mean_and_swing(&self) -> [f64; 2] {
         let [low, high] = self.densities;
         [0.5 * (low + high), 0.5 * (high - low)]
+    }
+}
+
+/// Prints as it is typed, to a nanometre.
+impl fmt::Display for Sine {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [x, y, z]: [f64; 3] = self.center.into();
+        let [low, high] = self.densities;
+        write!(f, "sine:{x:.6},{y:.6},{z:.6}@{:.6}mm", self.wave_mm)?;
+        write!(f, ":{low:.6}..{high:.6}")
     }
 }
 

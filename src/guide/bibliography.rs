@@ -29,6 +29,11 @@
 //!   International Journal for Numerical Methods in Engineering 24, 1987.
 //! * **Density**: D. R. Bukenberger, H. P. A. Lensch, "Tetrahedra of Varying Density and Their
 //!   Applications", The Visual Computer 37, 2021.
+//! * **Fits of fields**: K. Levenberg, "A method for the solution of certain non-linear problems in
+//!   least squares", Quarterly of Applied Mathematics 2, 1944; D. W. Marquardt, "An algorithm for
+//!   least-squares estimation of nonlinear parameters", J. SIAM 11, 1963; M. J. D. Powell, "An
+//!   efficient method for finding the minimum of a function of several variables without
+//!   calculating derivatives", The Computer Journal 7, 1964.
 //! * **Cone rules and Gauss–Jacobi nodes**: A. H. Stroud, "Approximate Calculation of Multiple
 //!   Integrals", Prentice-Hall, 1971; G. H. Golub, J. H. Welsch, "Calculation of Gauss Quadrature
 //!   Rules", Mathematics of Computation 23, 1969.

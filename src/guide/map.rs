@@ -16,6 +16,7 @@
 //! | Who says that tetrahedra fill a solid once, and what do they weigh? | `Tets::new` in `tets/volume.rs`, over `tets/faces.rs` and `tets/overlap.rs`; files are read in `io/volume/read.rs` |
 //! | Where is a solid filled with tetrahedra? | `stuff` in `tets/stuffing.rs`, cut by `Clipper` in `tets/clip.rs`; `NestedDensity` in `tets/nested.rs` gives them the levels of a print |
 //! | Which infill is enough, and which is nearest to a wished one? | `greatest_low` in `hollow/range.rs`, `least_change` in `hollow/change.rs`, in steps by `least_level_change` in `hollow/levels.rs` |
+//! | How is a ramp or a wave fitted to a goal, and how is it printed? | `fit_all` in `hollow/family/starts.rs`, `regions` in `hollow/family/regions.rs`; `with_field` in `prepare/fields.rs` puts it into a print |
 //! | Where does a match get its numbers, and who says that they are met? | `resolved` in `prepare/like.rs` reads the file, `Mismatch` in `verify/handling.rs` compares; `MatchMiss` in `hollow/miss.rs` words what is out of reach |
 //! | How dense is printed infill, and how does a shop measure it? | `laid_ratio` in `printer/infill.rs`; `core_ratios` in `coupon/density/weighed.rs` takes the masses of blocks |
 //! | Where does a model get two materials, pixel by pixel? | `dither_model` in `slice/dither/run.rs`, by `Diffusion` in `raster/dither.rs`; `slice/dither/correct.rs` makes the moments right |

@@ -108,6 +108,14 @@
 //!   ratios are convex in the moments. Rows that touch them are added where the last answer broke
 //!   them, until none is broken.
 //!
+//! The fields of a paper have four numbers each. A ramp has its slope and place. A wave of the
+//! distance to a point has its centre and length. They are fitted to A s = b by Levenberg's and
+//! Marquardt's method from sixty starts, with ∂s/∂θ = ∫ ∂d/∂θ m dV. If only the centre is
+//! prescribed, the best ramp is the least change itself. Where the axis is prescribed too, four
+//! equations meet four numbers, so that a field is a chance ([`crate::hollow::fit_smooth`]). What
+//! is printed are nested regions, between planes for a ramp and in balls for a wave. So the last
+//! fit is of the moments of these regions ([`crate::hollow::PrintField`]).
+//!
 //! A match prescribes all ten moments. Two densities across one quadric reach only the rim of the
 //! set of moments. Three levels and more reach its inside, if the mean of what is wanted is one of
 //! them. A body of nearly uniform density between two levels would need a mixture of both. What

@@ -136,6 +136,24 @@ impl<'a> InUnits<'a> {
         }
     }
 
+    /// Returns the weights of a row of unit length over moments in units, and what it wants.
+    pub fn row_to_units(&self, row: &Row) -> (Vector10, f64) {
+        let scaled = Vector10::from(row.quadric.0).component_mul(&self.scale.units());
+        let length = scaled.norm().max(f64::MIN_POSITIVE);
+        (scaled / length, row.wanted / length)
+    }
+
+    /// Returns a quadric over mm in units: the inverse of [`Self::quadric`] without rows.
+    pub fn quadric_to_units(&self, quadric: &Quadric) -> Vector10 {
+        let units = self.scale.units() / self.scale.volume_mm3;
+        Vector10::from(quadric.0).component_mul(&units)
+    }
+
+    /// Returns the unit of length, mm.
+    pub fn length_mm(&self) -> f64 {
+        self.scale.length_mm
+    }
+
     /// Returns moments over mm in units.
     pub fn to_units(&self, moments: &Moments) -> Vector10 {
         self.scale.moments_to_units(moments)

@@ -128,6 +128,8 @@
 //! | `newton` | Newton's method with bounds |
 //! | `range` | the least and greatest density that can do it |
 //! | `nearest`, `miss` | the density whose moments are nearest to wanted ones |
+//! | `family/`, `field_miss` | the fields of a paper, fitted to rows, and how far they are off |
+//! | `goals/`: `printed_field` | such a field in printed steps |
 //! | `change`, `levels` | the least change of a wished density, smooth or in steps |
 //! | `top/`: `heights`, `valley`, `lever`, `search` | the search over heights |
 //! | `top/`: `posts`, `cover`, `frontier` | the proof over all heights |
@@ -173,6 +175,8 @@
 
 mod change;
 mod dual;
+mod family;
+mod field_miss;
 mod goals;
 mod golden;
 mod graded;
@@ -198,9 +202,12 @@ use crate::base::watch::Watch;
 use crate::goal::GoalKind;
 
 pub use change::{Change, least_change};
+pub use family::{Family, Region, Shape, SmoothFit, fit_smooth};
+pub use field_miss::FieldMiss;
 pub use goals::ballast::{Ballast, has_margin, least_ballast};
 pub use goals::fill::Fill;
 pub use goals::near::{NearWished, TILT_MARGIN_RAD, rows};
+pub use goals::printed_field::PrintField;
 pub use goals::trade::Trade;
 pub use goals::two::best_densities;
 pub use golden::golden_section;

@@ -1,5 +1,6 @@
 //! The outcome of a run, as a value and as a sentence.
 
+use super::field_miss::FieldMiss;
 use super::miss::MatchMiss;
 use crate::geom::Quadric;
 use crate::goal::{Goal, GoalKind};
@@ -81,6 +82,11 @@ pub enum Status {
         /// Proof: its integral over every such body exceeds that over the wanted one.
         separator: Quadric,
     },
+    /// A given field does not meet the goal, or none of a family that was fitted to it.
+    FieldMisses {
+        /// How near it comes.
+        miss: FieldMiss,
+    },
     /// The passes were used up before the limits were met.
     IterationLimit {
         /// Remaining gap, as a part of the value.
@@ -122,6 +128,7 @@ impl Status {
                 ..
             } => return explain_imbalance(obstacle, least_miss, goal.kind),
             Self::CannotMatch { miss, .. } => return miss.explain(goal),
+            Self::FieldMisses { miss } => return miss.explain(goal),
             Self::NotDominant { least_ratio } => {
                 return explain_spin(WOBBLES, &compare_moments(least_ratio));
             }

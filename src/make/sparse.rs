@@ -28,12 +28,23 @@ pub fn with_sparse(
     let meshes = std::iter::once(&outermost).chain(&voids.inner);
     let levels = nested.levels.iter().zip(meshes);
     let levels = levels.filter(|(_, mesh)| !mesh.is_empty());
+    let levels: Vec<(&Level, &TriMesh)> = levels.collect();
+    // The shells of a wave have the same few densities again and again.
+    let count_before = |index: usize| {
+        let percent = |at: usize| levels[at].0.nominal_percent();
+        (0..index)
+            .filter(|at| percent(*at) == percent(index))
+            .count()
+    };
     let writer = RegionWriter {
         placed,
         pose: part.evidence().pose,
         watch,
     };
-    let regions = levels.map(|(level, mesh)| writer.write(level, mesh));
+    let regions = levels.iter().enumerate().map(|(index, (level, mesh))| {
+        let name = writer.name(level, count_before(index));
+        writer.write(&name, level, mesh)
+    });
     let regions: Vec<WrittenRegion> = regions.collect::<Result<_, Error>>()?;
     let Some(first) = regions.first() else {
         return Ok(part);
@@ -57,13 +68,20 @@ struct RegionWriter<'a> {
 }
 
 impl RegionWriter<'_> {
+    /// Returns the name of a region, after some of the same density.
+    fn name(&self, level: &Level, count_before: usize) -> String {
+        let (model, percent) = (self.placed.name(), level.nominal_percent());
+        match count_before {
+            0 => format!("{model}_{percent}percent"),
+            before => format!("{model}_{percent}percent_{}", before + 1),
+        }
+    }
+
     /// Writes a region that is given in the model frame.
-    fn write(&self, level: &Level, mesh: &TriMesh) -> Result<WrittenRegion, Error> {
+    fn write(&self, name: &str, level: &Level, mesh: &TriMesh) -> Result<WrittenRegion, Error> {
         let scale = Vector::from(self.placed.shop.printer.print_scale_ratio());
         let laid = mesh.map_vertices(|p| self.pose.to_print(p).coords.component_mul(&scale).into());
-        let percent = level.nominal_percent();
-        let name = format!("{}_{percent}percent", self.placed.name());
-        let bytes = write_free_of_folds(&laid, &name, self.watch)?;
+        let bytes = write_free_of_folds(&laid, name, self.watch)?;
         let written = stl::decode(&bytes)?;
         Ok(WrittenRegion {
             level: *level,

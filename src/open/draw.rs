@@ -23,7 +23,7 @@ pub fn outermost(placed: &Placed, solution: &Solution) -> Quadric {
 /// Draws the regions of infill inside of the outermost one, model frame.
 ///
 /// Bodies that are too small to be printed on their own are left to the region around them. A match
-/// keeps them, and denser cores in a region, or it would miss what it must weigh.
+/// and a field keep them, and denser cores in a region, or they would miss what they must weigh.
 pub fn draw_inner(
     cavity: &Cavity,
     placed: &Placed,
@@ -33,7 +33,7 @@ pub fn draw_inner(
     let levels = placed.sparse.as_ref().map_or(&[][..], inner_levels);
     let frame = &placed.goal().frame;
     let draw = |quadric: Quadric| {
-        if placed.goal().wanted.is_some() {
+        if placed.keeps_small_regions() {
             return Ok(cavity.region(&quadric, frame, watch)?);
         }
         let bodies = cavity.void_bodies(&quadric, frame, watch)?.bodies;

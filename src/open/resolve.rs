@@ -69,8 +69,11 @@ impl<'a> Resolver<'a> {
         let printer = &placed.shop.printer;
         let keeps = &placed.placement.keeps;
         let usual = CavitySpec::for_printer(printer, placed.shop.wall.wall_mm, keeps);
-        // Nothing is cleaned out of the regions of a match.
-        let least_mm = placed.goal().wanted.map_or(usual.min_void_mm, |_| 0.0);
+        // Nothing is cleaned out of the regions of a match or a field.
+        let least_mm = match placed.keeps_small_regions() {
+            true => 0.0,
+            false => usual.min_void_mm,
+        };
         let spec = CavitySpec {
             min_void_mm: least_mm,
             ..usual
@@ -209,7 +212,14 @@ impl<'a> Resolver<'a> {
         let mut measured = self.measure(&voids, more);
         let mut least = shortfall_ratio(placed, &voids.solution.moments, &measured);
         let mut best = voids.clone();
-        for _ in 0..self.placed.policy.correction_rounds {
+        // A given field stays as it is.
+        let nested = placed.sparse.as_ref();
+        let field = nested.and_then(|nested| nested.field.as_ref());
+        let rounds = match field.is_some_and(|field| field.is_given) {
+            true => 0,
+            false => placed.policy.correction_rounds,
+        };
+        for _ in 0..rounds {
             if least <= 1.0 || !voids.solution.is_usable() {
                 break;
             }

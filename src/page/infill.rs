@@ -119,6 +119,7 @@ mod tests {
             mass_g: 0.35,
             beyond: None,
             misses_mm: Vec::new(),
+            field: None,
             file: Some("modifiers/bunny_15percent.stl".to_owned()),
             inner: Vec::new(),
         };

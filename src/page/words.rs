@@ -249,11 +249,21 @@ pub fn certificate(sheet: &Checklist) -> Vec<String> {
             proof.figure.name(),
             quantity(proof.bound, unit)
         ),
-        format!(
-            "The calculated optimum is {}, {} away from that.",
-            quantity(proof.value, unit),
-            gap(proof.gap_ratio)
-        ),
+        match sheet
+            .infill
+            .as_ref()
+            .and_then(|infill| infill.field.as_ref())
+        {
+            Some(field) => format!(
+                "The field that was ordered has {}: {field}.",
+                quantity(proof.value, unit)
+            ),
+            None => format!(
+                "The calculated optimum is {}, {} away from that.",
+                quantity(proof.value, unit),
+                gap(proof.gap_ratio)
+            ),
+        },
     ];
     words.extend((is_top && !is_change).then(|| other_heights(proof)));
     words.extend(proof.proof.as_ref().map(|first| {

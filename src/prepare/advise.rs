@@ -1,5 +1,6 @@
 //! Advice: remedies for an impossible goal, each carried out before it is reported.
 
+use super::fields::field_hint;
 use super::graded::hollow_hint;
 use super::materials::material_hints;
 use super::outcome::Impossible;
@@ -43,11 +44,12 @@ pub fn remedies(
     watch: &Watch,
 ) -> Result<Impossible, Error> {
     let is_filled = placed.fill != Fill::AIR && placed.sparse.is_none();
-    if is_filled || placed.goal().kind == GoalKind::Match {
-        // The searches know of air and of infill, of no fillings and no matches.
+    if is_filled || placed.goal().kind == GoalKind::Match || placed.job.field.is_some() {
+        // The searches know of air and of infill, of no fillings, matches and fields.
         let hints = impossible
             .hints
             .into_iter()
+            .chain(field_hint(placed, watch)?)
             .chain(density_hints(placed, watch)?)
             .chain(material_hints(placed, watch)?)
             .chain(hollow_hint(placed, watch)?);

@@ -1,11 +1,12 @@
 //! The densities of a graded print: nested regions from what a job orders and a printer lays.
 
+use super::given;
 use super::spread::around;
 use crate::error::GradedError;
 use crate::field::DensityRange;
 use crate::goal::GoalKind;
 use crate::hollow::{Fill, NearWished, PrintLevels, TILT_MARGIN_RAD};
-use crate::job::{DensityOrder, InfillDensity, Job, KeptShare, LevelCount, PartFormat};
+use crate::job::{DensityOrder, FieldOrder, InfillDensity, Job, KeptShare, LevelCount, PartFormat};
 use crate::printer::{InfillPattern, Printer, Quantity};
 use crate::run::{Extent, Level, Nested};
 
@@ -60,9 +61,14 @@ fn order(job: &Job, printer: &Printer, stock: &Stock) -> Result<DensityOrder, Gr
     };
     let least = InfillDensity::of_ratio(stock.least_ratio).ok_or_else(no_infill)?;
     let is_match = job.goal.kind == GoalKind::Match;
-    let most = stock.most(is_match);
+    let is_sine = job.field.as_ref().is_some_and(FieldOrder::is_sine);
+    let most = stock.most(is_match || is_sine);
     let usual = DensityOrder::new(least, most).map_err(|_| no_infill())?;
-    let order = job.density.unwrap_or(usual);
+    let own = given::densities(job, printer, usual)?;
+    let order = own.or(job.density).unwrap_or(usual);
+    if is_sine && order.high() == InfillDensity::SOLID {
+        return Err(GradedError::SolidSine { usual });
+    }
     if is_match && order.high() == InfillDensity::SOLID {
         return Err(GradedError::SolidMatch { usual });
     }
@@ -83,7 +89,10 @@ fn order(job: &Job, printer: &Printer, stock: &Stock) -> Result<DensityOrder, Gr
         (Some(_), _, Some(share)) if job.goal.kind == GoalKind::Balance => {
             return Err(GradedError::KeepBalance { share });
         }
-        (None, Some(levels), None) if more.is_some() && !is_match => {
+        (_, Some(_), _) if job.field.is_some() && more.is_none() => {
+            return Err(GradedError::TwoLevelsOfField);
+        }
+        (None, Some(levels), None) if more.is_some() && !is_match && job.field.is_none() => {
             return Err(GradedError::LevelsAlone { levels });
         }
         (Some(wished), Some(_), _) if more.is_none() => {
@@ -108,11 +117,11 @@ fn order(job: &Job, printer: &Printer, stock: &Stock) -> Result<DensityOrder, Gr
 /// Returns the infill that all is to be near to; `None` if the goal alone decides.
 ///
 /// A match always has several levels: only they reach all that densities reach. They are about the
-/// middle until it is placed, and its mean is known.
+/// middle until it is placed, and its mean is known. So are those of a field.
 fn wished(job: &Job, order: DensityOrder) -> Option<InfillDensity> {
     let middle = || InfillDensity::of_ratio(0.5 * (order.low().ratio() + order.high().ratio()));
-    let is_match = job.goal.kind == GoalKind::Match;
-    job.infill.or_else(|| middle().filter(|_| is_match))
+    let has_levels = job.goal.kind == GoalKind::Match || job.field.is_some();
+    job.infill.or_else(|| middle().filter(|_| has_levels))
 }
 
 impl Stock<'_> {
@@ -146,6 +155,7 @@ impl Stock<'_> {
             pattern: self.pattern.pattern.clone(),
             levels: levels.into_iter().flatten().collect(),
             near: None,
+            field: None,
         }
     }
 }

@@ -32,6 +32,10 @@ pub fn sparse_print(job: &Job, printer: &Printer) -> Result<Option<Nested>, Grad
     if let (Some(wished), GoalKind::Match) = (job.infill, job.goal.kind) {
         return Err(GradedError::WishedMatch { wished });
     }
+    if let (Some(field), GoalKind::Match | GoalKind::Float) = (&job.field, job.goal.kind) {
+        let field = field.clone();
+        return Err(GradedError::FieldOfGoal { field });
+    }
     if job.plan.is_some() {
         return Err(GradedError::Cuts);
     }
@@ -82,7 +86,9 @@ fn ordered_density(job: &Job) -> Option<Setting> {
     let infill = job.infill.map(|wished| Setting::new(Key::Infill, wished));
     let levels = job.levels.map(|count| Setting::new(Key::Levels, count));
     let keep = job.keep.map(|share| Setting::new(Key::Keep, share));
-    density.or(infill).or(levels).or(keep)
+    let field = job.field.as_ref();
+    let field = field.map(|field| Setting::new(Key::Field, field));
+    density.or(infill).or(levels).or(keep).or(field)
 }
 
 /// Refuses a placed goal that one closed piece cannot meet.

@@ -12,12 +12,9 @@ use crate::base::watch::{Phase, Watch};
 use crate::error::Error;
 use crate::interior::Columns;
 use crate::job::{InfillDensity, Job};
-use crate::printer::InfillPattern;
 use crate::run::{Extent, Placed};
 use crate::shell::Shell;
 
-/// Halvings of the range in which a density is sought.
-const HALVINGS: usize = 60;
 /// Share of the range of densities that the mean keeps from its ends.
 const MARGIN_RATIO: f64 = 0.01;
 
@@ -59,7 +56,7 @@ fn mean_infill(placed: &Placed, watch: &Watch) -> Result<Option<InfillDensity>, 
         .moments()
         .volume();
     let inside_mm3 = wanted.moments.volume() - (goal.solid.volume() - interior_mm3);
-    let nominal = nominal_ratio(pattern, inside_mm3 / interior_mm3);
+    let nominal = pattern.nominal_ratio(inside_mm3 / interior_mm3);
     let margin = MARGIN_RATIO * (high - low);
     Ok(InfillDensity::of_ratio(
         nominal.clamp(low + margin, high - margin),
@@ -72,31 +69,4 @@ fn ends(placed: &Placed) -> Option<[f64; 2]> {
     let (outermost, sparsest) = (levels.first()?, levels.last()?);
     let is_filled = outermost.extent == Extent::Interior;
     is_filled.then_some([sparsest.nominal_ratio, outermost.nominal_ratio])
-}
-
-/// Returns the nominal density for which a pattern lays this one.
-fn nominal_ratio(pattern: &InfillPattern, laid_ratio: f64) -> f64 {
-    let mut range = [0.0, 1.0];
-    for _ in 0..HALVINGS {
-        let middle = 0.5 * (range[0] + range[1]);
-        let half = usize::from(pattern.laid_ratio(middle) > laid_ratio);
-        range[half] = middle;
-    }
-    range[0]
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::printer::Printer;
-
-    #[test]
-    fn the_nominal_density_lays_the_one_that_is_asked_for() {
-        let printer = Printer::find("prusa-mk4").unwrap();
-        let pattern = printer.infill.as_ref().unwrap();
-        for laid_ratio in [0.15, 0.4, 0.6, 0.82] {
-            let nominal = nominal_ratio(pattern, laid_ratio);
-            assert!((pattern.laid_ratio(nominal) - laid_ratio).abs() < 1e-9);
-        }
-    }
 }

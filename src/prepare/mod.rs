@@ -4,6 +4,8 @@ mod advise;
 mod densities;
 mod drafts;
 mod failure;
+mod fields;
+mod given;
 mod graded;
 mod hardware;
 mod hints;

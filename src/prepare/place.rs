@@ -1,6 +1,6 @@
 //! Place: the goal in the model, with its axis, its waterline and its hardware.
 
-use super::{advise, densities, graded, hardware, like, mean, rotor, upright, waterline};
+use super::{advise, densities, fields, graded, hardware, like, mean, rotor, upright, waterline};
 use crate::advice::{Case, best_orientation, is_possible};
 use crate::base::watch::Watch;
 use crate::error::Error;
@@ -67,7 +67,7 @@ pub fn goal(job: &Job, model: Model, shop: Shop, watch: &Watch) -> Result<Placed
         fitted: None,
     };
     let placed = hardware::fit(waterline::choose(placed, watch)?, watch)?;
-    let placed = mean::with_levels(placed, watch)?;
+    let placed = fields::with_field(mean::with_levels(placed, watch)?, watch)?;
     graded::refuse_pieces(&placed)?;
     graded::refuse_holes(&placed)?;
     Ok(placed)

@@ -1,6 +1,7 @@
 //! Thresholds: the densities of infill that would meet a goal that those ordered do not.
 
 use super::densities::nested;
+use super::fields::with_field;
 use super::levels::{COARSE_COLUMNS, with_load};
 use super::mean::with_levels;
 use crate::ballast::Load;
@@ -122,7 +123,7 @@ impl Search<'_> {
             sparse: Some(sparse),
             ..self.placed.clone()
         };
-        let other = with_levels(other, watch)?;
+        let other = with_field(with_levels(other, watch)?, watch)?;
         let found = with_load(&other, Load::default(), watch)?;
         Ok(matches!(found, Verdict::Found(_)))
     }

@@ -4,6 +4,9 @@ use serde::Serialize;
 
 use super::Sourced;
 
+/// Halvings of the range in which a density is sought.
+const HALVINGS: usize = 60;
+
 /// A pattern of sparse infill, with what slicers lay of it.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct InfillPattern {
@@ -38,6 +41,23 @@ impl InfillPattern {
             (None, None) => nominal_ratio,
         }
     }
+
+    /// Returns the density to set for which this one is laid, over that of solid print.
+    ///
+    /// What lies between the greatest infill and solid print cannot be laid. For that it is nearly
+    /// solid print.
+    pub fn nominal_ratio(&self, laid_ratio: f64) -> f64 {
+        if laid_ratio >= 1.0 {
+            return 1.0;
+        }
+        let mut range = [0.0, 1.0];
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (range[0] + range[1]);
+            let half = usize::from(self.laid_ratio(middle) > laid_ratio);
+            range[half] = middle;
+        }
+        range[0]
+    }
 }
 
 #[cfg(test)]
@@ -71,6 +91,16 @@ mod tests {
                 (infill.laid_ratio(nominal) - laid).abs() < 1e-12,
                 "{nominal}"
             );
+        }
+    }
+
+    #[test]
+    fn the_nominal_density_lays_the_one_that_is_asked_for() {
+        let printer = Printer::find("prusa-mk4").unwrap();
+        let pattern = printer.infill.as_ref().unwrap();
+        for laid_ratio in [0.15, 0.4, 0.6, 0.82, 1.0] {
+            let nominal = pattern.nominal_ratio(laid_ratio);
+            assert!((pattern.laid_ratio(nominal) - laid_ratio).abs() < 1e-9);
         }
     }
 

@@ -170,6 +170,13 @@ impl Placed {
         job.cut == CutMode::Never && job.plan.is_none() && self.sparse.is_none()
     }
 
+    /// Returns whether regions of infill keep what is too small to print on its own: those of a
+    /// match and of a field.
+    pub fn keeps_small_regions(&self) -> bool {
+        let is_field = |nested: &Nested| nested.field.is_some();
+        self.goal().wanted.is_some() || self.sparse.as_ref().is_some_and(is_field)
+    }
+
     /// Returns the gap between the halves of a yo-yo, mm, `None` for one body.
     pub fn string_gap_mm(&self) -> Option<f64> {
         let gap_mm = self.fitted.as_ref().map(|fitted| fitted.gap_mm);

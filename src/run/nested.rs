@@ -1,7 +1,7 @@
 //! The infill of a print in one piece: nested regions, the outermost first.
 
 use crate::geom::Quadric;
-use crate::hollow::NearWished;
+use crate::hollow::{NearWished, PrintField};
 use crate::interior::{Columns, moments_where_positive};
 use crate::mass::Moments;
 
@@ -15,6 +15,8 @@ pub struct Nested {
     /// The infill that is wished everywhere, and changed as little as the goal allows. `None` if
     /// the goal alone decides.
     pub near: Option<NearWished>,
+    /// The field that is printed in these regions; `None` if the densities are the best.
+    pub field: Option<PrintField>,
 }
 
 /// A region of one density of infill, less the regions in it.
@@ -98,6 +100,7 @@ mod tests {
                 level(0.1, Extent::Above(0.2)),
             ],
             near: None,
+            field: None,
         };
         let ball = |mm3: f64| Moments([mm3, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0]);
         let laid = nested.laid([1000.0, 400.0, 100.0].map(ball));

@@ -58,10 +58,13 @@ impl Placed {
             fixed,
             columns,
         };
-        let near = self.sparse.as_ref().and_then(|nested| nested.near.as_ref());
-        match near {
-            Some(near) => near.solve(&problem, known, watch),
-            None => self.fill.solve(&problem, known, &watch.muted()),
+        let sparse = self.sparse.as_ref();
+        let near = sparse.and_then(|nested| nested.near.as_ref());
+        let field = sparse.and_then(|nested| nested.field.as_ref());
+        match (near, field) {
+            (Some(near), Some(field)) => field.solve(near, &problem, known, watch),
+            (Some(near), None) => near.solve(&problem, known, watch),
+            (None, _) => self.fill.solve(&problem, known, &watch.muted()),
         }
     }
 

@@ -34,6 +34,10 @@ pub struct InfillOrder {
     /// The file that bounds them, relative to the kit; `None` if they are in the part's file.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub file: Option<String>,
+    /// The field of densities that the regions follow, in words that `inspect` reads; `None` if
+    /// they are the best for the goal.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub field: Option<String>,
     /// The regions in them, each in the one before.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub inner: Vec<InfillLevel>,
@@ -190,6 +194,7 @@ mod tests {
             mass_g: 0.011,
             beyond: None,
             misses_mm: Vec::new(),
+            field: None,
             file: None,
             inner: Vec::new(),
         };
@@ -219,6 +224,7 @@ mod tests {
             mass_g: 0.0,
             beyond: None,
             misses_mm: Vec::new(),
+            field: None,
             file: None,
             inner: vec![level],
         };

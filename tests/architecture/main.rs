@@ -201,7 +201,11 @@ const ARROWS: &[(&str, &[&str])] = &[
             "cutter", "geom", "io", "kit", "mesh", "page", "panels", "printer", "base",
         ],
     ),
-    ("job", &["ballast", "cut", "base", "goal", "repair"]),
+    // A job may order a field of densities by its numbers.
+    (
+        "job",
+        &["ballast", "cut", "base", "field", "goal", "repair"],
+    ),
     // A run may slice its kit, and tells why that failed.
     (
         "error",

@@ -9,8 +9,8 @@ use clap::Args;
 use super::values::{share, words};
 use crate::cut::{CutOrder, KeepClear, LeastPart, SeamStyle};
 use crate::job::{
-    CutMode, DensityOrder, DrainOrder, Effort, IdStyle, InfillDensity, Interior, KeptShare,
-    LevelCount, PinStyle, PlanError,
+    CutMode, DensityOrder, DrainOrder, Effort, FieldOrder, IdStyle, InfillDensity, Interior,
+    KeptShare, LevelCount, PinStyle, PlanError,
 };
 
 /// The arguments for cutting the object and joining its parts.
@@ -41,13 +41,17 @@ pub struct CutArgs {
     /// goal allows
     #[arg(long, value_name = "PERCENT", allow_hyphen_values = true)]
     pub infill: Option<InfillDensity>,
-    /// The number of densities: 3 to 12 near an infill [default: 4], 2 without one
+    /// The number of densities: 3 to 12 near an infill or of a field [default: 4], 2 without them
     #[arg(long, value_name = "N", allow_hyphen_values = true)]
     pub levels: Option<LevelCount>,
     /// Keep this share of the best that is calculated near that infill, such as 95%: of a speed, an
     /// angle or a height. Tops and yo-yos keep 80% if nothing is said
     #[arg(long, value_name = "PERCENT", allow_hyphen_values = true)]
     pub keep: Option<KeptShare>,
+    /// Print a field of densities in levels: ramp or sine, fitted to the goal, or with its numbers
+    /// as inspect takes it. Without it the densities are the best [default: none]
+    #[arg(long, value_name = "FIELD", allow_hyphen_values = true)]
+    pub field: Option<FieldOrder>,
     /// Put seams where they are seen least (hidden), make them short (short), or only level ones
     /// (level) [default: hidden]
     #[arg(long, value_parser = words::<SeamStyle>(SeamStyle::WORDS))]

@@ -1,7 +1,7 @@
 //! The arguments of `prepare` that a replayed job decides.
 
 /// The arguments that a replayed job decides.
-pub const DECIDED_BY_JOB: [&str; 50] = [
+pub const DECIDED_BY_JOB: [&str; 51] = [
     "slicer",
     "printer",
     "material",
@@ -51,5 +51,6 @@ pub const DECIDED_BY_JOB: [&str; 50] = [
     "infill",
     "levels",
     "keep",
+    "field",
     "repair",
 ];

@@ -303,6 +303,7 @@ impl PrepareArgs {
             infill: self.cutting.infill,
             levels: self.cutting.levels,
             keep: self.cutting.keep,
+            field: self.cutting.field,
             seam: self.cutting.seam.unwrap_or(default.seam),
             keep_clear,
             least_part: self.cutting.least_part.unwrap_or(default.least_part),

@@ -121,6 +121,19 @@ impl Kept {
         }
     }
 
+    /// Returns the rows that touch the limits at some moments, with the centre as high as there.
+    pub fn touching(&self, moments: &Moments) -> Vec<Row> {
+        match self.limit {
+            Limit::Angle(_) => Vec::new(),
+            Limit::Height(height_mm) => vec![at_most(quadric(&[(Z, 1.0), (ONE, -height_mm)]))],
+            Limit::Spin(spin) => {
+                let height_mm = spin.best_mm.map_or(0.0, |_| moments.0[Z] / moments.0[ONE]);
+                let cones = spin.cones().into_iter();
+                cones.map(|cone| cone.row_at(moments, height_mm)).collect()
+            }
+        }
+    }
+
     /// Finds the least change that keeps the figure; `least` finds the one of some rows.
     ///
     /// If a top's least change does not keep it, other heights of the centre are tried. They lie

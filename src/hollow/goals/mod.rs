@@ -1,5 +1,5 @@
 //! The goals with one or two programmes each, the least ballast, filled voids, two
-//! densities, levels near a wished one, and the match.
+//! densities, levels near a wished one, printed fields, and the match.
 
 pub(crate) mod balance;
 pub(crate) mod ballast;
@@ -10,6 +10,7 @@ mod found;
 pub(crate) mod kept;
 pub(crate) mod matching;
 pub(crate) mod near;
+pub(crate) mod printed_field;
 pub(crate) mod stand;
 pub(crate) mod trade;
 pub(crate) mod two;

@@ -92,7 +92,7 @@ impl NearWished {
     }
 
     /// Returns what must be kept, `None` for nothing; or the best print, if it does not do either.
-    fn kept(
+    pub(super) fn kept(
         &self,
         problem: &Problem,
         known: Option<&Solution>,
@@ -120,7 +120,12 @@ impl NearWished {
         self.levels.densities().windows(2).map(middle).collect()
     }
 
-    fn refused(&self, problem: &Problem, graded: &Graded, proof: &Separation) -> Solution {
+    pub(super) fn refused(
+        &self,
+        problem: &Problem,
+        graded: &Graded,
+        proof: &Separation,
+    ) -> Solution {
         let range = self.levels.range();
         let columns = problem.columns;
         let sum = |moments: &Moments| dot(&proof.quadric, moments);

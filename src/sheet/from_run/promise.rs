@@ -184,6 +184,10 @@ pub fn infill_order(placed: &Placed, made: &Made) -> Option<InfillOrder> {
             .map(|round| round.miss_mm)
             .collect(),
         file: outermost.file.clone(),
+        field: sparse
+            .field
+            .as_ref()
+            .map(|field| field.words(&made.solution, &placed.goal().frame)),
         inner: inner.to_vec(),
     })
 }

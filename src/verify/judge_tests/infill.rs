@@ -27,6 +27,7 @@ fn one_piece() -> Evidence {
         mass_g: 0.142 * REGION_MM3 * 1.2e-3,
         beyond: None,
         misses_mm: Vec::new(),
+        field: None,
         file: Some("modifiers/region.stl".to_owned()),
         inner: Vec::new(),
     });

@@ -70,6 +70,7 @@ fn read_in(dialect: Dialect) -> Read {
             mass_g: 0.7,
             beyond: None,
             misses_mm: Vec::new(),
+            field: None,
             file: Some("modifiers/region.stl".to_owned()),
             inner: Vec::new(),
         },

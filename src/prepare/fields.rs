@@ -1,0 +1,142 @@
+//! Fields: a family fitted to the goal, or a field with its numbers, in the regions of a print.
+
+use super::densities::{fill, nested};
+use super::levels::{COARSE_COLUMNS, with_load};
+use crate::ballast::Load;
+use crate::base::setting::{Key, Setting};
+use crate::base::verdict::Verdict;
+use crate::base::watch::{Phase, Watch};
+use crate::error::Error;
+use crate::hollow::{Family, NearWished, PrintField, Problem, Region, Shape};
+use crate::interior::Columns;
+use crate::job::{FieldOrder, GivenField, Job};
+use crate::run::{Extent, Level, Nested, Placed};
+use crate::shell::Shell;
+
+/// Distance of two densities that are the same, as a share of solid print: the rounding of orders.
+const SAME_RATIO: f64 = 1e-5;
+
+/// Returns a placed goal with the field that its job orders in its regions. Without one it stays as
+/// it is.
+///
+/// What toolpaths lay beyond the parts is left out, so that all rounds have the same regions.
+///
+/// # Errors
+/// The inside cannot be measured, or the watch was stopped.
+pub fn with_field(placed: Placed, watch: &Watch) -> Result<Placed, Error> {
+    let sparse = placed.sparse.as_ref();
+    let near = sparse.and_then(|sparse| sparse.near.as_ref());
+    let (Some(order), Some(sparse), Some(near)) = (&placed.job.field, sparse, near) else {
+        return Ok(placed);
+    };
+    let (goal, wall_mm) = (placed.goal(), placed.shop.wall.wall_mm);
+    watch.enter(Phase::Columns);
+    let shell = Shell::new(
+        placed.solid(),
+        &goal.frame,
+        wall_mm,
+        &placed.placement.keeps,
+    )?;
+    let columns = Columns::of_shell(&shell, shell.coarse_pitch(COARSE_COLUMNS), watch)?;
+    watch.enter(Phase::Solve);
+    let problem = Problem {
+        goal,
+        fixed: goal.solid,
+        columns: &columns,
+    };
+    let field = print_field(order, near, &problem, watch);
+    watch.check()?;
+    let own = Stock {
+        placed: &placed,
+        sparse,
+    };
+    let levels = field.regions.iter().filter_map(|region| own.level(region));
+    let sparse = Nested {
+        levels: levels.collect(),
+        field: Some(field),
+        ..sparse.clone()
+    };
+    let laid = fill(&sparse);
+    Ok(Placed {
+        fill: laid.unwrap_or(placed.fill),
+        sparse: Some(sparse),
+        ..placed
+    })
+}
+
+/// Returns the field of an order on the columns of a problem.
+fn print_field(
+    order: &FieldOrder,
+    near: &NearWished,
+    problem: &Problem,
+    watch: &Watch,
+) -> PrintField {
+    let levels = &near.levels;
+    let shape = |shape: Shape| {
+        let local = shape.in_frame(&problem.goal.frame);
+        PrintField::given(local, levels, problem)
+    };
+    match order {
+        FieldOrder::FitRamp => PrintField::fit(Family::Ramp, near, problem, watch),
+        FieldOrder::FitSine => PrintField::fit(Family::Sine, near, problem, watch),
+        FieldOrder::Given { field, .. } => match field {
+            GivenField::Uniform(density) => PrintField::uniform(*density, levels.range()),
+            GivenField::Ramp(ramp) => shape(Shape::of_ramp(ramp)),
+            GivenField::Sine(sine) => shape(Shape::of_sine(sine)),
+        },
+    }
+}
+
+/// The densities of infill that a print may have.
+struct Stock<'a> {
+    placed: &'a Placed,
+    sparse: &'a Nested,
+}
+
+impl Stock<'_> {
+    /// Returns a region with its density in the words of slicers; `None` for solid print.
+    fn level(&self, region: &Region) -> Option<Level> {
+        let density = region.density;
+        let mut known = self.sparse.levels.iter();
+        let known = known.find(|level| level.laid_ratio == density);
+        let nominal = || {
+            let pattern = self.placed.shop.printer.infill.as_ref()?;
+            Some(pattern.nominal_ratio(density))
+        };
+        let nominal_ratio = match known {
+            Some(level) => level.nominal_ratio,
+            None => nominal().filter(|nominal| *nominal < 1.0 - SAME_RATIO)?,
+        };
+        Some(Level {
+            nominal_ratio,
+            laid_ratio: density,
+            extent: region.above.map_or(Extent::Interior, Extent::Above),
+        })
+    }
+}
+
+/// Returns the hint that the best densities do what a field does not, if a solve confirms it.
+pub fn field_hint(placed: &Placed, watch: &Watch) -> Result<Option<String>, Error> {
+    let Some(field) = &placed.job.field else {
+        return Ok(None);
+    };
+    let job = Job {
+        field: None,
+        levels: placed.job.levels.filter(|_| placed.job.infill.is_some()),
+        ..placed.job.clone()
+    };
+    // What does not print is no remedy.
+    let Ok(sparse) = nested(&job, &placed.shop.printer) else {
+        return Ok(None);
+    };
+    let best = Placed {
+        fill: fill(&sparse).unwrap_or(placed.fill),
+        sparse: Some(sparse),
+        job,
+        ..placed.clone()
+    };
+    let found = with_load(&best, Load::default(), watch)?;
+    let setting = Setting::new(Key::Field, field);
+    let hint = format!("leave `{setting}` out: the best densities do it");
+    Ok(matches!(found, Verdict::Found(_)).then_some(hint))
+}
