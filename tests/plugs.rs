@@ -135,6 +135,20 @@ fn the_judge_blames_a_plug_that_is_shifted_or_larger_or_that_does_not_lie_in_its
 }
 
 #[test]
+fn the_judge_blames_a_plug_that_would_fall_in() {
+    let mut evidence = read_kit(&plugged().0).unwrap();
+    let hole = &mut evidence.promise.drains[0];
+    hole.plug.as_mut().unwrap().gap_mm = 0.7;
+    let found = judge(&evidence, &Watch::silent()).unwrap();
+    let told = found.checks.iter().filter(|check| !check.pass);
+    let told: Vec<String> = told.filter_map(|check| check.detail.clone()).collect();
+    assert!(
+        told.iter().any(|words| words.contains("P02 falls into D1")),
+        "{told:?}"
+    );
+}
+
+#[test]
 fn the_judge_blames_a_body_that_is_said_to_be_the_plug() {
     let mut evidence = read_kit(&plugged().0).unwrap();
     evidence.promise.drains[0].plug.as_mut().unwrap().part = "P01".to_owned();

@@ -107,7 +107,7 @@ pub enum GradedError {
     /// A density is less than the printer's infill carries.
     #[error(
         "infill of {density} does not carry what {printer} prints over it; remedy: order no less \
-         than {least} (`{}`), or lower least_infill_ratio in a profile of your own",
+         than {least} (`{}`), or lower least_infill_ratio in a profile of your own, to 0.1 at the least",
         Setting::new(Key::Density, at_least(*least, *high))
     )]
     TooSparse {

@@ -19,6 +19,8 @@ pub struct PlugFacts {
     pub gap_mm: Option<f64>,
     /// The stated gap, mm.
     pub ordered_gap_mm: f64,
+    /// True if its wide end is wider than the hole is inside, so that it cannot fall in.
+    pub is_held: bool,
     /// The volume that it should have by the stated numbers, mm³.
     pub volume_mm3: f64,
 }
@@ -74,6 +76,7 @@ pub(super) fn measure_plugs(
             hole: hole.id.clone(),
             gap_mm: own.map(|own| gap_mm(own, probes)),
             ordered_gap_mm: plug.gap_mm,
+            is_held: hole.widest_mm() - 2.0 * plug.gap_mm > hole.diameter_mm,
             volume_mm3: meant.map_or(0.0, |mesh| mesh.signed_volume_mm3()),
         }))
     };

@@ -30,8 +30,8 @@ pub(super) fn holes_check(holes: &[HoleFacts]) -> Option<Check> {
 
 /// Checks that every plug has its gap in its hole; `None` without any.
 pub(super) fn plugs_check(plugs: &[PlugFacts]) -> Option<Check> {
-    // A missing plug lacks all of its gap and more.
-    let lack_mm = |plug: &PlugFacts| match plug.gap_mm {
+    // A plug that is missing or falls in lacks all of its gap and more.
+    let lack_mm = |plug: &PlugFacts| match plug.gap_mm.filter(|_| plug.is_held) {
         Some(gap_mm) => (plug.ordered_gap_mm - gap_mm).max(0.0),
         None => f64::INFINITY,
     };
@@ -39,6 +39,7 @@ pub(super) fn plugs_check(plugs: &[PlugFacts]) -> Option<Check> {
     let tight = plugs.iter().filter(|plug| lack_mm(plug) > GAP_TOLERANCE_MM);
     let tight: Vec<String> = tight
         .map(|plug| match plug.gap_mm {
+            Some(_) if !plug.is_held => format!("{} falls into {}", plug.part, plug.hole),
             Some(gap_mm) => format!("{} in {}: {gap_mm:.3} mm", plug.part, plug.hole),
             None => format!("{} for {}: not there", plug.part, plug.hole),
         })

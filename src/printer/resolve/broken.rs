@@ -209,6 +209,12 @@ const BROKEN: &[(&str, &str, &str, &str)] = &[
     ("layer_mm", "min_wall_mm", ":1:1: ", "`layer_mm` is not set"),
     (
         "layer_mm = { value",
+        "least_infill_ratio = { value = 0.05, source = \"s\", sure = \"read\" }\nlayer_mm = { value",
+        ":11:22: ",
+        "is 0.05, outside 0.1 to 1",
+    ),
+    (
+        "layer_mm = { value",
         "chamfer_mm = { dpi",
         ":11:14: ",
         "`chamfer_mm` cannot be given in dpi",
