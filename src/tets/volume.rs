@@ -237,7 +237,9 @@ fn orient(cells: &mut [[u32; 4]], vertices: &[Point]) -> Result<usize, TetsError
     for (cell, corners) in cells.iter_mut().enumerate() {
         let at = corners.map(|corner| vertices[corner as usize]);
         let volume_mm3 = Tetrahedron(at.map(|at| at.coords)).volume_mm3();
-        if !(volume_mm3.abs() > rounding_mm3(&at)) {
+        // Not a number, where coordinates are beyond all measure, is no volume either.
+        let is_solid = volume_mm3.abs() > rounding_mm3(&at);
+        if !is_solid {
             let at = middle(at);
             return Err(TetsError::Flat { cell, at });
         }
