@@ -210,7 +210,7 @@ pub enum GradedError {
     )]
     FieldDensities {
         /// The field.
-        field: FieldOrder,
+        field: Box<FieldOrder>,
         /// The densities.
         order: DensityOrder,
     },
@@ -222,7 +222,7 @@ pub enum GradedError {
     )]
     FieldBeyond {
         /// The field.
-        field: FieldOrder,
+        field: Box<FieldOrder>,
         /// The printer's name.
         printer: String,
         /// The least density.

@@ -28,7 +28,7 @@ pub fn densities(
     };
     if let Some(order) = job.density {
         return Err(GradedError::FieldDensities {
-            field: field.clone(),
+            field: Box::new(field.clone()),
             order,
         });
     }
@@ -42,7 +42,7 @@ pub fn densities(
     };
     if !densities.iter().all(is_within) {
         return Err(GradedError::FieldBeyond {
-            field: field.clone(),
+            field: Box::new(field.clone()),
             printer: printer.name.clone(),
             least,
             most,

@@ -31,7 +31,7 @@ const CURE_H: RangeInclusive<f64> = 0.01..=336.0;
 /// Densities of infill over that of solid print. Larger values must be in per cent.
 pub(super) const INFILL_RATIOS: RangeInclusive<f64> = 0.01..=1.0;
 /// Densities of infill that carry solid print over them. At a tenth, lines of 0.45 mm are 4.5 mm
-/// apart, and nothing that is denser than what lies below it hangs over more.
+/// apart: solid print over them hangs no farther.
 const CARRYING_RATIOS: RangeInclusive<f64> = 0.1..=1.0;
 /// Numbers of lines along a wall and of solid layers. Larger ones must be lengths.
 const COUNTS: RangeInclusive<f64> = 1.0..=50.0;

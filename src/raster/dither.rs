@@ -93,7 +93,7 @@ impl Diffusion {
                     start,
                     has_next: start + self.columns < shares.len(),
                     is_last_layer: self.layer == self.layers,
-                    is_reversed: number % 2 == 0,
+                    is_reversed: number.is_multiple_of(2),
                 },
                 &mut cells,
             );

@@ -49,7 +49,7 @@ pub fn dither_model(
     let least = light.density_g_cm3.value / heavy.density_g_cm3.value;
     let field = order.field.on(order.solid);
     let voxels = Voxels::of(order.solid, field.as_ref(), order.printer, least)?;
-    let (nudge, changes) = correct(order, &voxels, watch)?;
+    let Corrections { nudge, changes } = correct(order, &voxels, watch)?;
     let stack = StackWriter {
         writer,
         ids: [&heavy.id, &light.id],
@@ -81,12 +81,16 @@ fn json(value: &impl serde::Serialize) -> Result<Vec<u8>, SliceError> {
     Ok((serde_json::to_string_pretty(value)? + "\n").into_bytes())
 }
 
-/// Returns the change of shares, if one is needed, and the pixels to change at last, by layer.
-fn correct(
-    order: &DitherOrder,
-    voxels: &Voxels,
-    watch: &Watch,
-) -> Result<(Option<Nudge>, Vec<(u32, usize)>), SliceError> {
+/// What makes up for the pixels that the surface cuts.
+struct Corrections {
+    /// The change of shares; `None` if none is needed.
+    nudge: Option<Nudge>,
+    /// The pixels to change at last: their layers and their places in them.
+    changes: Vec<(u32, usize)>,
+}
+
+/// Finds what makes the pixels weigh what the field does.
+fn correct(order: &DitherOrder, voxels: &Voxels, watch: &Watch) -> Result<Corrections, SliceError> {
     let aabb = order
         .solid
         .mesh()
@@ -115,11 +119,12 @@ fn correct(
         false => None,
     };
     if nudge.is_none() {
-        return Ok((None, sampler.changes(&lacking)));
+        let changes = sampler.changes(&lacking);
+        return Ok(Corrections { nudge, changes });
     }
     let (sampler, lacking) = weigh(nudge.as_ref())?;
     let changes = sampler.changes(&lacking);
-    Ok((nudge, changes))
+    Ok(Corrections { nudge, changes })
 }
 
 /// Gives every pixel its material, layer by layer, and hands each layer with its shares on.
