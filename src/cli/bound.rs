@@ -52,12 +52,11 @@ fn kept_words(checklist: &Checklist) -> String {
     let course = checklist.certificate.course.as_ref();
     let trade = course.and_then(|course| course.trade.as_ref());
     let kept = trade.and_then(|trade| {
-        let [_, best] = *trade.points.last()?;
         let (name, unit) = (trade.figure.name(), trade.figure.unit());
         let own = measured(checklist.assembly.value_of(trade.figure)?, unit);
         Some(format!(
-            "; its {name} is {own}, at any infill {} is possible",
-            measured(best, unit)
+            "; its {name} is {own}, at any infill about {} is possible",
+            measured(trade.best, unit)
         ))
     });
     kept.unwrap_or_default()

@@ -119,5 +119,8 @@ fn error_text(facts: &FieldFacts, body: &BodyFacts) -> String {
 
 /// Returns a small share in per cent.
 pub(super) fn share(ratio: f64) -> String {
+    if ratio == 0.0 {
+        return "0 %".to_owned();
+    }
     format!("{:.1e} %", 100.0 * ratio)
 }

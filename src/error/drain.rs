@@ -107,7 +107,7 @@ pub enum DrainError {
     NoPlace {
         /// The voids, such as `V1, V2`.
         voids: String,
-        /// The diameter of the holes at the outside, mm.
+        /// The diameter of the holes, mm.
         diameter_mm: f64,
         /// True if that width was asked for, and narrower ones would do.
         is_asked: bool,

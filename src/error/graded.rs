@@ -230,6 +230,17 @@ pub enum GradedError {
         /// The greatest.
         most: f64,
     },
+    /// A field has more regions than slicers take.
+    #[error(
+        "`{}` has more than twelve regions of infill in this body; remedy: order a longer wave, or \
+         fewer levels (`{}`)",
+        Setting::new(Key::Field, field),
+        Setting::new(Key::Levels, 3)
+    )]
+    FieldTooFine {
+        /// The field.
+        field: Box<FieldOrder>,
+    },
     /// A wave needs a density below solid print, as its dense shells lie in sparse ones.
     #[error(
         "a wave has dense shells in sparse infill, and solid print is no infill; remedy: order \

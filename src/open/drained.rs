@@ -146,7 +146,7 @@ fn refuse_closed(placed: &Placed, found: &Drained, need: &DrainNeed) -> Result<(
     let voids: Vec<String> = found.closed.iter().map(VoidId::to_string).collect();
     Err(DrainError::NoPlace {
         voids: voids.join(", "),
-        diameter_mm: need.mouth_mm(),
+        diameter_mm: need.diameter_mm,
         is_asked: placed.job.drain.asked_mm().is_some(),
     })
 }

@@ -103,7 +103,9 @@ fn trade(sheet: &Checklist, course: &Course) -> Option<Picture> {
     let trade = course.trade.as_ref()?;
     let percent = |&[change, value]: &Spot| [100.0 * change, value];
     let points: Vec<Spot> = trade.points.iter().map(percent).collect();
-    let best = *points.last()?;
+    if points.is_empty() {
+        return None;
+    }
     let written = sheet.assembly.value_of(trade.figure);
     let own = 100.0 * sheet.certificate.value;
     let (name, unit) = (trade.figure.name(), trade.figure.unit());
@@ -118,14 +120,14 @@ fn trade(sheet: &Checklist, course: &Course) -> Option<Picture> {
         }],
         mark: written.map(|value| ([own, value], "this kit".to_owned())),
     };
-    let best = quantity(best[1], unit);
+    let best = quantity(trade.best, unit);
     Some(Picture {
         file: "pictures/infill-trade.svg".to_owned(),
         role: Role::Proof,
         caption: format!(
-            "What a {name} costs: the least change of the wished infill that reaches it, on coarse columns, and this kit. The last point is the best print, with {best}."
+            "What a {name} costs: the least change of the wished infill that reaches it, on coarse columns, and this kit. At any infill about {best} is possible."
         ),
-        alt: format!("Plot of the {name} by the change of the infill; it ends at {best}."),
+        alt: format!("Plot of the {name} by the change of the infill; about {best} at best."),
         drawn: Drawn::Svg(plot.draw()),
     })
 }

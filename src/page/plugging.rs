@@ -19,8 +19,10 @@ pub(super) fn close_holes(sheet: &Checklist) -> Option<Markup> {
         html! {
             p {
                 "Close a hole only when its void is empty, clean and dry. Coat the flank of its plug \
-                 thinly with " (glue) ", and push the narrow end in until the outer end is flush. Wipe off \
-                 what comes out. Sand what stands out once the glue has set."
+                 thinly with " (glue) ", and push the narrow end in until the outer end is flush. It may go \
+                 deeper: stop at flush, and hold it until the glue grips. Wipe off what comes out. \
+                 Sand what stands out once the glue has set. Each plug fits its own hole alone: keep \
+                 it in a bag with its name."
             }
             @if let Some(safety) = safety { p { strong { "Safety: " } (safety) } }
             table class="stack" {

@@ -224,9 +224,13 @@ fn layer(sheet: &Checklist) -> String {
 
 /// Names the parts without an id in a cut face; `None` if there are none or only one part.
 fn parts_without_id(sheet: &Checklist) -> Option<String> {
-    let parts = sheet.parts.iter().filter(|part| part.marks.is_empty());
+    // Plugs are told by their holes.
+    let is_plug = |part: &PartRow| sheet.hole_of_plug(&part.id).is_some();
+    let bodies = sheet.parts.iter().filter(|part| !is_plug(part));
+    let bodies: Vec<&PartRow> = bodies.collect();
+    let parts = bodies.iter().filter(|part| part.marks.is_empty());
     let ids: Vec<&str> = parts.map(|part| part.id.as_str()).collect();
-    (sheet.parts.len() > 1 && !ids.is_empty()).then(|| ids.join(", "))
+    (bodies.len() > 1 && !ids.is_empty()).then(|| ids.join(", "))
 }
 
 /// Returns the parts that enclose resin in the pose of their files.

@@ -6,7 +6,7 @@ use crate::ballast::Load;
 use crate::base::setting::{Key, Setting};
 use crate::base::verdict::Verdict;
 use crate::base::watch::{Phase, Watch};
-use crate::error::Error;
+use crate::error::{Error, GradedError};
 use crate::hollow::{Family, NearWished, PrintField, Problem, Region, Shape};
 use crate::interior::Columns;
 use crate::job::{FieldOrder, GivenField, Job};
@@ -44,7 +44,10 @@ pub fn with_field(placed: Placed, watch: &Watch) -> Result<Placed, Error> {
         fixed: goal.solid,
         columns: &columns,
     };
-    let field = print_field(order, near, &problem, watch);
+    let field =
+        print_field(order, near, &problem, watch).ok_or_else(|| GradedError::FieldTooFine {
+            field: Box::new(order.clone()),
+        })?;
     watch.check()?;
     let own = Stock {
         placed: &placed,
@@ -64,23 +67,23 @@ pub fn with_field(placed: Placed, watch: &Watch) -> Result<Placed, Error> {
     })
 }
 
-/// Returns the field of an order on the columns of a problem.
+/// Returns the field of an order on the columns of a problem; `None` if it is too fine to print.
 fn print_field(
     order: &FieldOrder,
     near: &NearWished,
     problem: &Problem,
     watch: &Watch,
-) -> PrintField {
+) -> Option<PrintField> {
     let levels = &near.levels;
     let shape = |shape: Shape| {
         let local = shape.in_frame(&problem.goal.frame);
         PrintField::given(local, levels, problem)
     };
     match order {
-        FieldOrder::FitRamp => PrintField::fit(Family::Ramp, near, problem, watch),
-        FieldOrder::FitSine => PrintField::fit(Family::Sine, near, problem, watch),
+        FieldOrder::FitRamp => Some(PrintField::fit(Family::Ramp, near, problem, watch)),
+        FieldOrder::FitSine => Some(PrintField::fit(Family::Sine, near, problem, watch)),
         FieldOrder::Given { field, .. } => match field {
-            GivenField::Uniform(density) => PrintField::uniform(*density, levels.range()),
+            GivenField::Uniform(density) => Some(PrintField::uniform(*density, levels.range())),
             GivenField::Ramp(ramp) => shape(Shape::of_ramp(ramp)),
             GivenField::Sine(sine) => shape(Shape::of_sine(sine)),
         },

@@ -61,7 +61,12 @@ pub fn refuse_holes(placed: &Placed) -> Result<(), DrainError> {
     if job.plugs && !placed.is_drained() {
         return Err(DrainError::PlugsOnly);
     }
-    if placed.is_drained() && placed.goal().kind == GoalKind::Float && !job.plugs {
+    let printer = &placed.shop.printer;
+    let floats = placed.is_drained() && placed.goal().kind == GoalKind::Float;
+    if floats && !job.plugs && order != DrainOrder::Never {
+        // Plugs are of no use where no hole empties a void.
+        let need = printer.drain_need(order.asked_mm());
+        need.map_err(|why| DrainError::of_printer(why, &printer.name, order))?;
         return Err(DrainError::Floats);
     }
     if placed.is_drained() && job.fill.is_some() {
@@ -71,7 +76,6 @@ pub fn refuse_holes(placed: &Placed) -> Result<(), DrainError> {
         DrainOrder::Diameter(_) if !placed.is_drained() => Err(DrainError::NotWhole { order }),
         DrainOrder::Diameter(_) => {
             // A width that was ordered is for this printer, whatever voids there will be.
-            let printer = &placed.shop.printer;
             let need = printer.drain_need(order.asked_mm());
             need.map_err(|why| DrainError::of_printer(why, &printer.name, order))?;
             Ok(())

@@ -6,9 +6,13 @@ use super::{CleaningRule, Printer, Quantity, Support};
 const DRAIN_AND_VENT: usize = 2;
 /// Holes of a void that powder leaves through small ones.
 const PAIR: usize = 2;
-/// Diameter of a hole for a plug in the outside, over that inside. In a wall of 2 mm, a hole of
-/// 5 mm then has flanks of 14° to its axis. They stop a plug, and it does not jam.
-const MOUTH_RATIO: f64 = 1.25;
+/// Slope of the flanks of a hole for a plug to its axis, at the least: 14°. It stops the plug, and
+/// does not jam it.
+const LEAST_SLOPE: f64 = 0.25;
+/// Length by which a plug is wider than the narrowest place of its hole, on each side, mm.
+const HOLD_MM: f64 = 0.1;
+/// Share by which a gap is wider across the axis than normal to a flank of up to 20°.
+const LEAN_RATIO: f64 = 1.07;
 
 /// The holes that each void of an uncut piece needs.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -24,13 +28,13 @@ pub struct DrainNeed {
 }
 
 impl DrainNeed {
-    /// Returns the diameter of each hole in the outside, mm. For a plug it is wider there than
-    /// inside, so that the plug cannot fall in.
-    pub fn mouth_mm(&self) -> f64 {
-        match self.plug_gap_mm {
-            Some(_) => MOUTH_RATIO * self.diameter_mm,
-            None => self.diameter_mm,
-        }
+    /// Returns the diameter at the outer end of a hole of this length through a wall, mm. For a
+    /// plug it is wider there than inside, so that the plug cannot fall in.
+    pub fn mouth_mm(&self, length_mm: f64, wall_mm: f64) -> f64 {
+        let slope = self.plug_gap_mm.map_or(0.0, |gap_mm| {
+            LEAST_SLOPE.max((LEAN_RATIO * gap_mm + HOLD_MM) / wall_mm)
+        });
+        self.diameter_mm + 2.0 * slope * length_mm
     }
 }
 

@@ -122,8 +122,10 @@ pub struct TradeRow {
     /// The figure.
     pub figure: FigureName,
     /// The root mean square of the change, as a share of solid print, and the figure, by ascending
-    /// change. The last point is the best print.
+    /// change.
     pub points: Vec<[f64; 2]>,
+    /// The figure of the best print, on coarse columns.
+    pub best: f64,
 }
 
 /// A pass of the solver over the columns.

@@ -46,7 +46,7 @@ pub fn checks(promise: &Promise, found: &Judgement) -> Vec<Check> {
     );
     checks.extend(cup_check(&found.cups));
     checks.extend(holes_check(&found.holes));
-    checks.extend(plugs_check(&found.plugs));
+    checks.extend(plugs_check(promise, &found.plugs));
     checks.extend(void_checks(promise, &found.voids));
     checks.push(volume_check(promise, found));
     checks.extend(joint_checks(promise, found));

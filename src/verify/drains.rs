@@ -14,6 +14,9 @@ use crate::mesh::{Csg, TriMesh, area_mm2};
 /// Number of steps along a bore at which its room is measured: a tenth of a millimetre through
 /// common walls.
 const STEPS: usize = 64;
+/// The longest of these steps, mm, and the most of them: a kit may state a hole of any length.
+const STEP_MM: f64 = 0.1;
+const MOST_STEPS: f64 = 20_000.0;
 
 /// A drain hole as it was found.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -117,18 +120,25 @@ pub(super) fn measure_holes(
     promise.drains.iter().enumerate().map(measure).collect()
 }
 
+/// Returns the number of steps along a bore.
+fn steps(from: &Point, to: &Point) -> usize {
+    let fine = ((to - from).norm() / STEP_MM).ceil().min(MOST_STEPS);
+    STEPS.max(fine as usize)
+}
+
 /// Returns whether two holes have names of their own, and their bores do not meet.
 fn lie_apart(one: &PromisedHole, other: &PromisedHole) -> bool {
     let ends = |hole: &PromisedHole| [hole.from_mm, hole.to_mm].map(Point::from);
     let ([from, to], [start, end]) = (ends(one), ends(other));
     let along = end - start;
     let length2 = along.norm_squared().max(f64::MIN_POSITIVE);
+    let steps = steps(&from, &to);
     let off_mm = |step: usize| {
-        let at = from + (to - from) * (step as f64 / STEPS as f64);
+        let at = from + (to - from) * (step as f64 / steps as f64);
         let share = ((at - start).dot(&along) / length2).clamp(0.0, 1.0);
         (at - start - along * share).norm()
     };
-    let least_mm = (0..=STEPS).map(off_mm).fold(f64::INFINITY, f64::min);
+    let least_mm = (0..=steps).map(off_mm).fold(f64::INFINITY, f64::min);
     one.id != other.id && least_mm >= 0.5 * (one.widest_mm() + other.widest_mm())
 }
 
@@ -156,12 +166,13 @@ fn free_mm(hole: &PromisedHole, probes: &[PartProbe]) -> f64 {
     if !is_clear {
         return 0.0;
     }
+    let steps = steps(&from, &to);
     let room_mm = |step: usize| {
-        let at = from + (to - from) * (step as f64 / STEPS as f64);
+        let at = from + (to - from) * (step as f64 / steps as f64);
         let rooms = probes.iter().filter_map(|probe| probe.distance_mm(&at));
         rooms.fold(f64::INFINITY, f64::min)
     };
-    2.0 * (0..=STEPS).map(room_mm).fold(f64::INFINITY, f64::min)
+    2.0 * (0..=steps).map(room_mm).fold(f64::INFINITY, f64::min)
 }
 
 /// States the openings of the voids that are drained, and the share of their walls within reach of

@@ -9,6 +9,8 @@ use crate::mesh::{Csg, TriMesh};
 
 /// Number of sides of every bore, around the circle of its diameter.
 const SIDES: u32 = 48;
+/// Distance from the flank of a bore up to which points lie on it, mm.
+const ON_FLANK_MM: f64 = 1e-3;
 
 /// A drain hole as the kit states it: a straight bore from the outside into a void.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -52,6 +54,36 @@ impl PromisedHole {
         plug.to_mesh()
             .ok()
             .filter(|mesh| !mesh.triangles().is_empty())
+    }
+
+    /// Returns by how much the plug is wider than the narrowest place of the hole in the wall, on
+    /// each side, mm; `None` if the numbers bound no hole.
+    pub(super) fn hold_mm(&self, plug: &TriMesh, body: &TriMesh) -> Option<f64> {
+        let taken = Csg::of_mesh(body).ok()?.intersect(&self.prism()?).ok()?;
+        let taken = taken.to_mesh().ok()?;
+        let across = |p: &Point| self.across_mm(p).unwrap_or([0.0, f64::INFINITY]);
+        let widths = plug.vertices().iter().map(|p| across(p)[0]);
+        let flank = taken.vertices().iter().map(across);
+        let flank = flank.filter(|[across, flank]| *across > flank - ON_FLANK_MM);
+        let narrowest_mm = flank
+            .map(|[across, _]| across)
+            .fold(f64::INFINITY, f64::min);
+        Some(widths.fold(0.0, f64::max) - narrowest_mm)
+    }
+
+    /// Returns how far a point is from the axis, as flats are, and how far the flats are at its
+    /// height, mm.
+    fn across_mm(&self, p: &Point) -> Option<[f64; 2]> {
+        let (from, to) = (Point::from(self.from_mm), Point::from(self.to_mm));
+        let axis = (to - from).try_normalize(f64::EPSILON)?;
+        let (u, v) = orthonormal_basis(&axis);
+        let (x, y) = ((p - from).dot(&u), (p - from).dot(&v));
+        let step = TAU / f64::from(SIDES);
+        let beside = y.atan2(x).rem_euclid(step) - 0.5 * step;
+        let share = (p - from).dot(&axis) / (to - from).norm();
+        let mouth_mm = self.mouth_mm.unwrap_or(self.diameter_mm);
+        let flank_mm = 0.5 * (mouth_mm + (self.diameter_mm - mouth_mm) * share);
+        Some([x.hypot(y) * beside.cos(), flank_mm])
     }
 
     /// Returns its diameter at the wider end, mm.

@@ -19,8 +19,8 @@ pub struct PlugFacts {
     pub gap_mm: Option<f64>,
     /// The stated gap, mm.
     pub ordered_gap_mm: f64,
-    /// True if its wide end is wider than the hole is inside, so that it cannot fall in.
-    pub is_held: bool,
+    /// Length by which it is wider than the narrowest place of the hole, on each side, mm.
+    pub hold_mm: f64,
     /// The volume that it should have by the stated numbers, mm³.
     pub volume_mm3: f64,
 }
@@ -69,14 +69,20 @@ pub(super) fn measure_plugs(
         let Some(plug) = &hole.plug else {
             return Ok(None);
         };
+        // A part that is said to close two holes closes neither.
+        let named = promise.drains.iter().filter_map(|hole| hole.plug.as_ref());
+        let is_single = named.filter(|other| other.part == plug.part).count() == 1;
         let own = probes.iter().find(|probe| probe.part.id == plug.part);
+        let own = own.filter(|_| is_single);
         let meant = hole.plug_in(&body.outer);
+        let held = meant.as_ref();
+        let held = held.and_then(|meant| hole.hold_mm(meant, &body.welded));
         Ok(Some(PlugFacts {
             part: plug.part.clone(),
             hole: hole.id.clone(),
             gap_mm: own.map(|own| gap_mm(own, probes)),
             ordered_gap_mm: plug.gap_mm,
-            is_held: hole.widest_mm() - 2.0 * plug.gap_mm > hole.diameter_mm,
+            hold_mm: held.unwrap_or(0.0),
             volume_mm3: meant.map_or(0.0, |mesh| mesh.signed_volume_mm3()),
         }))
     };

@@ -5,6 +5,7 @@ use super::{
     Check, CheckKind, Cleaning, CleaningRule, HoleFacts, InfillOrder, Judgement, Limit, PlugFacts,
     Promise, PromisedVoid, VoidFacts,
 };
+use crate::goal::GoalKind;
 
 /// Checks that every drain hole is as free as stated and leads to its void; `None` without any.
 pub(super) fn holes_check(holes: &[HoleFacts]) -> Option<Check> {
@@ -28,26 +29,45 @@ pub(super) fn holes_check(holes: &[HoleFacts]) -> Option<Check> {
     Some(check.at((!narrow.is_empty()).then(|| narrow.join("; "))))
 }
 
-/// Checks that every plug has its gap in its hole; `None` without any.
-pub(super) fn plugs_check(plugs: &[PlugFacts]) -> Option<Check> {
-    // A plug that is missing or falls in lacks all of its gap and more.
-    let lack_mm = |plug: &PlugFacts| match plug.gap_mm.filter(|_| plug.is_held) {
-        Some(gap_mm) => (plug.ordered_gap_mm - gap_mm).max(0.0),
-        None => f64::INFINITY,
-    };
-    let worst_mm = plugs.iter().map(lack_mm).reduce(f64::max)?;
-    let tight = plugs.iter().filter(|plug| lack_mm(plug) > GAP_TOLERANCE_MM);
-    let tight: Vec<String> = tight
-        .map(|plug| match plug.gap_mm {
-            Some(_) if !plug.is_held => format!("{} falls into {}", plug.part, plug.hole),
-            Some(gap_mm) => format!("{} in {}: {gap_mm:.3} mm", plug.part, plug.hole),
-            None => format!("{} for {}: not there", plug.part, plug.hole),
-        })
-        .collect();
+/// Length by which a plug must be wider than its hole, on each side, mm.
+const LEAST_HOLD_MM: f64 = 0.05;
+
+/// Checks that every plug has its gap in its hole and cannot fall in, and that every hole of what
+/// floats has one; `None` without plugs that are stated or needed.
+pub(super) fn plugs_check(promise: &Promise, plugs: &[PlugFacts]) -> Option<Check> {
+    let floats = promise.goal.kind == GoalKind::Float;
+    let open = promise
+        .drains
+        .iter()
+        .filter(|hole| floats && hole.plug.is_none());
+    let open = open.map(|hole| (f64::INFINITY, format!("{}: water gets in", hole.id)));
+    let stated = plugs.iter().map(|plug| {
+        let (part, hole, ordered_mm) = (&plug.part, &plug.hole, plug.ordered_gap_mm);
+        match plug.gap_mm {
+            None => (
+                f64::INFINITY,
+                format!("{part} for {hole}: not there, or not its own"),
+            ),
+            Some(_) if ordered_mm <= 0.0 => (f64::INFINITY, format!("{part} has no gap in {hole}")),
+            Some(_) if plug.hold_mm < LEAST_HOLD_MM => {
+                (f64::INFINITY, format!("{part} falls into {hole}"))
+            }
+            Some(gap_mm) => {
+                let lack_mm = (ordered_mm - gap_mm).max(0.0);
+                (lack_mm, format!("{part} in {hole}: {gap_mm:.3} mm"))
+            }
+        }
+    });
+    let all: Vec<(f64, String)> = open.chain(stated).collect();
+    let worst_mm = all.iter().map(|(lack_mm, _)| *lack_mm).reduce(f64::max)?;
+    let wrong = all
+        .iter()
+        .filter(|(lack_mm, _)| *lack_mm > GAP_TOLERANCE_MM);
+    let wrong: Vec<&str> = wrong.map(|(_, words)| words.as_str()).collect();
     let promise = "every plug has its gap on each side in its drain hole; short by at most";
     let limit = Limit::at_most(GAP_TOLERANCE_MM, "mm");
     let check = Check::new(CheckKind::Plugs, promise, Some(worst_mm), limit);
-    Some(check.at((!tight.is_empty()).then(|| tight.join("; "))))
+    Some(check.at((!wrong.is_empty()).then(|| wrong.join("; "))))
 }
 
 /// Returns the check of a void that stays in one piece: holes wide enough, and for a liquid two.

@@ -36,6 +36,12 @@ pub enum ArgsError {
         /// The model that was given.
         model: String,
     },
+    /// Plans were ordered with what only a kit has.
+    #[error(
+        "plans of cuts are no kit, and {0} is for a kit; remedy: leave it out, choose a plan, and \
+         order it with prepare"
+    )]
+    OnlyOfKits(&'static str),
     /// Arguments are missing.
     #[error("{0}")]
     Missing(Missing),

@@ -250,6 +250,13 @@ impl PrepareArgs {
         let (out, force, plans) = (self.out.clone(), self.force, self.plans);
         let (slice, slicer_profile) = (self.slice, self.slicer_profile.clone());
         let tets = self.tets.clone();
+        let of_kits = [(slice, "--slice"), (tets.tets.is_some(), "--tets")];
+        let unused = of_kits
+            .iter()
+            .find(|(is_ordered, _)| *is_ordered && plans.is_some());
+        if let Some((_, flag)) = unused {
+            return Err(ArgsError::OnlyOfKits(flag));
+        }
         let typed = std::env::args_os().map(|word| word.to_string_lossy().into_owned());
         let typed = typed.chain(self.answered.iter().cloned()).collect();
         let job = match &self.job {

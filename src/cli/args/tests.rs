@@ -396,3 +396,17 @@ fn the_long_help_has_every_option_and_begins_with_what_is_needed() {
     assert!(at("goal") < at("printer") && at("printer") < at("size"));
     assert!(at("size") < at("material") && at("size") < at("contact"));
 }
+
+#[test]
+fn plans_are_no_kit_and_what_only_a_kit_has_is_refused() {
+    for (more, flag) in [("--tets part.msh", "--tets"), ("--slice", "--slice")] {
+        let line =
+            format!("equipoise cuts models/elephant.obj --printer prusa-mk4 --goal top {more}");
+        let Command::Cuts(mut args) = parse(&line).unwrap().command else {
+            panic!("{line}")
+        };
+        args.plans = Some(DEFAULT_PLANS);
+        let said = args.request().unwrap_err().to_string();
+        assert!(said.contains(&format!("{flag} is for a kit")), "{said}");
+    }
+}

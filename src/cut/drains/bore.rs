@@ -18,7 +18,7 @@ const AROUND: usize = 12;
 const RIM_WALLS: f64 = 1.0;
 /// Length by which a bore goes beyond the body at either end, mm. Voids that are solved for again
 /// move by micrometres; coinciding faces would fail.
-const OVER_MM: f64 = 0.3;
+pub(super) const OVER_MM: f64 = 0.3;
 /// Room before a hole, in diameters: a nozzle or a wire gets in straight.
 const ROOM_DIAMETERS: f64 = 2.0;
 /// Depth of the void behind a hole, in diameters: with less, the far wall is a lid on it.

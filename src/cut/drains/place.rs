@@ -6,7 +6,7 @@ use crate::{
     base::watch::Cancelled,
     cut::{
         drains::{
-            bore::{Site, Surfaces},
+            bore::{OVER_MM, Site, Surfaces},
             hole::DrainHole,
         },
         hollowed::{Hollowed, Void},
@@ -47,7 +47,10 @@ pub(super) fn place(
     request: &PlanRequest,
     need: &DrainNeed,
 ) -> Result<(Vec<DrainHole>, Vec<VoidId>), Cancelled> {
-    let surfaces = Surfaces::new(hollowed, request, need.mouth_mm());
+    // A hole through the usual wall; one through a thicker wall is wider in the outside.
+    let usual_mm = WALLS[0] * request.wall_mm + 2.0 * OVER_MM;
+    let mouth_mm = need.mouth_mm(usual_mm, request.wall_mm);
+    let surfaces = Surfaces::new(hollowed, request, mouth_mm);
     let chooser = Chooser {
         surfaces: &surfaces,
         request,
@@ -61,13 +64,14 @@ pub(super) fn place(
         match chooser.choose(index, void, &holes)? {
             Some(sites) => holes.extend(sites.into_iter().enumerate().map(|(k, site)| {
                 let [from, to] = site.ends;
+                let length_mm = (to - from).norm();
                 DrainHole {
                     id: DrainId::of(known + k),
                     void: VoidId::of(index),
                     from_mm: from.into(),
                     to_mm: to.into(),
                     diameter_mm: need.diameter_mm,
-                    mouth_mm: need.mouth_mm(),
+                    mouth_mm: need.mouth_mm(length_mm, request.wall_mm),
                     plug_gap_mm: need.plug_gap_mm,
                     volume_mm3: 0.0,
                 }

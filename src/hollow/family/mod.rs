@@ -24,7 +24,7 @@ mod task;
 
 pub use fits::{SmoothFit, fit_smooth};
 pub use regions::Region;
-pub(super) use regions::regions;
+pub(super) use regions::{is_cut, regions};
 pub use shape::{Family, Shape};
 pub(super) use starts::{compare, cost, fit_steps};
 pub(super) use state::stepped;

@@ -21,8 +21,8 @@ pub struct Region {
 
 /// Returns the regions of a field with these densities, ascending; the outermost first.
 ///
-/// They are at most twelve. Those of a wave that no column reaches are left out. So beyond the
-/// twelfth a wave keeps its density.
+/// They are at most twelve. Those of a wave that no column reaches are left out. One with more is
+/// not printed as it is: see [`is_cut`].
 pub(in crate::hollow) fn regions(
     shape: &Shape,
     densities: &[f64],
@@ -35,6 +35,40 @@ pub(in crate::hollow) fn regions(
             of_sine(densities, reach)
         }
     }
+}
+
+/// Returns whether a field has more regions than are printed.
+pub(in crate::hollow) fn is_cut(shape: &Shape, densities: &[f64], columns: &Columns) -> bool {
+    let ends = densities.first().zip(densities.last());
+    let range = ends.and_then(|(low, high)| DensityRange::new(*low, *high).ok());
+    match (*shape, range) {
+        (Shape::Sine { center, wave_mm }, Some(range)) => {
+            let reach = reach_mm(columns, &center).map(|mm| mm * TAU / wave_mm);
+            phases(densities, range, reach).len() >= MAX_REGIONS
+        }
+        _ => false,
+    }
+}
+
+/// Returns the phases at which a wave steps, ascending: all of them, or some more than are printed.
+fn phases(densities: &[f64], range: DensityRange, [nearest, farthest]: [f64; 2]) -> Vec<f64> {
+    // A wave has two steps at the least. Of a very short one no more are counted.
+    let farthest = farthest.min(nearest + TAU * MAX_REGIONS as f64);
+    let mut phases: Vec<f64> = Vec::new();
+    for pair in densities.windows(2) {
+        let middle = 0.5 * (pair[0] + pair[1]);
+        let angle = (2.0 * (middle - range.low()) / range.span() - 1.0).asin();
+        // Once on the way up and once on the way down in every wave.
+        for first in [angle.rem_euclid(TAU), (PI - angle).rem_euclid(TAU)] {
+            let before = ((nearest - first) / TAU).floor().max(-1.0);
+            let waves = ((farthest - first) / TAU).floor() - before;
+            let own = (1..=waves.max(0.0) as i64).map(|wave| first + TAU * (before + wave as f64));
+            phases.extend(own);
+        }
+    }
+    phases.retain(|phase| *phase > nearest && *phase < farthest);
+    phases.sort_by(f64::total_cmp);
+    phases
 }
 
 fn of_ramp(densities: &[f64]) -> Vec<Region> {
@@ -56,18 +90,7 @@ fn of_sine(densities: &[f64], [nearest, farthest]: [f64; 2]) -> Vec<Region> {
     let Some(range) = range else {
         return of_ramp(densities);
     };
-    let mut phases: Vec<f64> = Vec::new();
-    for pair in densities.windows(2) {
-        let middle = 0.5 * (pair[0] + pair[1]);
-        let angle = (2.0 * (middle - range.low()) / range.span() - 1.0).asin();
-        // Once on the way up and once on the way down in every wave.
-        for first in [angle.rem_euclid(TAU), (PI - angle).rem_euclid(TAU)] {
-            let waves = ((farthest - first) / TAU).floor().max(-1.0) as i64 + 1;
-            phases.extend((0..waves).map(|wave| first + TAU * wave as f64));
-        }
-    }
-    phases.retain(|phase| *phase > nearest && *phase < farthest);
-    phases.sort_by(f64::total_cmp);
+    let mut phases = phases(densities, range, [nearest, farthest]);
     phases.truncate(MAX_REGIONS - 1);
     let density = |from: f64, to: f64| {
         let value = range.low() + range.span() * 0.5 * (1.0 + (0.5 * (from + to)).sin());
@@ -139,6 +162,23 @@ mod tests {
                 assert!(off <= 0.15 + 1e-9, "{phase}: {printed} {}", wave(phase));
             }
         }
+    }
+
+    #[test]
+    fn a_wave_too_short_for_twelve_regions_is_cut_and_takes_no_memory() {
+        let columns = leaning_block(0.5);
+        let wave = |wave_mm: f64| Shape::Sine {
+            center: Point::new(30.0, 0.0, 0.0),
+            wave_mm,
+        };
+        let [near, far] = reach_mm(&columns, &Point::new(30.0, 0.0, 0.0));
+        let span_mm = far - near;
+        for (waves, cut) in [(1.0, false), (2.0, false), (4.0, true), (1e12, true)] {
+            let found = is_cut(&wave(span_mm / waves), &[0.2, 0.5, 0.8], &columns);
+            assert_eq!(found, cut, "{waves} waves");
+        }
+        let shortest = regions(&wave(1e-9), &[0.2, 0.5, 0.8], &columns);
+        assert_eq!(shortest.len(), MAX_REGIONS);
     }
 
     #[test]

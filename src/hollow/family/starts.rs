@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 use rayon::prelude::*;
 
 use super::descent::descend;
-use super::regions::{Region, regions};
+use super::regions::{Region, is_cut, regions};
 use super::shape::{Family, Numbers, Shape};
 use super::smooth::smooth;
 use super::state::{State, stepped};
@@ -95,6 +95,9 @@ impl Task<'_> {
         let shape = self.refine(&shape, &regions);
         let moments = stepped(self.units, &shape, &regions).moments;
         let miss = self.rows().greatest_miss(self.units, &moments);
+        // A wave of more steps than are printed is no answer.
+        let is_cut = is_cut(&shape, levels.densities(), self.graded.columns);
+        let miss = if is_cut { miss.max(1.0) } else { miss };
         (
             [miss, cost(self, &shape, &regions)],
             Stepped { shape, regions },

@@ -10,7 +10,7 @@ use crate::geom::Frame;
 use crate::goal::compute_figures;
 use crate::hollow::Problem;
 use crate::hollow::family::{
-    Family, Region, Shape, Task, compare, cost, fit_steps, regions, stepped,
+    Family, Region, Shape, Task, compare, cost, fit_steps, is_cut, regions, stepped,
 };
 use crate::hollow::field_miss::FieldMiss;
 use crate::hollow::graded::{Graded, InUnits, Row};
@@ -54,14 +54,16 @@ struct End {
 }
 
 impl PrintField {
-    /// Returns a given field in steps of these densities.
-    pub fn given(shape: Shape, levels: &PrintLevels, problem: &Problem) -> Self {
-        Self {
+    /// Returns a given field in steps of these densities; `None` if it has more regions than are
+    /// printed.
+    pub fn given(shape: Shape, levels: &PrintLevels, problem: &Problem) -> Option<Self> {
+        let is_whole = !is_cut(&shape, levels.densities(), problem.columns);
+        is_whole.then(|| Self {
             shape,
             regions: regions(&shape, levels.densities(), problem.columns),
             range: levels.range(),
             is_given: true,
-        }
+        })
     }
 
     /// Returns a density that is the same everywhere.

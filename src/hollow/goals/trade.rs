@@ -17,18 +17,26 @@ pub struct Trade {
     /// The figure; `None` if the goal has none to be traded.
     pub figure: Option<Figure>,
     /// The root mean square of the change, as a share of solid print, and the figure, by ascending
-    /// change. The last point is the best print.
+    /// change.
     pub points: Vec<[f64; 2]>,
+    /// The figure of the best print.
+    pub best: f64,
 }
 
 impl NearWished {
     /// Computes the trade of a goal on these columns; empty for a goal without a figure to keep.
     ///
-    /// Costs about ten searches, so coarse columns are advisable. If `watch` is stopped, points are
-    /// missing.
+    /// Costs about twenty searches, so coarse columns are advisable. If `watch` is stopped, points
+    /// are missing.
     #[must_use]
     pub fn trade(&self, problem: &Problem, watch: &Watch) -> Trade {
         let goal = problem.goal;
+        if matches!(
+            goal.kind,
+            GoalKind::Float | GoalKind::Balance | GoalKind::Match
+        ) {
+            return Trade::default();
+        }
         let best = Fill::between(self.levels.range()).solve(problem, None, &watch.muted());
         let reached = figure_of(goal, &compute_figures(goal, &best.moments));
         let Some((figure, of_best)) = reached.filter(|_| best.is_usable()) else {
@@ -55,6 +63,7 @@ impl NearWished {
         Trade {
             figure: Some(figure),
             points,
+            best: of_best,
         }
     }
 

@@ -116,8 +116,9 @@ impl Msh<'_> {
                 return Ok(Some(Corners { numbers, offset }));
             }
             CellKind::Solid(kind) => {
-                let place = self.source.place(offset);
-                self.raw.other.get_or_insert((place, kind));
+                if self.raw.other.is_none() {
+                    self.raw.other = Some((self.source.place(offset), kind));
+                }
                 self.raw.other_count += 1;
             }
             CellKind::Flat(kind) => self.raw.ignore(kind),

@@ -3,6 +3,9 @@
 use super::error::{Place, VolumeError};
 use crate::geom::Point;
 
+/// Most kinds of data in a file: each has a value for every corner, however few the file gives.
+const MOST_ARRAYS: usize = 64;
+
 /// What has a value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum On {
@@ -64,6 +67,13 @@ impl Raw {
 
     /// Adds one array; there may be none of the same name and place yet.
     pub fn add_array(&mut self, array: Array, place: Place) -> Result<(), VolumeError> {
+        if self.arrays.len() == MOST_ARRAYS {
+            return Err(VolumeError::Unsupported {
+                place,
+                found: format!("more than {MOST_ARRAYS} kinds of data"),
+                remedy: "write the density alone",
+            });
+        }
         let is_same = |known: &&Array| known.name == array.name && known.on == array.on;
         if self.arrays.iter().find(is_same).is_some() {
             let name = array.name;

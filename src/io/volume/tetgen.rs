@@ -51,8 +51,11 @@ impl<'a> Table<'a> {
     }
 
     fn row(&mut self, expected: &'static str) -> Result<Row<'a>, VolumeError> {
-        let place = self.place(self.bytes.len());
-        self.rows.next().ok_or(VolumeError::Cut { place, expected })
+        // The place is counted from the start of the file: only an error pays for that.
+        self.rows.next().ok_or_else(|| VolumeError::Cut {
+            place: line_at(self.bytes, self.bytes.len()),
+            expected,
+        })
     }
 
     /// Returns a number in a column of a row.

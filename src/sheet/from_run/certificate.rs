@@ -100,6 +100,7 @@ fn trade(placed: &Placed, found: &hollow::Trade) -> Option<TradeRow> {
     Some(TradeRow {
         figure: figure_name(figure),
         points: points.collect(),
+        best: in_sheet_unit(placed, figure, found.best),
     })
 }
 

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::correct::{Drawn, MOST_CHANGES, Nudge, Sampler, Unit};
-use super::order::DitherOrder;
+use super::order::{DitherError, DitherOrder};
 use super::row::{BodyRow, DITHER_FILE, DitherRow, MaterialRow};
 use super::voxels::Voxels;
 use crate::base::watch::Watch;
@@ -46,6 +46,7 @@ pub fn dither_model(
     watch: &Watch,
 ) -> Result<DitherRow, SliceError> {
     let [heavy, light] = order.pair()?;
+    check_room(order)?;
     let least = light.density_g_cm3.value / heavy.density_g_cm3.value;
     let field = order.field.on(order.solid);
     let voxels = Voxels::of(order.solid, field.as_ref(), order.printer, least)?;
@@ -79,6 +80,23 @@ pub fn dither_model(
 
 fn json(value: &impl serde::Serialize) -> Result<Vec<u8>, SliceError> {
     Ok((serde_json::to_string_pretty(value)? + "\n").into_bytes())
+}
+
+/// Refuses a model that is larger than the printer's room, before any pixel is counted.
+fn check_room(order: &DitherOrder) -> Result<(), DitherError> {
+    let Some(room) = &order.printer.build_volume_mm else {
+        return Ok(());
+    };
+    let size_mm: [f64; 3] = order.solid.mesh().aabb().size().into();
+    let is_beyond = (0..3).any(|axis| size_mm[axis] > room.value[axis]);
+    if !is_beyond {
+        return Ok(());
+    }
+    Err(DitherError::TooLarge {
+        printer: order.printer.name.clone(),
+        size_mm: size_mm.map(f64::round),
+        room_mm: room.value,
+    })
 }
 
 /// What makes up for the pixels that the surface cuts.
