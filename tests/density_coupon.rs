@@ -14,22 +14,14 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use common::{assert_exit, equipoise_in, files, json, list, number, path, printed, words};
+use common::{
+    assert_exit, equipoise_in, files, has_slicer, json, list, number, path, printed, words,
+};
 use equipoise::base::watch::Watch;
 use equipoise::io::gcode::{Options, Place, Toolpath, read_gcode};
 
 /// Density of the filament whose blocks are weighed here, g/cm³. It is not that of the profile.
 const DENSITY_G_CM3: f64 = 1.27;
-
-/// Returns true if there is a slicer; says so if there is none.
-fn has_slicer() -> bool {
-    let is_there = Command::new("prusa-slicer").arg("--help").output().is_ok();
-    if !is_there {
-        let install = "apt-get install --no-install-recommends prusa-slicer";
-        eprintln!("SKIPPED: no prusa-slicer here; {install}");
-    }
-    is_there
-}
 
 /// Slices a plate as a shop does, with nothing set but the machine.
 fn slice(plate: &Path) -> PathBuf {

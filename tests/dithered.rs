@@ -195,6 +195,7 @@ fn what_cannot_be_set_in_two_materials_is_refused_and_nothing_is_written() {
             "--field says nothing",
         ),
         (" --field uniform:0.7", "", "--field"),
+        ("--size 6mm", "--size 2m", "remedy: a smaller size"),
     ] {
         let output = dither(folder.path(), &right.replace(from, to), "none");
         assert_exit(&output, 2);

@@ -217,6 +217,10 @@ fn orders_that_do_not_fit_a_field_are_refused_with_what_to_type() {
             "--interior graded --field ramp:0,0,1@0mm..9mm:0.2..0.5 --density 15%..60%",
             "leave one of them out",
         ),
+        (
+            "--interior graded --field sine:0,0,0@5mm:0.2..0.6",
+            "a longer wave",
+        ),
     ] {
         let error = common::refused(|kit| prepare(kit, &format!("{stand} {options}")));
         let error = error.replace('\n', " ");

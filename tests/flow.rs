@@ -16,7 +16,8 @@ use std::process::Command;
 use std::sync::OnceLock;
 
 use common::{
-    ELLIPSOID, assert_exit, cura_definitions, equipoise, json, list, number, path, printed, words,
+    ELLIPSOID, assert_exit, cura_definitions, equipoise, has_slicer, json, list, number, path,
+    printed, words,
 };
 use serde_json::Value;
 
@@ -72,16 +73,6 @@ fn assert_calibrated(found: &Value, name: &str) {
         (laid_g / written_g - 1.0).abs() < 0.02,
         "{name}: {laid_g} {written_g}"
     );
-}
-
-/// Returns true if there is PrusaSlicer; says so if there is none.
-fn has_slicer() -> bool {
-    let is_there = Command::new("prusa-slicer").arg("--help").output().is_ok();
-    if !is_there {
-        let install = "apt-get install --no-install-recommends prusa-slicer";
-        eprintln!("SKIPPED: no prusa-slicer here; {install}");
-    }
-    is_there
 }
 
 #[test]

@@ -16,7 +16,9 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use std::sync::OnceLock;
 
-use common::{ELLIPSOID, assert_exit, equipoise, files, json, list, number, path, printed, words};
+use common::{
+    ELLIPSOID, assert_exit, equipoise, files, has_slicer, json, list, number, path, printed, words,
+};
 use serde_json::Value;
 use tempfile::TempDir;
 
@@ -82,16 +84,6 @@ fn text_of(package: &Path, part: &str) -> String {
         .read_to_string(&mut text)
         .unwrap();
     text
-}
-
-/// Returns true if there is a slicer; says so if there is none.
-fn has_slicer() -> bool {
-    let is_there = Command::new("prusa-slicer").arg("--help").output().is_ok();
-    if !is_there {
-        let install = "apt-get install --no-install-recommends prusa-slicer";
-        eprintln!("SKIPPED: no prusa-slicer here; {install}");
-    }
-    is_there
 }
 
 #[test]

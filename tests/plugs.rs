@@ -148,6 +148,18 @@ fn the_judge_blames_a_plug_that_would_fall_in() {
 }
 
 #[test]
+fn the_judge_blames_a_plug_without_a_gap_and_one_that_is_said_to_close_two_holes() {
+    let mut evidence = read_kit(&plugged().0).unwrap();
+    evidence.promise.drains[0].plug.as_mut().unwrap().gap_mm = 0.0;
+    assert!(broken(&evidence).iter().any(|key| key == "plugs"));
+    let mut evidence = read_kit(&plugged().0).unwrap();
+    let mut other = evidence.promise.drains[0].clone();
+    other.id = "D2".to_owned();
+    evidence.promise.drains.push(other);
+    assert!(broken(&evidence).iter().any(|key| key == "plugs"));
+}
+
+#[test]
 fn the_judge_blames_a_body_that_is_said_to_be_the_plug() {
     let mut evidence = read_kit(&plugged().0).unwrap();
     evidence.promise.drains[0].plug.as_mut().unwrap().part = "P01".to_owned();
@@ -170,6 +182,27 @@ fn a_thing_of_powder_floats_in_one_piece_once_its_holes_are_closed() {
     let output = prepare(&kit, &words(&float));
     assert_exit(&output, 0);
     assert!(!list(&json(&output), "drains").is_empty());
+    // Without the plug, water gets in.
+    let mut evidence = read_kit(&kit).unwrap();
+    assert!(broken(&evidence).iter().all(|key| key != "plugs"));
+    evidence.promise.drains[0].plug = None;
+    assert!(broken(&evidence).iter().any(|key| key == "plugs"));
+}
+
+#[test]
+fn what_sinks_without_a_void_that_has_no_place_for_holes_is_refused() {
+    // Nylon is a little heavier than water: the void is too small for a hole of 9 mm.
+    let folder = tempfile::tempdir().unwrap();
+    let order = "--size 30mm --pitch 0.3mm --goal float --up z --cut never --plugs \
+                 --printer formlabs-fuse1 --drain 9mm";
+    let output = prepare(&folder.path().join("kit"), &words(order));
+    assert_exit(&output, 2);
+    let said = printed(&output);
+    assert!(
+        said.contains("has no place for drain holes of 9 mm") && said.contains("--drain=auto"),
+        "{said}"
+    );
+    assert_eq!(files(folder.path()).len(), 0);
 }
 
 #[test]

@@ -16,7 +16,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use std::sync::OnceLock;
 
-use common::{equipoise, list, number, path, printed, words};
+use common::{equipoise, has_slicer, list, number, path, printed, words};
 use serde_json::Value;
 use zip::write::SimpleFileOptions;
 use zip::{ZipArchive, ZipWriter};
@@ -46,16 +46,6 @@ fn bench() -> Option<&'static Bench> {
         --pitch 0.4mm";
     let make = || Bench::new("printed", common::ELLIPSOID.as_ref(), options);
     has_slicer().then(|| BENCH.get_or_init(make))
-}
-
-/// Returns true if there is a slicer; says so if there is none.
-fn has_slicer() -> bool {
-    let is_there = Command::new("prusa-slicer").arg("--help").output().is_ok();
-    if !is_there {
-        let install = "apt-get install --no-install-recommends prusa-slicer";
-        eprintln!("SKIPPED: no prusa-slicer here; {install}");
-    }
-    is_there
 }
 
 impl Bench {

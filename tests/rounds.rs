@@ -14,7 +14,9 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use std::sync::OnceLock;
 
-use common::{ELLIPSOID, assert_exit, equipoise, files, json, list, number, path, printed, words};
+use common::{
+    ELLIPSOID, assert_exit, equipoise, files, has_slicer, json, list, number, path, printed, words,
+};
 use serde_json::Value;
 use tempfile::TempDir;
 
@@ -24,16 +26,6 @@ const SMALL: &str = "--goal top --up z --printer prusa-mk4 --size 40mm --pitch 0
 fn prepare(out: &Path, options: &str) -> Output {
     let usual = ["--json", "prepare", ELLIPSOID, "--out", path(out)];
     equipoise(&[&usual[..], &words(options)].concat())
-}
-
-/// Returns true if there is a slicer; says so if there is none.
-fn has_slicer() -> bool {
-    let is_there = Command::new("prusa-slicer").arg("--help").output().is_ok();
-    if !is_there {
-        let install = "apt-get install --no-install-recommends prusa-slicer";
-        eprintln!("SKIPPED: no prusa-slicer here; {install}");
-    }
-    is_there
 }
 
 /// A kit that was sliced while it was prepared.

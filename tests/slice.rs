@@ -11,11 +11,12 @@ mod common;
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::Output;
 use std::sync::OnceLock;
 
 use common::{
-    ELLIPSOID, assert_exit, equipoise, equipoise_in, files, list, number, path, printed, sum, words,
+    ELLIPSOID, assert_exit, equipoise, equipoise_in, files, has_slicer, list, number, path,
+    printed, sum, words,
 };
 use serde_json::Value;
 
@@ -65,16 +66,6 @@ impl Bench {
         static RIGHT: OnceLock<(Output, PathBuf)> = OnceLock::new();
         RIGHT.get_or_init(|| self.slice("right", &[]))
     }
-}
-
-/// Returns true if there is a slicer; says so if there is none.
-fn has_slicer() -> bool {
-    let is_there = Command::new("prusa-slicer").arg("--help").output().is_ok();
-    if !is_there {
-        let install = "apt-get install --no-install-recommends prusa-slicer";
-        eprintln!("SKIPPED: no prusa-slicer here; {install}");
-    }
-    is_there
 }
 
 #[test]

@@ -57,9 +57,9 @@ pub enum DitheredError {
 struct Found<'a> {
     folder: &'a Path,
     dithered: &'a DitherRow,
-    /// What the images weigh that were read again.
+    /// The figures of the images, as they were read again.
     weighed: &'a BodyRow,
-    /// How far that is from what the model with its field weighs.
+    /// Their difference from the model with its field.
     off: Off,
     is_kept: bool,
 }

@@ -37,12 +37,12 @@ mod summary;
 pub mod telescope;
 pub mod tets_file;
 mod toolpaths;
+mod usual;
 mod values;
 pub mod verify;
 pub mod voice;
 mod volume_facts;
 pub mod wing;
-mod wonted;
 mod wrap;
 
 use std::error::Error;

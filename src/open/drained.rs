@@ -8,10 +8,14 @@ use crate::base::units::format_count;
 use crate::base::watch::Watch;
 use crate::cut::{self, CutPlan, Drained, PlanRequest, VoidId, find_hollow_cups};
 use crate::error::{DrainError, Error};
+use crate::goal::FloatConditions;
 use crate::job::DrainOrder;
 use crate::mass::Moments;
 use crate::printer::DrainNeed;
 use crate::run::{KeptCause, KeptSolid, Opened, Placed, Rung, Solved, Voids};
+
+/// Excess of a mass over what floats that is more than rounding.
+const HEAVY_RATIO: f64 = 1e-4;
 
 /// Draws the voids of a solution and drains them through holes in the wall.
 ///
@@ -43,6 +47,7 @@ pub fn drained<'a>(
                 plan = found.plan;
                 break;
             }
+            let lost: Vec<VoidId> = rest.kept.iter().map(|kept| kept.void).collect();
             let (round, less) = keep_solid(&mut resolver, &voids, rest, &|_| false)?;
             cleaning.push(round);
             let Some(less) = less else {
@@ -51,6 +56,9 @@ pub fn drained<'a>(
                 break;
             };
             voids = resolver.correct(less, Moments::default())?;
+            if sinks(placed, &voids) {
+                return Err(no_place(placed, &lost, &need).into());
+            }
         }
     }
     Ok(Candidate {
@@ -84,9 +92,6 @@ pub fn drain_again(
 
 /// Returns the holes that each void needs.
 fn need(placed: &Placed, voids: &Voids) -> Result<DrainNeed, DrainError> {
-    if placed.job.fill.is_some() {
-        return Err(DrainError::Filling);
-    }
     let holds_part = |void: &cut::Void| void.holds.is_some();
     if voids.hollowed.voids.iter().any(holds_part) {
         return Err(DrainError::Ballast);
@@ -143,10 +148,23 @@ fn refuse_closed(placed: &Placed, found: &Drained, need: &DrainNeed) -> Result<(
     if found.closed.is_empty() {
         return Ok(());
     }
-    let voids: Vec<String> = found.closed.iter().map(VoidId::to_string).collect();
-    Err(DrainError::NoPlace {
+    Err(no_place(placed, &found.closed, need))
+}
+
+/// Returns the error that these voids have no place for their holes.
+fn no_place(placed: &Placed, voids: &[VoidId], need: &DrainNeed) -> DrainError {
+    let voids: Vec<String> = voids.iter().map(VoidId::to_string).collect();
+    DrainError::NoPlace {
         voids: voids.join(", "),
         diameter_mm: need.diameter_mm,
         is_asked: placed.job.drain.asked_mm().is_some(),
-    })
+    }
+}
+
+/// Returns whether what should float has no void left, and is heavier than what it displaces.
+fn sinks(placed: &Placed, voids: &Voids) -> bool {
+    let goal = placed.goal();
+    let is_heavy =
+        |afloat: &FloatConditions| goal.solid.volume() > afloat.material_mm3 * (1.0 + HEAVY_RATIO);
+    voids.hollowed.voids.is_empty() && goal.afloat.as_ref().is_some_and(is_heavy)
 }

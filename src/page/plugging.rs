@@ -5,37 +5,40 @@ use maud::{Markup, html};
 use super::cleaning::side_of;
 use crate::base::numbers::{coordinates, measured};
 use crate::sheet::Checklist;
-use crate::verify::{PromisedHole, PromisedPlug};
 
 /// Returns the step in which the drain holes are closed; `None` without plugs.
 pub(super) fn close_holes(sheet: &Checklist) -> Option<Markup> {
-    let plugged = sheet.drains.iter();
-    let plugged = plugged.filter_map(|hole| Some((hole, hole.plug.as_ref()?)));
-    let plugged: Vec<(&PromisedHole, &PromisedPlug)> = plugged.collect();
+    let mut plugs = sheet.plugs().peekable();
+    plugs.peek()?;
     let known = sheet.printer.glue.as_ref();
     let glue = known.map_or("glue", |glue| &glue.name);
     let safety = known.and_then(|glue| glue.safety.as_ref());
-    (!plugged.is_empty()).then(|| {
-        html! {
-            p {
-                "Close a hole only when its void is empty, clean and dry. Coat the flank of its plug \
-                 thinly with " (glue) ", and push the narrow end in until the outer end is flush. It may go \
-                 deeper: stop at flush, and hold it until the glue grips. Wipe off what comes out. \
-                 Sand what stands out once the glue has set. Each plug fits its own hole alone: keep \
-                 it in a bag with its name."
+    Some(html! {
+        p {
+            "Close a hole only when its void is empty, clean and dry. Coat the flank of its plug \
+             thinly with " (glue) ", and push the narrow end in until the outer end is flush. It may go \
+             deeper: stop at flush, and hold it until the glue grips. Wipe off what comes out. \
+             Sand what stands out once the glue has set. Each plug fits its own hole alone: keep \
+             it in a bag with its name."
+        }
+        @if let Some(safety) = safety { p { strong { "Safety: " } (safety) } }
+        table class="stack" {
+            thead {
+                tr {
+                    th scope="col" { "Plug" }
+                    th scope="col" { "Hole" }
+                    th scope="col" class="n" { "Gap on each side" }
+                }
             }
-            @if let Some(safety) = safety { p { strong { "Safety: " } (safety) } }
-            table class="stack" {
-                thead { tr { th scope="col" { "Plug" } th scope="col" { "Hole" } th scope="col" class="n" { "Gap on each side" } } }
-                tbody {
-                    @for (hole, plug) in plugged {
-                        tr {
-                            th scope="row" { "☐ " (plug.part) }
-                            td data-head="Hole" {
-                                (hole.id) " on its " (side_of(sheet, hole)) " at " (coordinates(&hole.from_mm)) " mm"
-                            }
-                            td class="n" data-head="Gap on each side" { (measured(plug.gap_mm, "mm")) }
+            tbody {
+                @for (hole, plug) in plugs {
+                    tr {
+                        th scope="row" { "☐ " (plug.part) }
+                        td data-head="Hole" {
+                            (hole.id) " on its " (side_of(sheet, hole))
+                            " at " (coordinates(&hole.from_mm)) " mm"
                         }
+                        td class="n" data-head="Gap on each side" { (measured(plug.gap_mm, "mm")) }
                     }
                 }
             }
@@ -47,6 +50,7 @@ pub(super) fn close_holes(sheet: &Checklist) -> Option<Markup> {
 mod tests {
     use super::*;
     use crate::testing::sample;
+    use crate::verify::{PromisedHole, PromisedPlug};
 
     #[test]
     fn every_plug_is_told_with_its_hole_and_without_plugs_there_is_no_step() {

@@ -31,8 +31,7 @@ pub(super) fn you_need(sheet: &Checklist) -> String {
 
 /// Returns whether anything is glued: joints, or plugs in drain holes.
 fn is_glued(sheet: &Checklist) -> bool {
-    let mut drains = sheet.drains.iter();
-    !sheet.joints.is_empty() || drains.any(|hole| hole.plug.is_some())
+    !sheet.joints.is_empty() || sheet.plugs().next().is_some()
 }
 
 /// Names the tools that clean the parts; `None` for an unknown process.

@@ -114,8 +114,7 @@ pub fn pieces(sheet: &Checklist) -> String {
         1 => " (in one plane)".to_owned(),
         _ => format!(" (in {planes} planes)"),
     };
-    let plugs = sheet.drains.iter().filter(|hole| hole.plug.is_some());
-    let plugs = plugs.count();
+    let plugs = sheet.plugs().count();
     let counts = [
         (sheet.parts.len().saturating_sub(plugs), "part", ""),
         (plugs, "plug", ""),

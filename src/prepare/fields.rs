@@ -1,6 +1,7 @@
 //! Fields: a family fitted to the goal, or a field with its numbers, in the regions of a print.
 
 use super::densities::{fill, nested};
+use super::given::SAME_RATIO;
 use super::levels::{COARSE_COLUMNS, with_load};
 use crate::ballast::Load;
 use crate::base::setting::{Key, Setting};
@@ -12,9 +13,6 @@ use crate::interior::Columns;
 use crate::job::{FieldOrder, GivenField, Job};
 use crate::run::{Extent, Level, Nested, Placed};
 use crate::shell::Shell;
-
-/// Distance of two densities that are the same, as a share of solid print: the rounding of orders.
-const SAME_RATIO: f64 = 1e-5;
 
 /// Returns a placed goal with the field that its job orders in its regions. Without one it stays as
 /// it is.

@@ -5,7 +5,7 @@ use crate::job::{DensityOrder, InfillDensity, Job};
 use crate::printer::Printer;
 
 /// Distance of two densities that are the same, as a share of solid print: the rounding of orders.
-const SAME_RATIO: f64 = 1e-5;
+pub const SAME_RATIO: f64 = 1e-5;
 
 /// The greatest density to set that is infill, over solid print.
 const GREATEST_INFILL: f64 = 0.99;

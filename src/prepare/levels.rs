@@ -132,10 +132,12 @@ fn course(placed: &Placed, problem: &Problem, solution: &Solution, watch: &Watch
     } else {
         of_top.passes
     };
-    let near = placed
+    // A field is not the least change of anything.
+    let nested = placed
         .sparse
         .as_ref()
-        .and_then(|nested| nested.near.as_ref());
+        .filter(|nested| nested.field.is_none());
+    let near = nested.and_then(|nested| nested.near.as_ref());
     let near = near.filter(|_| solution.is_usable());
     TopCourse {
         passes,

@@ -17,7 +17,7 @@ use crate::printer::Plate;
 use crate::repair::RepairOrder;
 use crate::verify::{
     Check, Figures, FillOrder, Hardware, InfillOrder, LaidOrder, PromisedFigure, PromisedHole,
-    PromisedPlate, SCHEMA,
+    PromisedPlate, PromisedPlug, SCHEMA,
 };
 
 /// The job sheet of a kit, for machines; the room `page` renders the same for people.
@@ -246,8 +246,15 @@ pub enum ChecklistError {
 impl Checklist {
     /// Returns the drain hole that a part closes; `None` for a part that is no plug.
     pub fn hole_of_plug(&self, part: &str) -> Option<&PromisedHole> {
-        let mut drains = self.drains.iter();
-        drains.find(|hole| hole.plug.as_ref().is_some_and(|plug| plug.part == part))
+        let mut plugs = self.plugs();
+        let own = plugs.find(|(_, plug)| plug.part == part);
+        own.map(|(hole, _)| hole)
+    }
+
+    /// Returns the drain holes that are closed by plugs, with their plugs.
+    pub fn plugs(&self) -> impl Iterator<Item = (&PromisedHole, &PromisedPlug)> {
+        let drains = self.drains.iter();
+        drains.filter_map(|hole| Some((hole, hole.plug.as_ref()?)))
     }
 
     /// Version of the keys that this program writes.

@@ -6,6 +6,7 @@ use serde::Serialize;
 
 use super::cover::{Lie, Sheet, Sheets, Whose};
 use super::part_probe::PartProbe;
+use super::plugs::{MeantPlug, meant_plugs};
 use super::{Body, Promise, PromisedHole, VoidFacts};
 use crate::base::watch::{Cancelled, Watch};
 use crate::geom::{Bvh, Point};
@@ -44,6 +45,8 @@ pub(super) struct Bored {
     pub(super) walls: Vec<[Point; 3]>,
     /// The volume that each hole takes beyond those before it, mm³.
     pub(super) taken_mm3: Vec<f64>,
+    /// The stated plugs as they should be, in the order of their holes.
+    pub(super) plugs: Vec<MeantPlug>,
 }
 
 impl Bored {
@@ -53,6 +56,7 @@ impl Bored {
         if promise.drains.is_empty() {
             return None;
         }
+        let whole = Csg::of_mesh(&body.welded).ok()?;
         let mut bored = Csg::of_mesh(&body.welded).ok()?;
         let mut mesh = body.welded.clone();
         let mut taken_mm3 = Vec::new();
@@ -65,6 +69,7 @@ impl Bored {
         let divided = Self::divide(&mesh, body);
         Some(Self {
             taken_mm3,
+            plugs: meant_plugs(promise, body, &whole),
             ..divided
         })
     }
@@ -87,6 +92,7 @@ impl Bored {
             inner: Vec::new(),
             walls: Vec::new(),
             taken_mm3: Vec::new(),
+            plugs: Vec::new(),
         };
         for (corners, lie) in corners.into_iter().zip(lies) {
             match lie {

@@ -47,9 +47,8 @@ pub struct PromisedPlug {
 impl PromisedHole {
     /// Returns the plug as it should be in a body with this outside; `None` if it gets none, or if
     /// its numbers bound none.
-    pub(super) fn plug_in(&self, outer: &TriMesh) -> Option<TriMesh> {
+    pub(super) fn plug_in(&self, outer: &Csg) -> Option<TriMesh> {
         let gap_mm = self.plug.as_ref()?.gap_mm;
-        let outer = Csg::of_mesh(outer).ok()?;
         let plug = outer.intersect(&self.prism_less(gap_mm)?).ok()?;
         plug.to_mesh()
             .ok()
@@ -58,8 +57,8 @@ impl PromisedHole {
 
     /// Returns by how much the plug is wider than the narrowest place of the hole in the wall, on
     /// each side, mm; `None` if the numbers bound no hole.
-    pub(super) fn hold_mm(&self, plug: &TriMesh, body: &TriMesh) -> Option<f64> {
-        let taken = Csg::of_mesh(body).ok()?.intersect(&self.prism()?).ok()?;
+    pub(super) fn hold_mm(&self, plug: &TriMesh, body: &Csg) -> Option<f64> {
+        let taken = body.intersect(&self.prism()?).ok()?;
         let taken = taken.to_mesh().ok()?;
         let across = |p: &Point| self.across_mm(p).unwrap_or([0.0, f64::INFINITY]);
         let widths = plug.vertices().iter().map(|p| across(p)[0]);
@@ -117,5 +116,50 @@ impl PromisedHole {
         Csg::convex_hull(&ends)
             .ok()
             .filter(|prism| !prism.is_empty())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::primitives::ball;
+
+    /// Returns a hole of 2 mm through a wall of 2 mm at the top of a ball, and how far its plug
+    /// holds. The hole widens by a slope, and begins at a height over the ball.
+    fn hold_mm(radius_mm: f64, slope: f64, over_mm: f64) -> f64 {
+        let length_mm = over_mm + 2.6;
+        let hole = PromisedHole {
+            id: "D1".to_owned(),
+            void: "V1".to_owned(),
+            from_mm: [0.0, 0.0, radius_mm + over_mm],
+            to_mm: [0.0, 0.0, radius_mm + over_mm - length_mm],
+            diameter_mm: 2.0,
+            mouth_mm: Some(2.0 + 2.0 * slope * length_mm),
+            plug: Some(PromisedPlug {
+                part: "P02".to_owned(),
+                gap_mm: 0.15,
+            }),
+            volume_mm3: 0.0,
+        };
+        let [outer, inner] = [radius_mm, radius_mm - 2.0]
+            .map(|radius_mm| Csg::of_mesh(&ball(&Point::origin(), radius_mm, 5)).unwrap());
+        let plug = hole.plug_in(&outer).unwrap();
+        hole.hold_mm(&plug, &outer.subtract(&inner).unwrap())
+            .unwrap()
+    }
+
+    #[test]
+    fn flanks_that_lean_hold_a_plug_in_a_curved_wall_and_steep_ones_do_not() {
+        for radius_mm in [6.0, 8.0, 20.0] {
+            assert!(hold_mm(radius_mm, 0.25, 0.3) > 0.2, "{radius_mm}");
+            assert!(hold_mm(radius_mm, 0.08, 0.3) < 0.05, "{radius_mm}");
+        }
+    }
+
+    #[test]
+    fn a_hole_that_begins_far_out_is_as_wide_in_the_wall_as_it_is_there() {
+        // The same mouth over a long way makes steep flanks.
+        let slope = 0.25 * 2.9 / 302.6;
+        assert!(hold_mm(8.0, slope, 300.0) < 0.05);
     }
 }

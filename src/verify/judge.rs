@@ -87,7 +87,7 @@ fn judge_beside(
         },
         || {
             let cups = || measure_cups(promise, &evidence.parts, watch);
-            let inside = || Inside::of(evidence, body, watch);
+            let inside = || Inside::of(evidence, body, bored, watch);
             let figures = || AllFigures::of(evidence, body, watch);
             both(|| both(thin, cups), || both(inside, figures))
         },
@@ -231,7 +231,12 @@ struct Inside {
 }
 
 impl Inside {
-    fn of(evidence: &Evidence, body: &Body, watch: &Watch) -> Result<Self, Cancelled> {
+    fn of(
+        evidence: &Evidence,
+        body: &Body,
+        bored: Option<&Bored>,
+        watch: &Watch,
+    ) -> Result<Self, Cancelled> {
         let promise = &evidence.promise;
         let probes: Vec<PartProbe> = evidence.parts.par_iter().map(PartProbe::new).collect();
         let pegs = || measure_pegs(promise, &probes, &body.whole, watch);
@@ -245,7 +250,8 @@ impl Inside {
         let ((pegs, overlaps), (voids, parts)) =
             both(|| both(pegs, overlaps), || both(voids, parts))?;
         let holes = measure_holes(promise, body, bodies, watch)?;
-        let plugs = measure_plugs(promise, body, &probes, watch)?;
+        let meant = bored.map_or(&[][..], |bored| &bored.plugs);
+        let plugs = measure_plugs(promise, meant, &probes, watch)?;
         let mut voids = voids;
         open_through_holes(&mut voids, promise, body, &holes);
         Ok(Self {

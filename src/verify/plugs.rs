@@ -6,7 +6,7 @@ use super::part_probe::PartProbe;
 use super::{Body, PartEvidence, Promise, PromisedHole};
 use crate::base::watch::{Cancelled, Watch};
 use crate::geom::Vector;
-use crate::mesh::least_distance_mm;
+use crate::mesh::{Csg, TriMesh, least_distance_mm};
 
 /// A plug as it was found, beside the part with its hole.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -57,10 +57,42 @@ pub(super) fn unplugged<'a>(
     })
 }
 
-/// Measures the stated plugs, in the order of their holes.
+/// A plug as the stated numbers make it.
+#[derive(Debug, Clone)]
+pub(super) struct MeantPlug {
+    /// The name of its part.
+    pub(super) part: String,
+    /// The hole that it closes.
+    pub(super) hole: String,
+    /// Its surface, model frame.
+    pub(super) mesh: TriMesh,
+    /// Length by which it is wider than the narrowest place of the hole, on each side, mm.
+    pub(super) hold_mm: f64,
+}
+
+/// Returns the stated plugs of a body, whose solid is `whole`, as they should be. Those whose
+/// numbers bound none are left out.
+pub(super) fn meant_plugs(promise: &Promise, body: &Body, whole: &Csg) -> Vec<MeantPlug> {
+    let Some(outer) = Csg::of_mesh(&body.outer).ok() else {
+        return Vec::new();
+    };
+    let meant = promise.drains.iter().filter_map(|hole| {
+        let part = hole.plug.as_ref()?.part.clone();
+        let mesh = hole.plug_in(&outer)?;
+        Some(MeantPlug {
+            part,
+            hole: hole.id.clone(),
+            hold_mm: hole.hold_mm(&mesh, whole)?,
+            mesh,
+        })
+    });
+    meant.collect()
+}
+
+/// Measures the stated plugs beside what they should be, in the order of their holes.
 pub(super) fn measure_plugs(
     promise: &Promise,
-    body: &Body,
+    meant: &[MeantPlug],
     probes: &[PartProbe],
     watch: &Watch,
 ) -> Result<Vec<PlugFacts>, Cancelled> {
@@ -74,16 +106,14 @@ pub(super) fn measure_plugs(
         let is_single = named.filter(|other| other.part == plug.part).count() == 1;
         let own = probes.iter().find(|probe| probe.part.id == plug.part);
         let own = own.filter(|_| is_single);
-        let meant = hole.plug_in(&body.outer);
-        let held = meant.as_ref();
-        let held = held.and_then(|meant| hole.hold_mm(meant, &body.welded));
+        let meant = meant.iter().find(|meant| meant.hole == hole.id);
         Ok(Some(PlugFacts {
             part: plug.part.clone(),
             hole: hole.id.clone(),
             gap_mm: own.map(|own| gap_mm(own, probes)),
             ordered_gap_mm: plug.gap_mm,
-            hold_mm: held.unwrap_or(0.0),
-            volume_mm3: meant.map_or(0.0, |mesh| mesh.signed_volume_mm3()),
+            hold_mm: meant.map_or(0.0, |meant| meant.hold_mm),
+            volume_mm3: meant.map_or(0.0, |meant| meant.mesh.signed_volume_mm3()),
         }))
     };
     let facts = promise.drains.iter().map(measure);

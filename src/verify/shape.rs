@@ -9,6 +9,7 @@ use super::cover::{Lie, ON_SHEET_MM, Sheet, Sheets, Whose, normal_of};
 use super::drains::Bored;
 use super::files::HOLLOWED_FILE;
 use super::peg_shape::Relief;
+use super::plugs::MeantPlug;
 use super::{Evidence, Shells};
 use crate::base::watch::{Cancelled, Watch};
 use crate::geom::{Bvh, Plane, Point, Vector};
@@ -53,8 +54,8 @@ struct Uncut {
     inner: Vec<Corners>,
     /// The walls of its drain holes.
     bores: Vec<Corners>,
-    /// Its outside without holes.
-    outside: TriMesh,
+    /// The plugs of these holes.
+    plugs: Vec<MeantPlug>,
 }
 
 impl Uncut {
@@ -65,13 +66,13 @@ impl Uncut {
                 outer: bored.outer.clone(),
                 inner: bored.inner.clone(),
                 bores: bored.walls.clone(),
-                outside: shells.outer_mesh(),
+                plugs: bored.plugs.clone(),
             },
             None => Self {
                 outer: shells.outer_mesh().iter_corners().collect(),
                 inner: shells.inner_mesh().iter_corners().collect(),
                 bores: Vec::new(),
-                outside: TriMesh::default(),
+                plugs: Vec::new(),
             },
         }
     }
@@ -181,7 +182,7 @@ impl Sheets {
 
 impl Plan {
     fn new(evidence: &Evidence, uncut: Uncut, parts: &[Vec<Corners>]) -> Self {
-        let outside = uncut.outside;
+        let plugs = uncut.plugs;
         let (of_outer, of_body) = (uncut.outer.len(), uncut.outer.len() + uncut.inner.len());
         let body = uncut.outer.into_iter().chain(uncut.inner);
         let body: Vec<Corners> = body.chain(uncut.bores).collect();
@@ -193,8 +194,12 @@ impl Plan {
             sheets.extend(own.into_iter().map(|c| sheet(c, Whose::Only(index))));
             sheets.extend(mouth.into_iter().map(|c| sheet(c, Whose::AllBut(index))));
         }
-        for (index, plug) in plugs(evidence, &outside) {
-            let plug: Vec<Corners> = plug.iter_corners().collect();
+        for plug in plugs {
+            let mut own = evidence.parts.iter();
+            let Some(index) = own.position(|part| part.id == plug.part) else {
+                continue;
+            };
+            let plug: Vec<Corners> = plug.mesh.iter_corners().collect();
             wanted.extend(plug.iter().map(|&corners| (corners, Some(index))));
             sheets.extend(plug.into_iter().map(|c| sheet(c, Whose::Only(index))));
         }
@@ -276,17 +281,6 @@ fn reliefs(evidence: &Evidence) -> Vec<(usize, Relief)> {
         all.map(move |relief| (index, relief))
     });
     of_part.collect()
-}
-
-/// Returns the stated plugs as they should be, with the index of the part that is each.
-fn plugs(evidence: &Evidence, outside: &TriMesh) -> Vec<(usize, TriMesh)> {
-    let promise = &evidence.promise;
-    let plugs = promise.drains.iter().filter_map(|hole| {
-        let own = &hole.plug.as_ref()?.part;
-        let index = promise.parts.iter().position(|part| part.id == *own)?;
-        Some((index, hole.plug_in(outside)?))
-    });
-    plugs.collect()
 }
 
 /// Returns triangles as a mesh; corners at one place stay apart.

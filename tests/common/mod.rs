@@ -205,3 +205,16 @@ pub fn copy(from: &Path, to: &Path) {
         fs::write(target, bytes).unwrap();
     }
 }
+
+/// Returns true if there is PrusaSlicer; says so if there is none.
+pub fn has_slicer() -> bool {
+    let is_there = std::process::Command::new("prusa-slicer")
+        .arg("--help")
+        .output()
+        .is_ok();
+    if !is_there {
+        let install = "apt-get install --no-install-recommends prusa-slicer";
+        eprintln!("SKIPPED: no prusa-slicer here; {install}");
+    }
+    is_there
+}

@@ -1,5 +1,7 @@
 //! Command lines and the jobs they make.
 
+mod plans;
+
 use std::path::Path;
 
 use clap::CommandFactory;
@@ -344,17 +346,6 @@ fn the_rules_for_seams_reach_the_job() {
 }
 
 #[test]
-fn plans_are_written_beside_the_model_and_not_over_its_kit() {
-    let kit = request(PREPARE).out;
-    let plans = request(&format!("{PREPARE} --plans 2")).out;
-    assert_eq!(kit, Path::new("elephant-top"));
-    assert_eq!(plans, Path::new("elephant-plans"));
-    let line = PREPARE.replace("prepare", "cuts");
-    assert!(matches!(parse(&line).unwrap().command, Command::Cuts(_)));
-    assert!(parse(&format!("{PREPARE} --plans 9")).is_err());
-}
-
-#[test]
 fn numbers_take_the_units_that_people_type() {
     let line = "equipoise prepare m.stl --printer a --goal balance --speed 3000rpm --grade G1";
     let rotor = request(line).job.goal.rotor.unwrap();
@@ -395,18 +386,4 @@ fn the_long_help_has_every_option_and_begins_with_what_is_needed() {
     let at = |option: &str| help.find(&format!("      --{option} ")).unwrap();
     assert!(at("goal") < at("printer") && at("printer") < at("size"));
     assert!(at("size") < at("material") && at("size") < at("contact"));
-}
-
-#[test]
-fn plans_are_no_kit_and_what_only_a_kit_has_is_refused() {
-    for (more, flag) in [("--tets part.msh", "--tets"), ("--slice", "--slice")] {
-        let line =
-            format!("equipoise cuts models/elephant.obj --printer prusa-mk4 --goal top {more}");
-        let Command::Cuts(mut args) = parse(&line).unwrap().command else {
-            panic!("{line}")
-        };
-        args.plans = Some(DEFAULT_PLANS);
-        let said = args.request().unwrap_err().to_string();
-        assert!(said.contains(&format!("{flag} is for a kit")), "{said}");
-    }
 }

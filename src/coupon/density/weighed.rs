@@ -43,7 +43,7 @@ pub enum WeighError {
     Count {
         /// The infill, per cent.
         percent: f64,
-        /// Whether it is solid print.
+        /// True if it is solid print.
         is_solid: bool,
     },
     /// A mass that is not positive and finite.

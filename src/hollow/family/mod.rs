@@ -4,7 +4,7 @@
 //! goal with four equations has at best a few such fields. They are found by Levenberg's and
 //! Marquardt's method from many starts, with the derivatives ∂s/∂θ = ∫ ∂d/∂θ m dV.
 //!
-//! What is printed are steps: nested regions of one density each, between level sets of one
+//! They are printed in steps: nested regions of one density each, between level sets of one
 //! quadric. They have other moments than the smooth field. So the last fit is of the steps.
 //!
 //! Source: Bukenberger, Lensch, "Tetrahedra of varying density and their applications", The Visual

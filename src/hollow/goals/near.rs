@@ -55,6 +55,11 @@ impl NearWished {
             Verdict::Found(kept) => kept,
             Verdict::No(impossible) => return *impossible,
         };
+        self.keeping(problem, kept, watch)
+    }
+
+    /// Finds the least change of the wished density that meets the goal and keeps this.
+    pub(super) fn keeping(&self, problem: &Problem, kept: Option<Kept>, watch: &Watch) -> Solution {
         let angle_rad = kept.as_ref().map_or(0.0, Kept::angle_rad);
         let rows = rows(problem.goal, self.least_angle_rad.max(angle_rad));
         let graded = Graded {

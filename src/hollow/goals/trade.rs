@@ -2,6 +2,7 @@
 
 use rayon::prelude::*;
 
+use super::kept::Kept;
 use super::near::NearWished;
 use crate::base::watch::Watch;
 use crate::goal::{Figures, Goal, GoalKind, Objective, compute_figures};
@@ -26,8 +27,8 @@ pub struct Trade {
 impl NearWished {
     /// Computes the trade of a goal on these columns; empty for a goal without a figure to keep.
     ///
-    /// Costs about twenty searches, so coarse columns are advisable. If `watch` is stopped, points
-    /// are missing.
+    /// Costs a search for the best print and one for each of eight shares of it, so coarse columns
+    /// are advisable. If `watch` is stopped, points are missing.
     #[must_use]
     pub fn trade(&self, problem: &Problem, watch: &Watch) -> Trade {
         let goal = problem.goal;
@@ -44,11 +45,8 @@ impl NearWished {
         };
         let keeping = |share: &f64| {
             watch.check().ok()?;
-            let near = Self {
-                keep: Some(*share),
-                ..self.clone()
-            };
-            let found = near.solve(problem, None, &watch.muted());
+            let kept = Kept::of(goal, &best.moments, Some(*share));
+            let found = self.keeping(problem, Some(kept), &watch.muted());
             let (_, value) = figure_of(goal, &compute_figures(goal, &found.moments))?;
             found
                 .is_usable()

@@ -40,19 +40,16 @@ pub enum DitherError {
         /// What it does instead.
         reason: &'static str,
     },
-    /// The model is larger than the printer's room.
+    /// The model is larger than the printer's room, or its layers than memory holds.
     #[error(
-        "the model is {} × {} × {} mm, and {printer} prints {} × {} × {} mm; remedy: a smaller \
-         size, or another printer", size_mm[0], size_mm[1], size_mm[2], room_mm[0], room_mm[1],
-        room_mm[2]
+        "the model of {} × {} × {} mm is larger than {printer} prints, or its layers have more than \
+         100 million pixels; remedy: a smaller size", size_mm[0], size_mm[1], size_mm[2]
     )]
     TooLarge {
         /// The name of the printer.
         printer: String,
         /// The size of the model, rounded, mm.
         size_mm: [f64; 3],
-        /// The build volume, mm.
-        room_mm: [f64; 3],
     },
     /// The printer's profile has one material.
     #[error(

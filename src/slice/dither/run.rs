@@ -16,6 +16,10 @@ use crate::printer::Material;
 use crate::raster::{Cell, Diffusion};
 use crate::slice::error::SliceError;
 
+/// Most pixels of a layer: some 13 bytes each are in memory. A tray of 400 mm at 600 dpi has 90
+/// million.
+const MOST_PIXELS: f64 = 1e8;
+
 /// Lacking moments, in pixels, that single pixels make up with some to spare.
 const FEW: f64 = MOST_CHANGES as f64 / 10.0;
 
@@ -82,21 +86,25 @@ fn json(value: &impl serde::Serialize) -> Result<Vec<u8>, SliceError> {
     Ok((serde_json::to_string_pretty(value)? + "\n").into_bytes())
 }
 
-/// Refuses a model that is larger than the printer's room, before any pixel is counted.
+/// Refuses a model that is larger than the printer's room, or whose layers have too many pixels.
+///
+/// It does so before any pixel is counted.
 fn check_room(order: &DitherOrder) -> Result<(), DitherError> {
-    let Some(room) = &order.printer.build_volume_mm else {
-        return Ok(());
-    };
+    let printer = order.printer;
     let size_mm: [f64; 3] = order.solid.mesh().aabb().size().into();
-    let is_beyond = (0..3).any(|axis| size_mm[axis] > room.value[axis]);
-    if !is_beyond {
-        return Ok(());
+    let room = printer.build_volume_mm.as_ref();
+    let is_beyond = room.is_some_and(|room| (0..3).any(|axis| size_mm[axis] > room.value[axis]));
+    let [along, across] = [
+        size_mm[0] / printer.pixel_x_mm.value,
+        size_mm[1] / printer.pixel_y_mm.value,
+    ];
+    if is_beyond || along * across > MOST_PIXELS {
+        return Err(DitherError::TooLarge {
+            printer: printer.name.clone(),
+            size_mm: size_mm.map(f64::round),
+        });
     }
-    Err(DitherError::TooLarge {
-        printer: order.printer.name.clone(),
-        size_mm: size_mm.map(f64::round),
-        room_mm: room.value,
-    })
+    Ok(())
 }
 
 /// What makes up for the pixels that the surface cuts.

@@ -159,12 +159,9 @@ pub(super) fn of_extruder(settings: &SliceSettings) -> Vec<Pair> {
         pair("material_diameter", FILAMENT_MM),
         pair("machine_nozzle_size", mm(settings.nozzle_mm())),
     ];
-    let percent = settings.flow_ratio().map(|ratio| ratio * SOLID_PERCENT);
-    pairs.extend(
-        percent
-            .into_iter()
-            .flat_map(|percent| FLOWS.map(|key| pair(key, mm(percent)))),
-    );
+    if let Some(ratio) = settings.flow_ratio() {
+        pairs.extend(FLOWS.map(|key| pair(key, mm(ratio * SOLID_PERCENT))));
+    }
     pairs
 }
 

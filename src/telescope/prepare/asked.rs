@@ -229,7 +229,7 @@ fn least_sizes(
     let wall_mm = printer.quantise_wall(mm(job.wall), length_mm)?.wall_mm;
     let feature_mm = printer.min_feature_mm.value;
     let glue_mm = printer.clearance_per_side_mm.value;
-    let press_mm = number(Quantity::ClearancePressPerSideMm).unwrap_or(0.5 * glue_mm);
+    let press_mm = printer.snug_gap_mm();
     let seat_mm = match job.lock {
         Lock::Press => press_mm.min(slide_mm),
         Lock::None => slide_mm,

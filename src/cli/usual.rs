@@ -1,4 +1,4 @@
-//! What is wonted: the sizes that are printed, and the material where none is named.
+//! The usual: sizes that are printed, and the material where none is named.
 
 use super::mass_facts::plain;
 use crate::base::setting::{Key, Setting};
@@ -12,6 +12,7 @@ const MAX_SIZE_MM: f64 = 2000.0;
 
 /// The density of the print, g/cm³, without a printer: about that of PLA, PA and resins.
 const PLAIN_DENSITY_G_CM3: f64 = 1.2;
+
 /// Returns a remedy for a longest side, mm, that nobody prints.
 pub(super) fn size_hint(longest_mm: f64) -> Option<String> {
     let is_plausible = (MIN_SIZE_MM..=MAX_SIZE_MM).contains(&longest_mm);
