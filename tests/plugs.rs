@@ -191,15 +191,15 @@ fn a_thing_of_powder_floats_in_one_piece_once_its_holes_are_closed() {
 
 #[test]
 fn what_sinks_without_a_void_that_has_no_place_for_holes_is_refused() {
-    // Nylon is a little heavier than water: the void is too small for a hole of 9 mm.
+    // Nylon is a little heavier than water: the void is too small for a hole of 12 mm.
     let folder = tempfile::tempdir().unwrap();
     let order = "--size 30mm --pitch 0.3mm --goal float --up z --cut never --plugs \
-                 --printer formlabs-fuse1 --drain 9mm";
+                 --printer formlabs-fuse1 --drain 12mm";
     let output = prepare(&folder.path().join("kit"), &words(order));
     assert_exit(&output, 2);
     let said = printed(&output);
     assert!(
-        said.contains("has no place for drain holes of 9 mm") && said.contains("--drain=auto"),
+        said.contains("has no place for drain holes of 12 mm") && said.contains("--drain=auto"),
         "{said}"
     );
     assert_eq!(files(folder.path()).len(), 0);
