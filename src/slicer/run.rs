@@ -12,8 +12,8 @@ use super::program::{MOST_GIB, Slicer, limited};
 use super::settings::SliceSettings;
 use crate::base::watch::Watch;
 
-/// The most time for one plate. A plate of 100 mm figures takes some ten seconds, one of 200 mm with
-/// six densities beside other work more than five minutes.
+/// The most time for one plate. A plate of 100 mm figures takes some ten seconds. One of 200 mm
+/// with six densities, beside other work, takes more than five minutes.
 const LIMIT: Duration = Duration::from_secs(1800);
 /// Time between two looks at a run.
 const LOOK: Duration = Duration::from_millis(20);
