@@ -24,7 +24,7 @@ use serde_json::Value;
 use tempfile::TempDir;
 
 /// The options of small kits.
-const SMALL: &str = "--goal stand --up y --least-angle 2 --size 40mm --pitch 0.4mm \
+const SMALL: &str = "--goal stand --up y --least-angle 1 --size 40mm --pitch 0.4mm \
     --interior graded";
 /// A printer without a word on the dialect of its plates.
 const MK4: &str = "--printer prusa-mk4";
@@ -203,7 +203,10 @@ fn a_file_weighs_in_its_regions_what_inspect_says_of_it_on_the_kit() {
     assert_eq!(code, Some(0), "{said}");
     let smooth = folder("inspected").join("smooth.toml");
     // Without the skin, which would be that of the hollowed surface too.
-    let text = FILE.replace("    { product = [\"skin:6mm:linear:0..1\", \"uniform:0.1\"] },\n", "");
+    let text = FILE.replace(
+        "    { product = [\"skin:6mm:linear:0..1\", \"uniform:0.1\"] },\n",
+        "",
+    );
     assert_ne!(text, FILE);
     fs::write(&smooth, text).unwrap();
     let options = format!("{MK4} --levels 6 --field {}", path(&smooth));
@@ -231,18 +234,18 @@ fn a_file_weighs_in_its_regions_what_inspect_says_of_it_on_the_kit() {
         "{} regions: {printed_g:.4} g printed, {exact_g:.4} g of the field, centres {off_mm:.4} mm apart",
         all.len()
     );
-    assert!((printed_g / exact_g - 1.0).abs() < 0.01, "{printed_g} {exact_g}");
+    assert!(
+        (printed_g / exact_g - 1.0).abs() < 0.01,
+        "{printed_g} {exact_g}"
+    );
     assert!(off_mm < 0.05, "{off_mm}");
 }
 
 /// Returns a point of a part's file in the model, by the pose on the sheet.
 fn to_model(pose: &Value, at: &Vector) -> Vector {
-    let number = |value: &Value| value.as_f64().unwrap();
-    let row = |value: &Value| -> Vec<f64> { value.as_array().unwrap().iter().map(number).collect() };
-    let shift = row(&pose["translation_mm"]);
-    let rows: Vec<Vec<f64>> = pose["rotation"].as_array().unwrap().iter().map(row).collect();
-    let moved = Vector::from_fn(|axis, _| at[axis] - shift[axis]);
-    Vector::from_fn(|axis, _| (0..3).map(|i| rows[i][axis] * moved[i]).sum())
+    let entry = |row: usize, column: usize| pose[row][column].as_f64().unwrap();
+    let moved = Vector::from_fn(|row, _| at[row] - entry(row, 3));
+    Vector::from_fn(|column, _| (0..3).map(|row| entry(row, column) * moved[row]).sum())
 }
 
 #[test]
@@ -259,7 +262,10 @@ fn a_kit_of_a_file_is_made_again_from_its_own_folder_alone_and_on_other_threads(
         let replay = ["prepare", "--threads", threads, "--job", path(&job)];
         let output = equipoise(&[&replay[..], &["--out", path(&kit)]].concat());
         assert_exit(&output, 0);
-        assert!(common::files(&kit) == common::files(&bench.kit), "{threads}");
+        assert!(
+            common::files(&kit) == common::files(&bench.kit),
+            "{threads}"
+        );
     }
     let page = fs::read_to_string(bench.kit.join("certificate.html")).unwrap();
     assert!(page.contains("The field that was ordered has") && page.contains("field.toml"));
@@ -274,7 +280,10 @@ fn a_skin_is_the_same_bytes_on_one_thread_and_on_two() {
         let replay = ["prepare", "--threads", threads, "--job", path(&job)];
         let output = equipoise(&[&replay[..], &["--out", path(&kit)]].concat());
         assert_exit(&output, 0);
-        assert!(common::files(&kit) == common::files(&skin().kit), "{threads}");
+        assert!(
+            common::files(&kit) == common::files(&skin().kit),
+            "{threads}"
+        );
     }
 }
 
@@ -285,7 +294,7 @@ fn a_field_that_does_not_do_it_is_an_answer_with_the_best_densities_as_a_hint() 
     // Dense above.
     let text = "field = { linear = { at_origin = 0.4, gradient = [0.0, 0.01, 0.0] } }\n";
     fs::write(&file, text).unwrap();
-    let steep = SMALL.replace("--least-angle 2", "--least-angle 3.5");
+    let steep = SMALL.replace("--least-angle 1", "--least-angle 3.5");
     for field in [path(&file), "skin:8mm:linear:0.2..0.7"] {
         let output = prepare(&kit, &format!("{steep} {MK4} --field {field}"));
         assert_exit(&output, 1);
@@ -316,12 +325,21 @@ fn fields_that_cannot_be_printed_are_refused_with_the_place_and_what_to_type() {
         (file("levels.toml", levels), "leave the levels out"),
         (file("sparse.toml", &linear(0.1, 0.001)), "lays from 0.142"),
         (file("dense.toml", &linear(0.9, 0.004)), "scale the field"),
-        (file("none.toml", &linear(0.9, 0.1)), "a density lies from 0 to 1"),
-        (file("typo.toml", "[field]\nsun = []"), "did you mean `sum`?"),
+        (
+            file("none.toml", &linear(0.9, 0.1)),
+            "a density lies from 0 to 1",
+        ),
+        (
+            file("typo.toml", "[field]\nsun = []"),
+            "did you mean `sum`?",
+        ),
         ("missing.toml".to_owned(), "check its name"),
         ("skin:4mm:cubic:0.2..1".to_owned(), "write gauss or linear"),
         ("skin:4mm:gauss:0.05..1".to_owned(), "densities from 0.142"),
-        ("skin:4mm:gauss:0.2..0.995".to_owned(), "or 1 for solid print"),
+        (
+            "skin:4mm:gauss:0.2..0.995".to_owned(),
+            "or 1 for solid print",
+        ),
         (
             "skin:4mm:gauss:0.2..1 --density 15%..60%".to_owned(),
             "leave one of them out",
@@ -332,9 +350,13 @@ fn fields_that_cannot_be_printed_are_refused_with_the_place_and_what_to_type() {
         ),
         ("skin:4mm:gauss:0.2..1 --levels 2".to_owned(), "--levels=3"),
         ("skin:4mm:gauss:0.2..1 --levels 13".to_owned(), "2 to 12"),
-        ("skin:400mm:linear:0.2..1".to_owned(), "nothing but solid print"),
+        (
+            "skin:400mm:linear:0.2..1".to_owned(),
+            "nothing but solid print",
+        ),
     ] {
-        let error = common::refused(|kit| prepare(kit, &format!("{SMALL} {MK4} --field {options}")));
+        let error =
+            common::refused(|kit| prepare(kit, &format!("{SMALL} {MK4} --field {options}")));
         let error = error.replace('\n', " ");
         assert!(error.contains(said), "{options}: {error}");
     }
@@ -358,25 +380,32 @@ fn the_plate_of_every_dialect_has_the_regions_of_a_skin_and_is_judged() {
 }
 
 #[test]
-fn toolpaths_lay_the_regions_of_skins_and_files_as_the_sheet_says() {
+fn toolpaths_put_the_centre_of_skins_and_files_where_the_sheet_says() {
     if !common::has_slicer() {
         return;
     }
     for (name, bench) in [("skin", skin()), ("file", of_file())] {
         let toolpaths = folder(&format!("toolpaths_{name}")).join("gcode");
-        let output = equipoise(&["--json", "slice", path(&bench.kit), "--out", path(&toolpaths)]);
-        // A kit that was not prepared with its toolpaths may break a limit by a little.
+        let order = ["--json", "slice", path(&bench.kit), "--out"];
+        let output = equipoise(&[&order[..], &[path(&toolpaths)]].concat());
+        // Slicers lay more at the borders of regions, and nested ones have many: the judge says so.
         let code = output.status.code();
         assert!(matches!(code, Some(0 | 1)), "{}", printed(&output));
         let gcode = toolpaths.join("plate.gcode");
-        let output = equipoise(&["--json", "verify", path(&bench.kit), "--gcode", path(&gcode)]);
-        let found = json(&output);
-        let off_mm = number(&list(&found, "parts")[0], "/center_off_mm");
-        let laid_mm3 = number(&list(&found, "parts")[0], "/volume_mm3");
+        let order = ["--json", "verify", path(&bench.kit), "--gcode"];
+        let found = json(&equipoise(&[&order[..], &[path(&gcode)]].concat()));
+        let part = &list(&found, "parts")[0];
+        let off_mm = number(part, "/center_off_mm");
+        let laid_g = number(part, "/volume_mm3") * bench.density_g_mm3();
         let promised_g = number(&bench.sheet, "/assembly/mass_g");
-        let laid_g = laid_mm3 * bench.density_g_mm3();
+        let more = laid_g / promised_g - 1.0;
         eprintln!("{name}: {laid_g:.3} g laid, {promised_g:.3} g promised, {off_mm:.4} mm off");
-        assert!(off_mm < 0.2, "{name}: {off_mm}");
-        assert!((laid_g / promised_g - 1.0).abs() < 0.06, "{name}");
+        assert!(off_mm < 0.1, "{name}: {off_mm}");
+        // Lost regions would be solid: twice the mass.
+        assert!((0.0..0.15).contains(&more), "{name}: {more}");
+        let checks = list(&found, "checks");
+        let centers = checks.iter().find(|it| it["kind"] == "printed-centers");
+        let [value, limit] = ["/value", "/limit"].map(|at| number(centers.unwrap(), at));
+        assert!(value <= limit, "{name}: {value} {limit}");
     }
 }

@@ -107,7 +107,9 @@ fn in_bodies(
         .map(|near: &NearWished| near.levels.densities());
     let densities = densities.unwrap_or_default();
     let pairs: Vec<&[f64]> = densities.windows(2).rev().collect();
-    let draw = |pair: &&[f64]| draw_field(placed, drawing, 0.5 * (pair[0] + pair[1]), watch);
+    // Several are drawn at once, so that none tells its progress.
+    let quiet = watch.muted();
+    let draw = |pair: &&[f64]| draw_field(placed, drawing, 0.5 * (pair[0] + pair[1]), &quiet);
     let bodies = pairs
         .par_iter()
         .map(draw)

@@ -4,8 +4,11 @@ use super::field::{Field, Known, Sample};
 use crate::field::Density;
 use crate::geom::{Aabb, Bvh, Point, Vector};
 
-/// Half the distance over which a slope is measured, mm. A kink is rounded by no more.
-const STEP_MM: f64 = 1e-3;
+/// Distance over which a slope is measured, mm. A kink is rounded by no more.
+const STEP_MM: f64 = 1e-4;
+
+/// Largest cell that may hold the surface where that does not matter, in largest cells elsewhere.
+const FAR_RATIO: f64 = 4.0;
 
 /// A density, and the value below which it must lie.
 #[derive(Debug, Clone, Copy)]
@@ -38,20 +41,20 @@ impl<'a> DensityField<'a> {
         }
     }
 
-    /// Returns the slope of the density, 1/mm.
-    fn slope(&self, p: &Point) -> Vector {
+    /// Returns the slope of the density at a point where it has this value, 1/mm.
+    fn slope(&self, p: &Point, value: f64) -> Vector {
         Vector::from_fn(|axis, _| {
-            let step = Vector::ith(axis, STEP_MM);
-            let ends = [p + step, p - step].map(|at| self.level.density.at(&at));
-            (ends[0] - ends[1]) / (2.0 * STEP_MM)
+            let beside = p + Vector::ith(axis, STEP_MM);
+            (self.level.density.at(&beside) - value) / STEP_MM
         })
     }
 }
 
 impl Field for DensityField<'_> {
     fn sample(&self, p: &Point, _nearby: &[Known]) -> Sample {
-        let lack = self.level.below - self.level.density.at(p);
-        let slope = -self.slope(p);
+        let value = self.level.density.at(p);
+        let lack = self.level.below - value;
+        let slope = -self.slope(p, value);
         let steepness = slope.norm();
         if steepness == 0.0 {
             let far_mm = self.coarse_mm.copysign(lack);
@@ -67,8 +70,10 @@ impl Field for DensityField<'_> {
         low >= self.level.below || high < self.level.below
     }
 
-    fn is_too_coarse(&self, _center: &Known, size_mm: f64) -> bool {
-        size_mm > self.coarse_mm * (1.0 + 1e-9)
+    fn is_too_coarse(&self, center: &Known, size_mm: f64) -> bool {
+        let is_large = |most_mm: f64| size_mm > most_mm * (1.0 + 1e-9);
+        is_large(FAR_RATIO * self.coarse_mm)
+            || is_large(self.coarse_mm) && self.matters(&center.at, size_mm)
     }
 
     fn matters(&self, center: &Point, radius_mm: f64) -> bool {

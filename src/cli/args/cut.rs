@@ -48,9 +48,8 @@ pub struct CutArgs {
     /// angle or a height. Tops and yo-yos keep 80% if nothing is said
     #[arg(long, value_name = "PERCENT", allow_hyphen_values = true)]
     pub keep: Option<KeptShare>,
-    /// Print a field of densities in levels: ramp or sine, fitted to the goal, or one with its
-    /// numbers as inspect takes it (words, or a field.toml). Without it the densities are the best
-    /// [default: none]
+    /// Print a field of densities in levels: ramp or sine, fitted to the goal, or one as inspect
+    /// takes it (words or a field.toml). Without it the densities are the best [default: none]
     #[arg(long, value_name = "FIELD", allow_hyphen_values = true)]
     pub field: Option<FieldArg>,
     /// Put seams where they are seen least (hidden), make them short (short), or only level ones
