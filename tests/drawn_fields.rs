@@ -20,6 +20,7 @@ use equipoise::field::{Density, Profile, Skin};
 use equipoise::geom::Vector;
 use equipoise::io::read_model;
 use equipoise::mesh::{MeshDistance, Solid, TriMesh};
+use equipoise::repair::weld;
 use serde_json::Value;
 use tempfile::TempDir;
 
@@ -51,7 +52,7 @@ struct Bench {
 impl Bench {
     /// Returns a part or region as it is written.
     fn mesh(&self, file: &Value) -> TriMesh {
-        read_model(&self.kit.join(file.as_str().unwrap())).unwrap()
+        weld(&read_model(&self.kit.join(file.as_str().unwrap())).unwrap())
     }
 
     /// Returns the density of the material, g/mm³.
@@ -110,7 +111,7 @@ fn of_file() -> &'static Bench {
 fn inspected(file: &str, options: &str) -> (f64, Vector) {
     let output = equipoise(&[&["--json", "inspect", file][..], &words(options)].concat());
     let found = json(&output);
-    let center = list(&found["field"], "center_mm");
+    let center = list(&found["field"]["body"], "center_mm");
     let at = |axis: usize| center[axis].as_f64().unwrap();
     (
         number(&found, "/field/mass_g"),
