@@ -430,6 +430,14 @@ mod tests {
         other.levels = Some("6".parse().unwrap());
         other.keep = Some("95%".parse().unwrap());
         other.field = Some("ramp:0,0,1@20mm..60mm:0.2..1".parse().unwrap());
+        let mut shaped = job();
+        shaped.field = serde_json::from_value(serde_json::json!({
+            "file": "dense.toml",
+            "text": "# A core\n[field]\nsum = [\"uniform:20%\", \"skin:3mm:linear:0..0.3\"]\n",
+        }))
+        .ok();
+        assert!(shaped.field.is_some());
+        assert_eq!(reread(&shaped), shaped);
         other.sliced = vec![SlicedRound {
             miss_mm: 0.0317,
             beyond: [460.1, -3.0, 0.1 + 0.2, 0.0, 1e-7, 2.0, 3.0, 4e9, 5.0, 6.0],

@@ -200,8 +200,8 @@ fn orders_that_do_not_fit_a_field_are_refused_with_what_to_type() {
         ("--field ramp", "--interior=graded"),
         ("--interior graded --field waves", "is not a field"),
         (
-            "--interior graded --field skin:4mm:gauss:0.2..1",
-            "scale-extrusion",
+            "--interior graded --field skin:4mm:gauss:0.05..1",
+            "densities from 0.142",
         ),
         ("--interior graded --field uniform:15", "15%"),
         ("--interior graded --field ramp --levels 2", "--levels=3"),

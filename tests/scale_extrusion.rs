@@ -331,7 +331,7 @@ fn follow(name: &str, options: &str) -> (Value, Value) {
     let kit = bench().join(name);
     let order = format!(
         "--goal stand --up y --least-angle 3.5 --printer prusa-mk4 --size 40mm --pitch 0.4mm \
-         --interior graded --infill 40% --density 15%..70% --levels 5 {options}"
+         --interior graded --infill 40% --density 15%..70% --levels 5 --slice {options}"
     );
     let usual = ["--json", "prepare", ELLIPSOID, "--out", path(&kit)];
     let output = equipoise(&[&usual[..], &words(&order)].concat());

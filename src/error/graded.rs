@@ -2,6 +2,7 @@
 
 use crate::ballast::Order;
 use crate::base::setting::{Key, Setting};
+use crate::field::NotADensity;
 use crate::job::{
     DensityOrder, FieldOrder, Filling, InfillDensity, Interior, KeptShare, LevelCount, PartFormat,
 };
@@ -229,6 +230,39 @@ pub enum GradedError {
         least: f64,
         /// The greatest.
         most: f64,
+    },
+    /// A field has a density inside the walls that the printer's infill cannot be.
+    #[error(
+        "inside the walls `{}` has densities from {:.3} to {:.3}, and {printer} lays from {:.3} to \
+         {:.3}; remedy: scale the field, or give it limits",
+        Setting::new(Key::Field, field),
+        found[0],
+        found[1],
+        lays[0],
+        lays[1]
+    )]
+    FieldBeyondInside {
+        /// The field.
+        field: Box<FieldOrder>,
+        /// The printer's name.
+        printer: String,
+        /// Its least and its greatest density.
+        found: [f64; 2],
+        /// Those that the printer lays.
+        lays: [f64; 2],
+    },
+    /// A field is no density somewhere in the model.
+    #[error(transparent)]
+    FieldFault(#[from] NotADensity),
+    /// A field leaves no infill inside the walls.
+    #[error(
+        "`{}` leaves nothing but solid print inside the walls; remedy: give it a lesser depth or \
+         lesser densities",
+        Setting::new(Key::Field, field)
+    )]
+    FieldSolid {
+        /// The field.
+        field: Box<FieldOrder>,
     },
     /// A field has more regions than slicers take.
     #[error(

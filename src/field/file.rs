@@ -96,6 +96,14 @@ struct LevelsTable {
 /// # Errors
 /// It cannot be opened, or is no field; the message names line and column.
 pub fn read_file(path: &Path) -> Result<Order, FileError> {
+    read_text(&path.display().to_string(), &text_of(path)?)
+}
+
+/// Returns the text of a file that may be a field.
+///
+/// # Errors
+/// It cannot be opened, or is too large.
+pub fn text_of(path: &Path) -> Result<String, FileError> {
     let read = |source| FileError::Read {
         path: path.to_owned(),
         source,
@@ -103,8 +111,7 @@ pub fn read_file(path: &Path) -> Result<Order, FileError> {
     if fs::metadata(path).map_err(read)?.len() > MAX_BYTES {
         return Err(FileError::Size(path.to_owned()));
     }
-    let text = fs::read_to_string(path).map_err(read)?;
-    read_text(&path.display().to_string(), &text)
+    fs::read_to_string(path).map_err(read)
 }
 
 /// Reads a field from the text of a file with this name.

@@ -49,6 +49,23 @@ pub struct SkinOrder {
     pub densities: [f64; 2],
 }
 
+impl SkinOrder {
+    /// Returns the depth below which the density is less than this one, mm: zero if it is less even
+    /// at the surface. `None` if it never is.
+    pub fn depth_below_mm(&self, density: f64) -> Option<f64> {
+        let [core, surface] = self.densities;
+        let share = (density - core) / (surface - core);
+        if share.is_nan() || share <= 0.0 {
+            return None;
+        }
+        let depth = match self.profile {
+            Profile::Linear => 1.0 - share,
+            Profile::Gauss => (-2.0 * share.ln()).max(0.0).sqrt(),
+        };
+        Some(self.depth_mm * depth.max(0.0))
+    }
+}
+
 impl Order {
     /// Returns the density on a solid. A skin needs it; the others do not.
     pub fn on(&self, solid: &Solid) -> Box<dyn Density> {
@@ -77,6 +94,15 @@ impl Order {
         }
     }
 
+    /// Returns whether a part of it jumps between levels.
+    pub fn jumps(&self) -> bool {
+        match self {
+            Self::Levels(_) => true,
+            Self::Sum(parts) | Self::Product(parts) => parts.iter().any(Self::jumps),
+            _ => false,
+        }
+    }
+
     /// Returns the number of parts, the order itself among them.
     pub fn count(&self) -> usize {
         match self {
@@ -84,6 +110,34 @@ impl Order {
                 1 + parts.iter().map(Self::count).sum::<usize>()
             }
             _ => 1,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::density::OfDepth;
+    use super::*;
+    use crate::geom::Point;
+    use crate::mesh::primitives::cuboid;
+
+    #[test]
+    fn a_skin_has_each_density_at_the_depth_that_is_told_for_it() {
+        let cube = cuboid(&Point::origin(), &Point::new(1.0, 1.0, 1.0));
+        let cube = Solid::new(cube).unwrap();
+        for profile in [Profile::Linear, Profile::Gauss] {
+            let order = SkinOrder {
+                depth_mm: 4.0,
+                profile,
+                densities: [0.2, 0.9],
+            };
+            let skin = Skin::new(&cube, 4.0, profile, order.densities).unwrap();
+            for density in [0.21, 0.4, 0.65, 0.89] {
+                let depth_mm = order.depth_below_mm(density).unwrap();
+                assert!((skin.of_depth(depth_mm) - density).abs() < 1e-12);
+            }
+            let [nowhere, everywhere] = [0.2, 0.95].map(|it| order.depth_below_mm(it));
+            assert_eq!((nowhere, everywhere), (None, Some(0.0)));
         }
     }
 }

@@ -78,12 +78,51 @@ impl Density for Skin {
         self.of_depth(self.depth_mm(point).abs())
     }
 
-    fn bounds(&self, _: &Aabb) -> [f64; 2] {
-        let [one, other] = self.densities;
+    fn bounds(&self, region: &Aabb) -> [f64; 2] {
+        // The depth changes by no more than the way, and the density falls or rises with it.
+        let middle_mm = self.depth_mm(&region.center()).abs();
+        let reach_mm = 0.5 * region.size().norm();
+        let ends_mm = [(middle_mm - reach_mm).max(0.0), middle_mm + reach_mm];
+        let [one, other] = ends_mm.map(|depth_mm| self.of_depth(depth_mm));
         [f64::min(one, other), f64::max(one, other)]
     }
 
     fn form(&self) -> Form<'_> {
         Form::Depth(self)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::base::random::Random;
+    use crate::geom::Vector;
+    use crate::mesh::primitives::cuboid;
+
+    #[test]
+    fn bounds_hold_over_a_box_inside_outside_and_across_the_surface() {
+        let cube = cuboid(&Point::origin(), &Point::new(10.0, 10.0, 10.0));
+        let solid = Solid::new(cube).unwrap();
+        let mut random = Random::new(5);
+        for profile in [Profile::Linear, Profile::Gauss] {
+            let skin = Skin::new(&solid, 2.0, profile, [0.2, 0.8]).unwrap();
+            for _ in 0..300 {
+                let mut at = |low, high| Vector::from_fn(|_, _| random.between(low, high));
+                let min = Point::from(at(-3.0, 11.0));
+                let size = at(0.1, 2.0);
+                let region = Aabb {
+                    min,
+                    max: min + size,
+                };
+                let [low, high] = skin.bounds(&region);
+                let inside = min + size.component_mul(&at(0.0, 1.0));
+                assert!((low - 1e-12..=high + 1e-12).contains(&skin.at(&inside)));
+            }
+            let deep = Aabb {
+                min: Point::new(4.0, 4.0, 4.0),
+                max: Point::new(6.0, 6.0, 6.0),
+            };
+            assert!(skin.bounds(&deep)[1] < 0.5);
+        }
     }
 }

@@ -17,6 +17,7 @@
 //! | Where is a solid filled with tetrahedra? | `stuff` in `tets/stuffing.rs`, cut by `Clipper` in `tets/clip.rs`; `NestedDensity` in `tets/nested.rs` gives them the levels of a print |
 //! | Which infill is enough, and which is nearest to a wished one? | `greatest_low` in `hollow/range.rs`, `least_change` in `hollow/change.rs`, in steps by `least_level_change` in `hollow/levels.rs` |
 //! | How is a ramp or a wave fitted to a goal, and how is it printed? | `fit_all` in `hollow/family/starts.rs`, `regions` in `hollow/family/regions.rs`; `with_field` in `prepare/fields.rs` puts it into a print |
+//! | Where are the regions of a skin or of a `field.toml` drawn? | `draw_field` in `open/field_bodies.rs`: by `Cavity` at the depth, or by `DensityField` in `voids/density_field.rs`; `drawn` in `prepare/drawn.rs` puts them into a print |
 //! | Where does a match get its numbers, and who says that they are met? | `resolved` in `prepare/like.rs` reads the file, `Mismatch` in `verify/handling.rs` compares; `MatchMiss` in `hollow/miss.rs` words what is out of reach |
 //! | How dense is printed infill, and how does a shop measure it? | `laid_ratio` in `printer/infill.rs`; `core_ratios` in `coupon/density/weighed.rs` takes the masses of blocks |
 //! | Where does a model get two materials, pixel by pixel? | `dither_model` in `slice/dither/run.rs`, by `Diffusion` in `raster/dither.rs`; `slice/dither/correct.rs` makes the moments right |

@@ -116,6 +116,12 @@
 //! is printed are nested regions, between planes for a ramp and in balls for a wave. So the last
 //! fit is of the moments of these regions ([`crate::hollow::PrintField`]).
 //!
+//! Any other given field f is printed between its own level sets. The printable densities are l₁ <
+//! … < l_N, and region i is { f < (lᵢ + lᵢ₊₁)/2 }. So the regions are nested whatever f is, and
+//! each place has the density nearest to it. Those of a skin are offsets of the surface. The
+//! others are marched, with bounds of f over boxes to tell where there is no surface. They do not
+//! depend on the goal, so they are drawn before the solve ([`crate::hollow::DrawnField`]).
+//!
 //! A match prescribes all ten moments. Two densities across one quadric reach only the rim of the
 //! set of moments. Three levels and more reach its inside, if the mean of what is wanted is one of
 //! them. A body of nearly uniform density between two levels would need a mixture of both. What

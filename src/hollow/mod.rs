@@ -205,6 +205,7 @@ pub use change::{Change, least_change};
 pub use family::{Family, Region, Shape, SmoothFit, fit_smooth};
 pub use field_miss::FieldMiss;
 pub use goals::ballast::{Ballast, has_margin, least_ballast};
+pub use goals::drawn_field::{DrawnBody, DrawnField, DrawnRegion};
 pub use goals::fill::Fill;
 pub use goals::near::{NearWished, TILT_MARGIN_RAD, rows};
 pub use goals::printed_field::PrintField;

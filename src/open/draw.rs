@@ -6,18 +6,28 @@ use crate::ballast::{Load, PlacedPart, Pocket};
 use crate::base::watch::Watch;
 use crate::cut::{Seat, Void};
 use crate::error::Error;
-use crate::geom::Quadric;
 use crate::hollow::Solution;
 use crate::mesh::{Solid, TriMesh};
 use crate::run::{Level, Nested, Placed, Voids};
-use crate::voids::{Cavity, VoidError, without_slivers};
+use crate::voids::{self, Cavity, VoidError, without_slivers};
 
-/// Returns the quadric that is positive in a solution's voids, or in its outermost region of
-/// infill.
-pub fn outermost(placed: &Placed, solution: &Solution) -> Quadric {
-    let levels = placed.sparse.iter().flat_map(|nested| &nested.levels);
-    let mut quadrics = levels.map(|level| level.quadric(&solution.quadric));
-    quadrics.next().unwrap_or(solution.quadric)
+/// Draws a solution's voids, or its outermost region of infill.
+pub fn draw_outermost(
+    cavity: &Cavity,
+    placed: &Placed,
+    solution: &Solution,
+    watch: &Watch,
+) -> Result<voids::Voids, VoidError> {
+    let sparse = placed.sparse.as_ref();
+    let level = sparse.and_then(|nested| nested.levels.first());
+    let body = sparse
+        .zip(level)
+        .and_then(|(nested, level)| nested.body(level));
+    if let Some(body) = body {
+        return cavity.void_bodies_within(body.mesh(), watch);
+    }
+    let quadric = level.map_or(solution.quadric, |level| level.quadric(&solution.quadric));
+    cavity.void_bodies(&quadric, &placed.goal().frame, watch)
 }
 
 /// Draws the regions of infill inside of the outermost one, model frame.
@@ -30,9 +40,16 @@ pub fn draw_inner(
     solution: &Solution,
     watch: &Watch,
 ) -> Result<Vec<TriMesh>, Error> {
-    let levels = placed.sparse.as_ref().map_or(&[][..], inner_levels);
+    let Some(nested) = &placed.sparse else {
+        return Ok(Vec::new());
+    };
+    let levels = inner_levels(nested);
     let frame = &placed.goal().frame;
-    let draw = |quadric: Quadric| {
+    let draw = |level: &Level| {
+        if let Some(body) = nested.body(level) {
+            return Ok(cavity.region_within(body.mesh())?);
+        }
+        let quadric = level.quadric(&solution.quadric);
         if placed.keeps_small_regions() {
             return Ok(cavity.region(&quadric, frame, watch)?);
         }
@@ -40,9 +57,7 @@ pub fn draw_inner(
         let join = |all: TriMesh, body: &Solid| all.joined(body.mesh());
         Ok(bodies.iter().fold(TriMesh::default(), join))
     };
-    let levels = levels.par_iter();
-    let drawn = levels.map(|level| draw(level.quadric(&solution.quadric)));
-    drawn.collect()
+    levels.par_iter().map(draw).collect()
 }
 
 fn inner_levels(nested: &Nested) -> &[Level] {

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::budget::{Budget, Work};
 use super::defect::shortfall_ratio;
-use super::draw::{draw_inner, outermost, pockets};
+use super::draw::{draw_inner, draw_outermost, pockets};
 use super::plan::Planner;
 use crate::base::watch::Watch;
 use crate::cut::{CutOrder, Hollowed, SolidEnd};
@@ -14,7 +14,7 @@ use crate::geom::{Aabb, Point};
 use crate::hollow::{Solution, TopCourse};
 use crate::mass::{Moments, moments_of_mesh};
 use crate::mesh::{Csg, TriMesh};
-use crate::run::{HeightProof, Placed, Solved, Voids};
+use crate::run::{HeightProof, LaidField, Placed, Solved, Voids};
 use crate::voids::{Cavity, CavitySpec, VoidError, grow_bodies};
 
 /// Draws voids, measures them and solves again. What it keeps solid stays so.
@@ -215,7 +215,7 @@ impl<'a> Resolver<'a> {
         // A given field stays as it is.
         let nested = placed.sparse.as_ref();
         let field = nested.and_then(|nested| nested.field.as_ref());
-        let rounds = match field.is_some_and(|field| field.is_given) {
+        let rounds = match field.is_some_and(LaidField::is_given) {
             true => 0,
             false => placed.policy.correction_rounds,
         };
@@ -327,10 +327,7 @@ impl<'a> Resolver<'a> {
         let triangles = self.cavity.mesh().triangles().len();
         self.budget.spend(Work::Draw(triangles));
         let goal = self.placed.goal();
-        let outermost = outermost(self.placed, &solution);
-        let bodies = self
-            .cavity
-            .void_bodies(&outermost, &goal.frame, &self.watch)?;
+        let bodies = draw_outermost(&self.cavity, self.placed, &solution, &self.watch)?;
         let refused_mm3 = self.refused_mm3 + bodies.too_small_mm3();
         let policy = &self.placed.policy;
         let least_mm3 = policy.significant_void_ratio * goal.solid.volume();

@@ -1,12 +1,14 @@
 //! The densities of a graded print: nested regions from what a job orders and a printer lays.
 
-use super::given;
 use super::spread::around;
+use super::{fit, given};
 use crate::error::GradedError;
 use crate::field::DensityRange;
 use crate::goal::GoalKind;
 use crate::hollow::{Fill, NearWished, PrintLevels, TILT_MARGIN_RAD};
-use crate::job::{DensityOrder, FieldOrder, InfillDensity, Job, KeptShare, LevelCount, PartFormat};
+use crate::job::{
+    DensityOrder, FieldOrder, GivenField, InfillDensity, Job, KeptShare, LevelCount, PartFormat,
+};
 use crate::printer::{InfillPattern, Printer, Quantity};
 use crate::run::{Extent, Level, Nested};
 
@@ -14,6 +16,8 @@ use crate::run::{Extent, Level, Nested};
 struct Stock<'a> {
     pattern: &'a InfillPattern,
     least_ratio: f64,
+    /// The least and the greatest density of a field inside the walls, as far as they are known.
+    inside: Option<[f64; 2]>,
 }
 
 /// Returns the regions of infill that a graded job orders of a printer.
@@ -21,6 +25,18 @@ struct Stock<'a> {
 /// # Errors
 /// The printer has no infill, or does not print what the job orders.
 pub fn nested(job: &Job, printer: &Printer) -> Result<Nested, GradedError> {
+    nested_inside(job, printer, None)
+}
+
+/// Returns the regions of a job whose field has these densities inside the walls.
+///
+/// # Errors
+/// As those of [`nested`].
+pub fn nested_inside(
+    job: &Job,
+    printer: &Printer,
+    inside: Option<[f64; 2]>,
+) -> Result<Nested, GradedError> {
     let no_infill = || GradedError::NoInfill {
         printer: printer.name.clone(),
     };
@@ -30,6 +46,7 @@ pub fn nested(job: &Job, printer: &Printer) -> Result<Nested, GradedError> {
             .number(Quantity::LeastInfillRatio)
             .ok_or_else(no_infill)?
             .value,
+        inside,
     };
     let order = order(job, printer, &stock)?;
     let nested = match wished(job, order) {
@@ -48,7 +65,7 @@ pub fn fill(nested: &Nested) -> Option<Fill> {
     let outermost = nested.levels.first()?;
     let high = match outermost.extent {
         Extent::Interior => outermost.laid_ratio,
-        Extent::Above(_) => 1.0,
+        Extent::Above(_) | Extent::Body(_) => 1.0,
     };
     let range = DensityRange::new(nested.levels.last()?.laid_ratio, high).ok()?;
     Some(Fill::between(range))
@@ -62,9 +79,11 @@ fn order(job: &Job, printer: &Printer, stock: &Stock) -> Result<DensityOrder, Gr
     let least = InfillDensity::of_ratio(stock.least_ratio).ok_or_else(no_infill)?;
     let is_match = job.goal.kind == GoalKind::Match;
     let is_sine = job.field.as_ref().is_some_and(FieldOrder::is_sine);
-    let most = stock.most(is_match || is_sine);
+    let given = job.field.as_ref().and_then(FieldOrder::given);
+    let may_have_cores = is_sine || matches!(given, Some(GivenField::Drawn(_)));
+    let most = stock.most(is_match || may_have_cores);
     let usual = DensityOrder::new(least, most).map_err(|_| no_infill())?;
-    let own = given::densities(job, printer, usual)?;
+    let own = given::densities(job, printer, usual, stock.inside)?;
     let order = own.or(job.density).unwrap_or(usual);
     if is_sine && order.high() == InfillDensity::SOLID {
         return Err(GradedError::SolidSine { usual });
@@ -80,38 +99,8 @@ fn order(job: &Job, printer: &Printer, stock: &Stock) -> Result<DensityOrder, Gr
             least,
         });
     }
-    let more = job.levels.filter(|levels| !levels.is_two());
-    match (job.infill, job.levels, job.keep) {
-        (None, Some(_), _) if is_match && more.is_none() => {
-            return Err(GradedError::TwoLevelsOfMatch);
-        }
-        (None, _, Some(share)) => return Err(GradedError::KeepAlone { share }),
-        (Some(_), _, Some(share)) if job.goal.kind == GoalKind::Balance => {
-            return Err(GradedError::KeepBalance { share });
-        }
-        (_, Some(_), _) if job.field.is_some() && more.is_none() => {
-            return Err(GradedError::TwoLevelsOfField);
-        }
-        (None, Some(levels), None) if more.is_some() && !is_match && job.field.is_none() => {
-            return Err(GradedError::LevelsAlone { levels });
-        }
-        (Some(wished), Some(_), _) if more.is_none() => {
-            return Err(GradedError::TwoLevels { wished });
-        }
-        _ => {}
-    }
-    match job.infill {
-        Some(wished) if job.goal.kind == GoalKind::Float => {
-            Err(GradedError::WishedAfloat { wished })
-        }
-        Some(wished) if wished < order.low() || wished > order.high() => {
-            Err(GradedError::WishedOutside {
-                wished,
-                densities: order,
-            })
-        }
-        _ => Ok(order),
-    }
+    fit::refuse_misfits(job, order)?;
+    Ok(order)
 }
 
 /// Returns the infill that all is to be near to; `None` if the goal alone decides.

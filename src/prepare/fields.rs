@@ -1,17 +1,18 @@
 //! Fields: a family fitted to the goal, or a field with its numbers, in the regions of a print.
 
 use super::densities::{fill, nested};
-use super::given::SAME_RATIO;
+use super::drawn::drawn;
 use super::levels::{COARSE_COLUMNS, with_load};
+use super::stock::Stock;
 use crate::ballast::Load;
 use crate::base::setting::{Key, Setting};
 use crate::base::verdict::Verdict;
 use crate::base::watch::{Phase, Watch};
 use crate::error::{Error, GradedError};
-use crate::hollow::{Family, NearWished, PrintField, Problem, Region, Shape};
+use crate::hollow::{Family, NearWished, PrintField, Problem, Shape};
 use crate::interior::Columns;
 use crate::job::{FieldOrder, GivenField, Job};
-use crate::run::{Extent, Level, Nested, Placed};
+use crate::run::{LaidField, Nested, Placed};
 use crate::shell::Shell;
 
 /// Returns a placed goal with the field that its job orders in its regions. Without one it stays as
@@ -36,6 +37,9 @@ pub fn with_field(placed: Placed, watch: &Watch) -> Result<Placed, Error> {
         &placed.placement.keeps,
     )?;
     let columns = Columns::of_shell(&shell, shell.coarse_pitch(COARSE_COLUMNS), watch)?;
+    if let Some(nested) = drawn(&placed, &columns, watch)? {
+        return Ok(laying(placed, nested));
+    }
     watch.enter(Phase::Solve);
     let problem = Problem {
         goal,
@@ -48,21 +52,25 @@ pub fn with_field(placed: Placed, watch: &Watch) -> Result<Placed, Error> {
         })?;
     watch.check()?;
     let own = Stock {
-        placed: &placed,
+        printer: &placed.shop.printer,
         sparse,
     };
     let levels = field.regions.iter().filter_map(|region| own.level(region));
-    let sparse = Nested {
+    let nested = Nested {
         levels: levels.collect(),
-        field: Some(field),
+        field: Some(LaidField::Shaped(field)),
         ..sparse.clone()
     };
-    let laid = fill(&sparse);
-    Ok(Placed {
-        fill: laid.unwrap_or(placed.fill),
-        sparse: Some(sparse),
+    Ok(laying(placed, nested))
+}
+
+/// Returns a placed goal with these regions.
+fn laying(placed: Placed, nested: Nested) -> Placed {
+    Placed {
+        fill: fill(&nested).unwrap_or(placed.fill),
+        sparse: Some(nested),
         ..placed
-    })
+    }
 }
 
 /// Returns the field of an order on the columns of a problem; `None` if it is too fine to print.
@@ -80,39 +88,13 @@ fn print_field(
     match order {
         FieldOrder::FitRamp => Some(PrintField::fit(Family::Ramp, near, problem, watch)),
         FieldOrder::FitSine => Some(PrintField::fit(Family::Sine, near, problem, watch)),
-        FieldOrder::Given { field, .. } => match field {
+        FieldOrder::Given { field, .. } | FieldOrder::File { field, .. } => match field {
             GivenField::Uniform(density) => Some(PrintField::uniform(*density, levels.range())),
             GivenField::Ramp(ramp) => shape(Shape::of_ramp(ramp)),
             GivenField::Sine(sine) => shape(Shape::of_sine(sine)),
+            // Drawn before.
+            GivenField::Skin(_) | GivenField::Drawn(_) => None,
         },
-    }
-}
-
-/// The densities of infill that a print may have.
-struct Stock<'a> {
-    placed: &'a Placed,
-    sparse: &'a Nested,
-}
-
-impl Stock<'_> {
-    /// Returns a region with its density in the words of slicers; `None` for solid print.
-    fn level(&self, region: &Region) -> Option<Level> {
-        let density = region.density;
-        let mut known = self.sparse.levels.iter();
-        let known = known.find(|level| level.laid_ratio == density);
-        let nominal = || {
-            let pattern = self.placed.shop.printer.infill.as_ref()?;
-            Some(pattern.nominal_ratio(density))
-        };
-        let nominal_ratio = match known {
-            Some(level) => level.nominal_ratio,
-            None => nominal().filter(|nominal| *nominal < 1.0 - SAME_RATIO)?,
-        };
-        Some(Level {
-            nominal_ratio,
-            laid_ratio: density,
-            extent: region.above.map_or(Extent::Interior, Extent::Above),
-        })
     }
 }
 

@@ -3,8 +3,10 @@
 mod advise;
 mod densities;
 mod drafts;
+mod drawn;
 mod failure;
 mod fields;
+mod fit;
 mod given;
 mod graded;
 mod hardware;
@@ -25,6 +27,7 @@ mod rounds;
 mod slice;
 mod solve;
 mod spread;
+mod stock;
 mod thresholds;
 mod upright;
 mod waterline;

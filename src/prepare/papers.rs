@@ -8,7 +8,7 @@ use crate::base::watch::{Phase, Watch};
 use crate::cut::CutOrder;
 use crate::error::Error;
 use crate::io::read_bytes;
-use crate::job::{Job, JobError, Like, ModelChoice};
+use crate::job::{FieldOrder, Job, JobError, Like, ModelChoice};
 use crate::kit::Kit;
 use crate::page::cup_warning;
 use crate::press::Drawings;
@@ -17,7 +17,7 @@ use crate::sheet::from_run::{Facts, checklist};
 use crate::sheet::{Checklist, Timing};
 use crate::slicer::{SliceSettings, Slicer};
 use crate::verify::{
-    CHECKLIST_FILE, CUTS_FILE, HOLLOWED_FILE, JOB_FILE, MODEL_FOLDER, SUMS_FILE, sums,
+    CHECKLIST_FILE, CUTS_FILE, FIELD_FILE, HOLLOWED_FILE, JOB_FILE, MODEL_FOLDER, SUMS_FILE, sums,
 };
 
 /// Puts a judged kit together, with its job sheet.
@@ -97,6 +97,10 @@ fn files(placed: &Placed, draft: &Draft, slicer: Option<&Slicer>) -> Result<Kit,
         ..job
     };
     kit.add(JOB_FILE, job.to_toml()?.into_bytes());
+    let field = placed.job.field.as_ref().and_then(FieldOrder::file_text);
+    if let Some(text) = field {
+        kit.add(FIELD_FILE, text.as_bytes().to_vec());
+    }
     let cuts = CutOrder {
         keep_clear: placed.job.keep_clear.clone(),
         ..CutOrder::of(&draft.made.plan)

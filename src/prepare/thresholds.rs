@@ -95,7 +95,7 @@ impl Search<'_> {
         let outermost = levels.first()?;
         match outermost.extent {
             Extent::Interior => Some((low, InfillDensity::of_ratio(outermost.nominal_ratio)?)),
-            Extent::Above(_) => Some((low, InfillDensity::SOLID)),
+            Extent::Above(_) | Extent::Body(_) => Some((low, InfillDensity::SOLID)),
         }
     }
 

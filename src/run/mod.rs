@@ -12,6 +12,7 @@
 
 mod brief;
 mod glue;
+mod laid_field;
 mod made;
 mod natural;
 mod nested;
@@ -22,6 +23,7 @@ mod solved;
 mod tendency;
 
 pub use brief::{Model, Placed, Shop};
+pub use laid_field::LaidField;
 pub use made::{Made, WrittenJig, WrittenPart, WrittenRegion, WrittenSparse};
 pub use natural::{NaturalUp, short_reason};
 pub use nested::{Extent, Level, Nested};

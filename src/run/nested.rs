@@ -1,7 +1,8 @@
 //! The infill of a print in one piece: nested regions, the outermost first.
 
+use super::LaidField;
 use crate::geom::Quadric;
-use crate::hollow::{NearWished, PrintField};
+use crate::hollow::{DrawnBody, NearWished};
 use crate::interior::{Columns, moments_where_positive};
 use crate::mass::Moments;
 
@@ -16,7 +17,7 @@ pub struct Nested {
     /// the goal alone decides.
     pub near: Option<NearWished>,
     /// The field that is printed in these regions; `None` if the densities are the best.
-    pub field: Option<PrintField>,
+    pub field: Option<LaidField>,
 }
 
 /// A region of one density of infill, less the regions in it.
@@ -37,6 +38,8 @@ pub enum Extent {
     Interior,
     /// What of that has a solution's quadric above this value.
     Above(f64),
+    /// What of that lies in the body of the field's region with this index.
+    Body(usize),
 }
 
 impl Level {
@@ -45,11 +48,14 @@ impl Level {
         (self.nominal_ratio * 1e8).round() / 1e6
     }
 
-    /// Returns the quadric that is positive in the region, for the quadric of a solution.
+    /// Returns the quadric that is positive in the region, for the quadric of a solution; that of
+    /// all the interior for a body.
     pub fn quadric(&self, solution: &Quadric) -> Quadric {
         let mut quadric = *solution;
         match self.extent {
-            Extent::Interior => quadric.0 = std::array::from_fn(|i| f64::from(u8::from(i == 0))),
+            Extent::Interior | Extent::Body(_) => {
+                quadric.0 = std::array::from_fn(|i| f64::from(u8::from(i == 0)))
+            }
             Extent::Above(value) => quadric.0[0] -= value,
         }
         quadric
@@ -57,6 +63,14 @@ impl Level {
 }
 
 impl Nested {
+    /// Returns the body that bounds a region; `None` if a quadric does, or the interior.
+    pub fn body(&self, level: &Level) -> Option<&DrawnBody> {
+        match (level.extent, &self.field) {
+            (Extent::Body(index), Some(LaidField::Drawn(field))) => field.body(index),
+            _ => None,
+        }
+    }
+
     /// Returns the moments of what is laid in regions with these moments, the outermost first.
     pub fn laid(&self, regions: impl IntoIterator<Item = Moments>) -> Moments {
         let mut around = 0.0;
@@ -71,7 +85,10 @@ impl Nested {
     /// Returns the moments of a body with the regions of a solution's quadric; `fixed` are its
     /// moments if all of it is solid.
     pub fn filled(&self, fixed: Moments, columns: &Columns, solution: &Quadric) -> Moments {
-        let region = |level: &Level| moments_where_positive(columns, &level.quadric(solution));
+        let region = |level: &Level| match self.body(level) {
+            Some(body) => body.moments(columns),
+            None => moments_where_positive(columns, &level.quadric(solution)),
+        };
         let regions: Vec<Moments> = self.levels.iter().map(region).collect();
         let emptied = regions.first().copied().unwrap_or_default();
         fixed - emptied + self.laid(regions)

@@ -8,11 +8,11 @@ use serde::Serialize;
 
 use crate::base::setting::{Key, Setting};
 use crate::base::watch::Watch;
-use crate::field::{Density, NotADensity, Order, WordsError, check};
+use crate::field::{Density, FileError, NotADensity, Order, WordsError, check, read_file};
 use crate::geom::Point;
 use crate::io::gcode::{Feature, Portions, RewriteError, Rewriting, Rewritten, rewrite_text};
 use crate::mesh::{MeshDistance, Solid};
-use crate::verify::{LocatedPart, LocatedPlate, PrintedError, locate_parts};
+use crate::verify::{FIELD_FILE, LocatedPart, LocatedPlate, PrintedError, locate_parts};
 
 /// Longest piece of a bead, mm. Longer ones blur the field: a bar with a ramp misses its centre by
 /// a sixth if its lines of 10 mm stay whole.
@@ -70,8 +70,11 @@ pub enum ScaleError {
     )]
     NoField,
     /// The field that the kit states cannot be read.
-    #[error("the kit states a field that is none: {0}; remedy: check the kit (`equipoise verify`)")]
+    #[error("the field in the kit cannot be read: {0}; remedy: check the kit (`equipoise verify`)")]
     OwnField(#[from] WordsError),
+    /// The file of the kit's field cannot be read.
+    #[error(transparent)]
+    OwnFile(#[from] FileError),
     /// A part is printed as its mirror image.
     #[error("{0} is printed as its mirror image; remedy: slice its plate again")]
     Mirrored(String),
@@ -132,7 +135,7 @@ pub fn scale_toolpaths(
     let (field, wall) = match (&order.field, &plate.field) {
         (Some(field), _) => (field.on(&solid), None),
         (None, Some(words)) => {
-            let own: Order = words.parse()?;
+            let own = own_field(&order.kit, words)?;
             let surface = MeshDistance::new(solid.mesh());
             (own.on(&solid), Some((surface, plate.wall_mm)))
         }
@@ -165,6 +168,14 @@ pub fn scale_toolpaths(
         parts: parts.collect(),
         written,
     })
+}
+
+/// Returns the field that a kit states: words, or the name of its file.
+fn own_field(kit: &Path, words: &str) -> Result<Order, ScaleError> {
+    match words {
+        FIELD_FILE => Ok(read_file(&kit.join(FIELD_FILE))?),
+        words => Ok(words.parse()?),
+    }
 }
 
 /// Opens a program as text.

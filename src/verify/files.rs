@@ -17,6 +17,8 @@ pub const SUMS_FILE: &str = "SHA256SUMS";
 pub const JOB_FILE: &str = "job.toml";
 /// The cuts and pins of a kit, to edit.
 pub const CUTS_FILE: &str = "cuts.toml";
+/// The field of densities of a kit, if it was ordered as a file.
+pub const FIELD_FILE: &str = "field.toml";
 /// The folder of the copy of the model in a kit.
 pub const MODEL_FOLDER: &str = "model/";
 /// The folder of the regions of sparse infill in a kit.

@@ -164,8 +164,8 @@ pub use limits::{
 pub use change::{Change, FileChange};
 pub use changes::files_check;
 pub use files::{
-    CERTIFICATE_FILE, CHECKLIST_FILE, CUTS_FILE, HOLLOWED_FILE, JOB_FILE, MODEL_FOLDER, SHEET_FILE,
-    SPARSE_FOLDER, SUMS_FILE,
+    CERTIFICATE_FILE, CHECKLIST_FILE, CUTS_FILE, FIELD_FILE, HOLLOWED_FILE, JOB_FILE, MODEL_FOLDER,
+    SHEET_FILE, SPARSE_FOLDER, SUMS_FILE,
 };
 pub use seal::sums;
 pub use sheet::find_misstatements;

@@ -114,6 +114,16 @@ impl Cavity {
         })
     }
 
+    /// Returns all of the cavity inside a closed body, as [`Self::region`] does for a quadric.
+    pub fn region_within(&self, body: &TriMesh) -> Result<TriMesh, VoidError> {
+        Ok(self.body.intersect(&Csg::of_mesh(body)?)?.to_mesh()?)
+    }
+
+    /// Returns the voids inside a closed body, as [`Self::void_bodies`] does for a quadric.
+    pub fn void_bodies_within(&self, body: &TriMesh, watch: &Watch) -> Result<Voids, VoidError> {
+        split_into_voids(&self.region_within(body)?, self.min_void_mm, watch)
+    }
+
     /// Returns the cavity with a coarse surface, which strays by at most `stray_mm` more. It is for
     /// a search: its wall is not kept.
     pub fn coarsened(&self, stray_mm: f64, watch: &Watch) -> Result<Self, VoidError> {

@@ -11,6 +11,7 @@ mod grow;
 mod split;
 
 // The functions that are drawn: their samples, and one file for each.
+mod density_field;
 mod field;
 mod quadric_field;
 mod wall_field;
@@ -47,8 +48,10 @@ mod tests;
 
 pub use cavity::{Cavity, without_slivers};
 pub use coarsen::coarsen;
+pub use density_field::DensityLevel;
 pub use error::VoidError;
 pub use grow::grow_bodies;
 pub use offset::CavitySpec;
+pub use region::{Drawn, draw_below};
 pub use remesh::{Missing, Soup};
 pub use split::Voids;

@@ -75,7 +75,10 @@ const ARROWS: &[(&str, &[&str])] = &[
     ),
     (
         "voids",
-        &["printer", "repair", "geom", "mass", "mesh", "base", "shell"],
+        // The level sets of a density are drawn as those of a quadric are.
+        &[
+            "field", "printer", "repair", "geom", "mass", "mesh", "base", "shell",
+        ],
     ),
     // A new surface is drawn as voids are; the ladder below knows nothing of drawing.
     ("mend", &["base", "geom", "mesh", "repair", "voids"]),
@@ -210,9 +213,9 @@ const ARROWS: &[(&str, &[&str])] = &[
     (
         "error",
         &[
-            "base", "repair", "ballast", "cut", "draw", "goal", "hardware", "hollow", "interior",
-            "io", "job", "kit", "mend", "mesh", "printer", "sheet", "shell", "slice", "slicer",
-            "thin", "verify", "voids",
+            "base", "repair", "ballast", "cut", "draw", "field", "goal", "hardware", "hollow",
+            "interior", "io", "job", "kit", "mend", "mesh", "printer", "sheet", "shell", "slice",
+            "slicer", "thin", "verify", "voids",
         ],
     ),
     (
@@ -226,8 +229,8 @@ const ARROWS: &[(&str, &[&str])] = &[
         "open",
         // A printer says which holes empty a void of one piece.
         &[
-            "ballast", "base", "cut", "error", "geom", "goal", "hollow", "job", "mass", "mesh",
-            "printer", "run", "voids",
+            "ballast", "base", "cut", "error", "field", "geom", "goal", "hollow", "job", "mass",
+            "mesh", "printer", "run", "voids",
         ],
     ),
     (
@@ -244,7 +247,7 @@ const ARROWS: &[(&str, &[&str])] = &[
             "advice", "ballast", "base", "cut", "error", "field", "geom", "goal", "hardware",
             "hollow", "interior", "io", "job", "kit", "make", "mass", "mend", "mesh", "open",
             "page", "press", "printer", "repair", "run", "sheet", "shell", "slice", "slicer",
-            "thin", "verify",
+            "thin", "verify", "voids",
         ],
     ),
     (

@@ -9,8 +9,8 @@ use clap::Args;
 use super::values::{share, words};
 use crate::cut::{CutOrder, KeepClear, LeastPart, SeamStyle};
 use crate::job::{
-    CutMode, DensityOrder, DrainOrder, Effort, FieldOrder, IdStyle, InfillDensity, Interior,
-    KeptShare, LevelCount, PinStyle, PlanError,
+    CutMode, DensityOrder, DrainOrder, Effort, FieldOrder, FieldOrderError, IdStyle, InfillDensity,
+    Interior, KeptShare, LevelCount, PinStyle, PlanError,
 };
 
 /// The arguments for cutting the object and joining its parts.
@@ -48,10 +48,10 @@ pub struct CutArgs {
     /// angle or a height. Tops and yo-yos keep 80% if nothing is said
     #[arg(long, value_name = "PERCENT", allow_hyphen_values = true)]
     pub keep: Option<KeptShare>,
-    /// Print a field of densities in levels: ramp or sine, fitted to the goal, or with its numbers
-    /// as inspect takes it. Without it the densities are the best [default: none]
+    /// Print a field of densities in levels: ramp or sine, fitted to the goal, or one as inspect
+    /// takes it (words or a field.toml). Without it the densities are the best [default: none]
     #[arg(long, value_name = "FIELD", allow_hyphen_values = true)]
-    pub field: Option<FieldOrder>,
+    pub field: Option<FieldArg>,
     /// Put seams where they are seen least (hidden), make them short (short), or only level ones
     /// (level) [default: hidden]
     #[arg(long, value_parser = words::<SeamStyle>(SeamStyle::WORDS))]
@@ -97,6 +97,39 @@ impl FromStr for CutArg {
         Ok(text
             .parse()
             .map_or_else(|_| Self::Plan(text.into()), Self::Mode))
+    }
+}
+
+/// The value of `--field`.
+#[derive(Debug, Clone, PartialEq)]
+pub enum FieldArg {
+    /// Words.
+    Words(FieldOrder),
+    /// A file that holds the field.
+    File(PathBuf),
+}
+
+impl FromStr for FieldArg {
+    type Err = FieldOrderError;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        match FieldOrder::is_file_name(text) {
+            true => Ok(Self::File(text.into())),
+            false => text.parse().map(Self::Words),
+        }
+    }
+}
+
+impl FieldArg {
+    /// Returns the field; a file is read now.
+    ///
+    /// # Errors
+    /// The file cannot be read, or is no field that can be printed.
+    pub fn order(self) -> Result<FieldOrder, FieldOrderError> {
+        match self {
+            Self::Words(order) => Ok(order),
+            Self::File(path) => FieldOrder::of_file(&path),
+        }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::missing::Missing;
 use crate::goal::RequestError;
-use crate::job::{JobError, PlanError};
+use crate::job::{FieldOrderError, JobError, PlanError};
 use crate::printer::ShopError;
 
 /// A reason why arguments make no job.
@@ -17,6 +17,9 @@ pub enum ArgsError {
     /// The plan of the cuts cannot be used.
     #[error(transparent)]
     Plan(#[from] PlanError),
+    /// The field of densities cannot be used.
+    #[error(transparent)]
+    Field(#[from] FieldOrderError),
     /// A telescope without a printer.
     #[error(
         "a printer is missing; remedy: equipoise telescope {input} --printer prusa-mk4 (equipoise \

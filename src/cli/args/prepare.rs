@@ -7,7 +7,7 @@ use clap::Args;
 
 use super::ballast::BallastArgs;
 use super::beside::copy_beside;
-use super::cut::{CutArg, CutArgs};
+use super::cut::{CutArg, CutArgs, FieldArg};
 use super::decided::DECIDED_BY_JOB;
 use super::error::ArgsError;
 use super::goal::{HardwareArgs, MatchArgs, PromiseArgs, RotorArgs, WaterArgs};
@@ -310,7 +310,7 @@ impl PrepareArgs {
             infill: self.cutting.infill,
             levels: self.cutting.levels,
             keep: self.cutting.keep,
-            field: self.cutting.field,
+            field: self.cutting.field.map(FieldArg::order).transpose()?,
             seam: self.cutting.seam.unwrap_or(default.seam),
             keep_clear,
             least_part: self.cutting.least_part.unwrap_or(default.least_part),

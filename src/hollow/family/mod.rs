@@ -27,5 +27,5 @@ pub use regions::Region;
 pub(super) use regions::{is_cut, regions};
 pub use shape::{Family, Shape};
 pub(super) use starts::{compare, cost, fit_steps};
-pub(super) use state::stepped;
+pub(super) use state::{Rows, stepped};
 pub(super) use task::Task;

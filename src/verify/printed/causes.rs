@@ -347,7 +347,9 @@ fn filled_ratio(part: &PrintedPart, promise: &Promise) -> f64 {
 ///
 /// It is 0 if it is within what slicers lay wrong along the surface of any part.
 fn wrong_ratio(part: &PrintedPart, promise: &Promise) -> f64 {
-    let off = filled_ratio(part, promise) - 1.0;
+    // A kit that was sliced says what is laid beyond its surfaces, and `verify` bounds that.
+    let said = part.nominal_mass_g / part.written_mass_g;
+    let off = filled_ratio(part, promise) * said - 1.0;
     let skin_mm = if off < 0.0 {
         LACKING_SKIN_MM
     } else {

@@ -54,6 +54,8 @@ pub struct LocatedPlate {
 
 /// Distance from a region at which a line still covers its border, mm: usual layers and half lines.
 const BESIDE_MM: f64 = 0.3;
+/// Distance below which two borders of regions lie in one place, mm: they are drawn about as well.
+const ONE_PLACE_MM: f64 = 0.02;
 /// Diameter of the filament if a file tells none, mm.
 const USUAL_FILAMENT_MM: f64 = 1.75;
 
@@ -75,9 +77,7 @@ impl LocatedPlate {
     /// Returns the density that the kit lays at a place of the model where a bead is sparse infill,
     /// over that of solid print. `None` in kits that have none.
     pub fn laid_ratio(&self, at: &Point) -> Option<f64> {
-        // Lines of a region reach a little out of it, to be anchored.
-        let region = self.region(at).or(self.regions.first());
-        region.map(|region| region.laid_ratio)
+        self.region(at).map(|region| region.laid_ratio)
     }
 
     /// Returns whether the kit orders sparse infill at a place of the model, or right beside it.
@@ -86,10 +86,19 @@ impl LocatedPlate {
         outermost.is_some_and(|region| region.surface.signed(at) > -BESIDE_MM)
     }
 
-    /// Returns the innermost region that holds a place of the model.
+    /// Returns the innermost region that holds a place of the model, or the nearest one: lines
+    /// reach a little out of their region, to be anchored.
     fn region(&self, at: &Point) -> Option<&LaidRegion> {
+        let depth_mm = |region: &LaidRegion| region.surface.signed(at);
+        let deepest_mm = self
+            .regions
+            .iter()
+            .map(depth_mm)
+            .fold(f64::NEG_INFINITY, f64::max);
+        // Under a wall the borders of all regions lie in one place.
+        let least_mm = deepest_mm.min(0.0) - ONE_PLACE_MM;
         let mut inner = self.regions.iter().rev();
-        inner.find(|region| region.surface.signed(at) > 0.0)
+        inner.find(|region| depth_mm(region) >= least_mm)
     }
 
     /// Returns whether the kit orders sparse infill.

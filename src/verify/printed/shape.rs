@@ -102,8 +102,8 @@ impl<'a> Thing<'a> {
         }
     }
 
-    /// Returns the thing with sparse infill laid in its cavities. Lines end at their walls as at
-    /// the outside, so that both count as its surface.
+    /// Returns the thing with sparse infill laid in its cavities. Lines end at their walls and at
+    /// the borders of regions as at the outside, so that all count as its surface.
     pub(super) fn with_infill(self, read: &PartEvidence, infill: &InfillOrder) -> Self {
         let to_file = |mesh: &TriMesh| {
             mesh.map_vertices(|p| p.coords.component_mul(&self.scale_ratio).into())
@@ -112,6 +112,7 @@ impl<'a> Thing<'a> {
         let inner: Vec<TriMesh> = read.inner.iter().map(to_file).collect();
         Self {
             moments: self.moments + sparse_moments(infill, &shells.inner_mesh(), &inner),
+            area_mm2: self.area_mm2 + inner.iter().map(area_mm2).sum::<f64>(),
             beyond: infill.beyond(),
             ..self
         }

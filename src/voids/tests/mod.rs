@@ -1,6 +1,7 @@
 //! Tests of whole cavities and voids, and the checks that they share.
 
 mod cavities;
+mod densities;
 mod quadrics;
 
 use super::shapes::{ball, block, prism, revolved};
@@ -8,7 +9,7 @@ use super::{Cavity, CavitySpec, VoidError, Voids, grow_bodies, without_slivers};
 use crate::base::watch::{Cancelled, Watch};
 use crate::geom::triangle::triangle_triangle_distance_squared;
 use crate::geom::{Aabb, Bvh, Frame, Point, Quadric, Vector};
-use crate::mesh::{MeshDistance, Solid, TriMesh};
+use crate::mesh::{Csg, MeshDistance, Solid, TriMesh};
 use crate::shell::Keep;
 use crate::shell::fixtures::cells;
 
