@@ -201,7 +201,7 @@ pub enum GradedError {
     )]
     FieldOfGoal {
         /// The field.
-        field: FieldOrder,
+        field: Box<FieldOrder>,
     },
     /// Densities were ordered of a field that has its own.
     #[error(

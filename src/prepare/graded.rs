@@ -33,7 +33,7 @@ pub fn sparse_print(job: &Job, printer: &Printer) -> Result<Option<Nested>, Grad
         return Err(GradedError::WishedMatch { wished });
     }
     if let (Some(field), GoalKind::Match | GoalKind::Float) = (&job.field, job.goal.kind) {
-        let field = field.clone();
+        let field = Box::new(field.clone());
         return Err(GradedError::FieldOfGoal { field });
     }
     if job.plan.is_some() {
