@@ -179,6 +179,8 @@ pub enum CheckKind {
     PanelOverlap,
     /// Panels that reach out of their base.
     PanelsInBase,
+    /// Distance of two polyhedra of a base from the plane between them.
+    Polyhedra,
     /// Drawings of sheets that are not those of the panels.
     Drawings,
     /// Paths of the beam beside the outlines of panels.
@@ -231,6 +233,7 @@ impl CheckKind {
             Self::BaseInside => "base inside",
             Self::PanelOverlap => "panel overlap",
             Self::PanelsInBase => "panels in base",
+            Self::Polyhedra => "polyhedra",
             Self::Drawings => "drawings",
             Self::BeamPaths => "beam paths",
             Self::SheetSpacing => "sheet spacing",
@@ -423,6 +426,7 @@ mod tests {
         (CheckKind::BaseInside, "base-inside", "base inside"),
         (CheckKind::PanelOverlap, "panel-overlap", "panel overlap"),
         (CheckKind::PanelsInBase, "panels-in-base", "panels in base"),
+        (CheckKind::Polyhedra, "polyhedra", "polyhedra"),
         (CheckKind::Drawings, "drawings", "drawings"),
         (CheckKind::BeamPaths, "beam-paths", "beam paths"),
         (CheckKind::SheetSpacing, "sheet-spacing", "sheet spacing"),
