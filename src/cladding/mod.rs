@@ -46,5 +46,5 @@ pub use region::{Bound, BoundKind, Region};
 pub use rooms::Room;
 pub use screws::{PartScrews, Screw, ScrewKit, ScrewRequest};
 pub use shell::{CladShell, ShellRequest};
-pub use sides::Sides;
+pub use sides::{HAND_MM2, Sides};
 pub use units::{Assembly, Join, Unit};

@@ -18,7 +18,7 @@ use crate::panels::PanelSet;
 use crate::polyhedra::{BasePlan, Child, Ground};
 
 /// The area of a side through which a hand passes, mm²: a hole of 100 mm.
-const HAND_MM2: f64 = 7_900.0;
+pub const HAND_MM2: f64 = 7_900.0;
 
 /// The scenes of all polyhedra of a base.
 pub struct Sides<'a> {

@@ -11,7 +11,7 @@ use super::mass::{Weighed, paper_estimate};
 use super::units::{joins, units};
 use crate::base::digest::sha256_hex;
 use crate::base::sourced::Sure;
-use crate::cladding::Holding;
+use crate::cladding::{HAND_MM2, Holding};
 use crate::cutter::CutterNumber;
 use crate::job::base_choice::Polyhedra;
 use crate::job::core_kit::CoreShell;
@@ -314,6 +314,7 @@ fn warnings(asked: &Asked, made: &Made) -> Vec<String> {
     );
     let bodies = &made.built.plan.polyhedra;
     warnings.extend(bodies.iter().flat_map(|body| body.breaches()).map(breach));
+    warnings.extend(narrow(made));
     let wanted = asked.job.polyhedra;
     if asked.job.base.is_none() && wanted != Polyhedra::Auto && bodies.len() < wanted.most() {
         warnings.push(format!(
@@ -340,6 +341,26 @@ fn warnings(asked: &Asked, made: &Made) -> Vec<String> {
         ));
     }
     warnings
+}
+
+/// Names the polyhedra, of several, whose open side is narrower than a hand.
+fn narrow(made: &Made) -> Vec<String> {
+    let panels = &made.built.shell.panels.panels;
+    let area_mm2 = |number: usize| {
+        let face = panels.get(number - 1).map(|panel| panel.face);
+        let face = face.and_then(|face| made.built.plan.face(face));
+        face.map_or(0.0, |face| face.area_mm2)
+    };
+    let rows = polyhedra(made).into_iter().enumerate();
+    let narrow = rows.filter_map(|(index, row)| {
+        let panel = row.closed_by.filter(|panel| area_mm2(*panel) < HAND_MM2)?;
+        Some(format!(
+            "no hand passes the open side of polyhedron {}, panel {panel}: glue its nuts to their \
+             panel on the bench, or hold them by long pliers",
+            index + 1
+        ))
+    });
+    narrow.collect()
 }
 
 /// Words a limit that the base breaks.

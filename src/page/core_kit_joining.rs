@@ -48,7 +48,7 @@ fn polyhedra(sheet: &CoreSheet, before: &[&UnitPromise]) -> Markup {
         units.copied().collect::<Vec<&UnitPromise>>()
     };
     html! {
-        p { "The base is " (sheet.base.polyhedra.len()) " polyhedra, each put together for itself. One side of each stays open: a hand must reach its bolts." }
+        p { "The base is " (sheet.base.polyhedra.len()) " polyhedra, each put together for itself. One side of each stays open, to reach its bolts." }
         @for (index, row) in sheet.base.polyhedra.iter().enumerate() {
             h3 { "Polyhedron " (index + 1) @if let Some(panel) = row.closed_by { ", without panel " (panel) } }
             (unit_list(&own(index)))

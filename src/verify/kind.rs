@@ -316,7 +316,7 @@ mod tests {
     use serde_json::json;
 
     /// The keys and names of all kinds without data.
-    const KEYS: [(CheckKind, &str, &str); 81] = [
+    const KEYS: [(CheckKind, &str, &str); 82] = [
         (CheckKind::Plugs, "plugs", "plugs"),
         (CheckKind::DrainHoles, "drain-holes", "drain holes"),
         (CheckKind::MatchMass, "match-mass", "mass of the match"),

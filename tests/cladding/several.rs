@@ -197,7 +197,7 @@ fn bolts_pass_both_panels_clear_of_their_joints_and_far_apart() {
         assert!(found[..at].iter().all(|other| apart(bolt, other) >= 18.0));
     }
     // Panels too small for two bolts are told.
-    let thick = BoltKit::choose(&stock, 5.0, 19.0).unwrap();
+    let thick = BoltKit::choose(&stock, 5.0, 18.0).unwrap();
     let wide = Fastener {
         shape: equipoise::cutter::FastenerShape::Washer {
             thread_mm: 5.0,

@@ -187,7 +187,10 @@ fn a_disc_larger_than_the_common_panels_is_an_answer_with_what_helps() {
             .contains("are not joined"),
         "{answer}"
     );
-    assert!(answer.to_string().contains("--connector=45mm"), "{answer}");
+    assert!(
+        answer["hints"][0].as_str().unwrap().contains("45mm"),
+        "{answer}"
+    );
     assert!(!kit.exists());
 }
 
