@@ -1,5 +1,6 @@
 //! The whole input of a run as plain data. `job.toml` replays the run exactly.
 
+pub mod base_choice;
 mod choices;
 pub mod core_kit;
 mod defaults;

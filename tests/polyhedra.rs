@@ -75,6 +75,7 @@ fn grow_some(ground: &Ground, request: &Request, count: Count) -> BasePlan {
     let connector = ConnectorRequest {
         radius_mm: 20.0,
         gap_mm: 1.0,
+        takes_tubes: true,
     };
     let several = Several { count, connector };
     let grown = grow_polyhedra(ground, request, &several, &Watch::silent()).unwrap();
@@ -420,6 +421,7 @@ fn a_base_file_gives_the_same_base_again_and_names_what_is_wrong_with_an_edited_
         ConnectorRequest {
             radius_mm: 20.0,
             gap_mm: 1.0,
+            takes_tubes: true,
         },
     );
     let plan = grow_some(&ground, &request, Count::Exactly(2));

@@ -129,6 +129,12 @@ choice! {
         Foot = "foot",
         /// The greatest number of faces of a base.
         Faces = "faces",
+        /// The number of polyhedra of a base.
+        Polyhedra = "polyhedra",
+        /// The least radius of the disc in which two polyhedra bear on each other.
+        Connector = "connector",
+        /// The base that is used in place of one that is looked for.
+        Base = "base",
         /// The joints between the panels of a base.
         Joints = "joints",
         /// The style of the parts on a base.

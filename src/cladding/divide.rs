@@ -6,7 +6,7 @@ use super::cells::{Cell, cells};
 use super::error::CladdingError;
 use super::overlap::{barred_mm2, contact_mm2, face_mm2};
 use super::part::{Crumb, Holding, Part, inner_point};
-use super::region::{Bound, Region};
+use super::region::{Bound, BoundKind, Region};
 use crate::base::watch::Watch;
 use crate::geom::{Aabb, Plane, Vector};
 use crate::mesh::{ClipError, Csg, Solid, TriMesh, bodies};
@@ -36,6 +36,8 @@ pub struct Scene<'a> {
     model: Csg,
     /// A box with room about the model.
     pub(super) within: Aabb,
+    /// The planes to other polyhedra that bound the base's part of the model.
+    sides: Vec<Plane>,
 }
 
 impl<'a> Scene<'a> {
@@ -65,7 +67,30 @@ impl<'a> Scene<'a> {
             model: Csg::of_mesh(mesh)?,
             solid: ground.solid().clone(),
             within: mesh.aabb().inflated(margin_mm),
+            sides: Vec::new(),
         })
+    }
+
+    /// Returns the scene of one polyhedron among several: its part of the model is bounded by
+    /// planes whose normals point out of it.
+    #[must_use]
+    pub fn bounded_by(self, sides: Vec<Plane>) -> Self {
+        Self { sides, ..self }
+    }
+
+    /// Returns the cells of the faces, each in the base's part of the model.
+    fn cells(&self) -> Vec<Cell> {
+        let bounded = cells(self.base, self.gap_mm).into_iter().map(|cell| {
+            let sides = self.sides.iter().map(|&plane| Bound {
+                plane,
+                kind: BoundKind::Split,
+            });
+            Cell {
+                region: sides.fold(cell.region, |region, side| region.with(side)),
+                ..cell
+            }
+        });
+        bounded.collect()
     }
 
     /// Returns the outward normal of a face.
@@ -91,7 +116,7 @@ impl<'a> Scene<'a> {
     /// # Errors
     /// The boolean engine fails, or the watch is stopped.
     pub fn divide(&self, crumb_mm3: f64, watch: &Watch) -> Result<Vec<Part>, CladdingError> {
-        let cells = cells(self.base, self.gap_mm);
+        let cells = self.cells();
         let parts = cells.par_iter().map(|cell| {
             watch.check()?;
             Ok(self.parts_in(cell)?)
@@ -234,11 +259,18 @@ fn contacts(parts: &[Part], part: usize) -> Vec<Contact> {
 /// Names the carriers of all parts that bear on no panel. Step by step, one is pinned to a part
 /// that has a path to the base: the pair that touches in the largest area.
 pub(super) fn name_holdings(parts: &mut [Part]) {
-    let mut is_held: Vec<bool> = parts.iter().map(Part::is_on_panel).collect();
-    let loose: Vec<usize> = (0..parts.len()).filter(|&part| !is_held[part]).collect();
-    loose
+    let loose = parts.iter_mut().filter(|part| !part.is_on_panel());
+    loose.for_each(|part| part.holding = Holding::Nothing);
+    hold_loose(parts);
+}
+
+/// Names the carriers of all parts that nothing holds yet, in the same way.
+pub(super) fn hold_loose(parts: &mut [Part]) {
+    let mut is_held: Vec<bool> = parts
         .iter()
-        .for_each(|&part| parts[part].holding = Holding::Nothing);
+        .map(|part| part.holding != Holding::Nothing)
+        .collect();
+    let loose: Vec<usize> = (0..parts.len()).filter(|&part| !is_held[part]).collect();
     let all: Vec<Vec<Contact>> = loose.iter().map(|&part| contacts(parts, part)).collect();
     loop {
         let waiting = loose.iter().zip(&all).filter(|(part, _)| !is_held[**part]);

@@ -42,10 +42,32 @@ pub enum CladdingError {
         face: usize,
     },
     /// Units that bar each other's ways.
-    #[error("no order takes the units apart: {} bar each other", list(.units))]
+    #[error("no order takes the object apart: the units over faces {} bar each other", list(.faces))]
     Cycle {
-        /// The indices of the units.
-        units: Vec<usize>,
+        /// The indices of their faces in the whole base.
+        faces: Vec<usize>,
+    },
+    /// A polyhedron among several that no side opens.
+    #[error(
+        "polyhedron {} cannot be closed last: on its way out, every panel meets units of others, \
+         those over faces {}", .polyhedron + 1, list(.faces)
+    )]
+    Enclosed {
+        /// The index of the polyhedron.
+        polyhedron: usize,
+        /// The indices of the faces, in the whole base, whose units bar it.
+        faces: Vec<usize>,
+    },
+    /// Panels of two polyhedra without room for their bolts.
+    #[error(
+        "the panels between polyhedra {} and {} have room for {found} bolts, and two are needed",
+        .polyhedra[0] + 1, .polyhedra[1] + 1
+    )]
+    NoBolts {
+        /// The indices of the polyhedra.
+        polyhedra: [usize; 2],
+        /// The number of bolts that find a place.
+        found: usize,
     },
     /// The boolean engine failed.
     #[error("cutting the shell failed")]
@@ -61,7 +83,8 @@ pub enum CladdingError {
     Cancelled(#[from] Cancelled),
 }
 
-fn list(units: &[usize]) -> String {
-    let names: Vec<String> = units.iter().map(usize::to_string).collect();
-    names.join(", ")
+/// Lists indices as numbers from 1.
+fn list(indices: &[usize]) -> String {
+    let numbers: Vec<String> = indices.iter().map(|at| (at + 1).to_string()).collect();
+    numbers.join(", ")
 }

@@ -12,9 +12,13 @@
 //!   holes.
 //! * [`Scene::assembly`] gathers panels and parts in [`Unit`]s, and orders them.
 //! * [`Scene::clad`] does all of it.
+//! * [`Sides`] does it for a base of several polyhedra, each on its side of the planes between
+//!   them.
+//! * [`bolts`] finds the places of the bolts through their common panels.
 //!
 //! All lengths are in mm, angles in radians.
 
+mod bolts;
 mod cells;
 mod cups;
 mod divide;
@@ -26,8 +30,11 @@ mod region;
 mod rooms;
 mod screws;
 mod shell;
+mod sides;
+mod spread;
 mod units;
 
+pub use bolts::{Bolt, BoltKit, bolts};
 pub use cells::{Cell, cells};
 pub use cups::{Cup, CupRequest, ShellStyle};
 pub use divide::Scene;
@@ -39,4 +46,5 @@ pub use region::{Bound, BoundKind, Region};
 pub use rooms::Room;
 pub use screws::{PartScrews, Screw, ScrewKit, ScrewRequest};
 pub use shell::{CladShell, ShellRequest};
-pub use units::{Assembly, Unit};
+pub use sides::{HAND_MM2, Sides};
+pub use units::{Assembly, Join, Unit};

@@ -16,6 +16,8 @@ pub enum BoundKind {
     },
     /// A cut for the printer's room.
     Cut,
+    /// A plane between two polyhedra of the base.
+    Split,
 }
 
 /// A plane that bounds a region.
@@ -64,6 +66,18 @@ impl Region {
             bound.plane.offset_mm += by_mm;
         }
         wider
+    }
+
+    /// Returns the region with the indices of faces raised by a number.
+    pub(super) fn renumbered(&self, by: usize) -> Self {
+        let bounds = self.bounds.iter().map(|bound| Bound {
+            kind: match bound.kind {
+                BoundKind::Seam { face } => BoundKind::Seam { face: face + by },
+                other => other,
+            },
+            ..*bound
+        });
+        Self::new(bounds.collect())
     }
 
     /// Returns the region within a box as a closed body; `None` if nothing of it is there.

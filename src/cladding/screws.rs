@@ -1,30 +1,27 @@
 //! Screws through the panels into the parts: which ones, where, and the bosses that hold them.
 
 use super::divide::Scene;
-use super::overlap::{convex_mm2, left_of};
+use super::overlap::convex_mm2;
 use super::part::Part;
+use super::spread::{Head, Seen, Spacing, clear_of, middle_of, places_in, spread};
 use crate::cutter::{Fastener, FastenerShape};
 use crate::geom::{Frame, Plane, Point, hull};
 use crate::mesh::{TriMesh, primitives};
-use crate::panels::{EdgeJoint, Hole, Panel, PanelEdge, PanelSet};
+use crate::panels::{Hole, Panel, PanelSet};
 use crate::shell::Keep;
 
 /// The least number of screws that hold a part, where its face has room.
-const LEAST_SCREWS: usize = 3;
+pub(super) const LEAST_SCREWS: usize = 3;
 /// The area of a part's face that one screw holds, mm².
-const AREA_MM2: f64 = 15_000.0;
-/// Distance between places that are tried, mm.
-const STEP_MM: f64 = 6.0;
-/// Most places that are tried along either side of a face.
-const MOST_STEPS: f64 = 40.0;
+pub(super) const AREA_MM2: f64 = 15_000.0;
 /// Room about a screw's head, mm: a washer, and the play of the hole.
-const HEAD_ROOM_MM: f64 = 1.5;
+pub(super) const HEAD_ROOM_MM: f64 = 1.5;
 /// Material of a boss about its insert, mm.
 const BOSS_MM: f64 = 2.0;
 /// Room beyond the end of an insert or a screw, mm.
 const END_MM: f64 = 1.0;
 /// Least distance between two screws, in diameters of the head.
-const APART_HEADS: f64 = 3.0;
+pub(super) const APART_HEADS: f64 = 3.0;
 /// Number of sides of a bore.
 const BORE_SIDES: u32 = 32;
 /// Distance by which a bore begins below the floor, mm: its end then lies in no face.
@@ -120,6 +117,14 @@ impl ScrewKit {
     /// Returns the radius of a boss, mm.
     pub fn boss_radius_mm(&self) -> f64 {
         0.5 * self.sizes.insert_mm + BOSS_MM
+    }
+
+    fn head(&self) -> Head {
+        Head {
+            diameter_mm: self.sizes.head_mm,
+            height_mm: self.sizes.head_height_mm,
+            radius_mm: self.head_radius_mm(),
+        }
     }
 
     /// Returns the radius that a head takes up on a panel, mm.
@@ -223,7 +228,12 @@ impl Scene<'_> {
             let ring = face.ring();
             let edges = request.panels.edges.iter();
             let edges = edges.filter(|edge| edge.panels.contains(&panel));
-            let inner = edges.fold(ring, |ring, edge| face.clear_of(&ring, edge));
+            let seen = Seen {
+                frame: &panels[panel].frame,
+                inside_mm: [0.0; 2],
+            };
+            let head = request.kit.head();
+            let inner = edges.fold(ring, |ring, edge| clear_of(&ring, edge, &seen, &head));
             found.push(PartScrews {
                 part: index,
                 panel,
@@ -255,88 +265,21 @@ impl Face<'_> {
         [local.x, local.y]
     }
 
-    /// Returns the part of a ring in which heads keep clear of the joint along an edge.
-    fn clear_of(&self, ring: &[[f64; 2]], edge: &PanelEdge) -> Vec<[f64; 2]> {
-        let kit = self.request.kit;
-        let mut depth_mm = edge.depth_mm + kit.head_radius_mm();
-        if matches!(edge.joint, EdgeJoint::Brackets(_)) {
-            depth_mm += 0.5 * kit.sizes.head_mm;
-        }
-        // Where the other panel leans over this one, a head would meet it farther in.
-        depth_mm += kit.sizes.head_height_mm * edge.angle_rad.cos().max(0.0) / edge.angle_rad.sin();
-        let [mut from, mut to] = edge.ends.map(|end| self.flat(&end));
-        if hull::turn(from, to, [0.0; 2]) < 0.0 {
-            [from, to] = [to, from];
-        }
-        let length = (to[0] - from[0]).hypot(to[1] - from[1]);
-        let inward = [(from[1] - to[1]) / length, (to[0] - from[0]) / length];
-        let line = [from, to].map(|at| [0, 1].map(|k| at[k] + depth_mm * inward[k]));
-        left_of(ring, line)
-    }
-
     /// Returns screws spread over a ring: the two farthest apart, then each as far from the others
     /// as can be.
     fn spread(&self, ring: &[[f64; 2]]) -> Vec<Screw> {
-        let places: Vec<Screw> = self.places(ring);
-        let kit = self.request.kit;
-        let least_mm = APART_HEADS * kit.sizes.head_mm;
+        let places = places_in(ring).into_iter();
+        let places: Vec<Screw> = places.filter_map(|at| self.screw_at(at)).collect();
         let wanted = (convex_mm2(ring) / AREA_MM2).ceil() as usize;
-        let apart_mm = |a: &Screw, b: &Screw| (a.foot - b.foot).norm();
-        let middle =
-            [0, 1].map(|k| ring.iter().map(|at| at[k]).sum::<f64>() / ring.len().max(1) as f64);
+        let spacing = Spacing {
+            wanted: wanted.max(LEAST_SCREWS),
+            least_mm: APART_HEADS * self.request.kit.sizes.head_mm,
+        };
+        let middle = middle_of(ring);
         let from_middle =
             |screw: &Screw| (screw.at_mm[0] - middle[0]).hypot(screw.at_mm[1] - middle[1]);
-        let mut screws: Vec<Screw> = Vec::new();
-        while screws.len() < wanted.max(LEAST_SCREWS) {
-            let room = |place: &Screw| {
-                let gaps = screws.iter().map(|screw| apart_mm(screw, place));
-                gaps.reduce(f64::min)
-                    .unwrap_or_else(|| least_mm + from_middle(place))
-            };
-            let next = places.iter().map(|place| (room(place), place));
-            let next = next.reduce(|a, b| if b.0 > a.0 { b } else { a });
-            match next.filter(|(room_mm, _)| *room_mm >= least_mm) {
-                Some((_, place)) => screws.push(*place),
-                None => break,
-            }
-        }
-        screws
-    }
-
-    /// Returns the places in a ring at which a screw can stand: corners and sides of the ring, then
-    /// a grid inside.
-    fn places(&self, ring: &[[f64; 2]]) -> Vec<Screw> {
-        let mut places = Vec::new();
-        for (k, from) in ring.iter().enumerate() {
-            let to = ring[(k + 1) % ring.len()];
-            let steps = ((to[0] - from[0]).hypot(to[1] - from[1]) / STEP_MM).clamp(1.0, MOST_STEPS);
-            let count = steps.ceil() as usize;
-            let along = |step: usize| {
-                let share = step as f64 / count as f64;
-                [0, 1].map(|k| from[k] + share * (to[k] - from[k]))
-            };
-            places.extend((0..count).map(along));
-        }
-        let bound = |pick: fn(f64, f64) -> f64, start| {
-            [0, 1].map(|k| ring.iter().map(|at| at[k]).fold(start, pick))
-        };
-        let (low, high) = (
-            bound(f64::min, f64::INFINITY),
-            bound(f64::max, f64::NEG_INFINITY),
-        );
-        let counts = [0, 1].map(|k| ((high[k] - low[k]) / STEP_MM).clamp(0.0, MOST_STEPS) as usize);
-        let grid = (0..counts[0] * counts[1]).map(|cell| {
-            let cell = [cell % counts[0], cell / counts[0]];
-            [0, 1].map(|k| low[k] + (high[k] - low[k]) * (cell[k] as f64 + 0.5) / counts[k] as f64)
-        });
-        let is_inside = |at: &[f64; 2]| {
-            (0..ring.len()).all(|k| hull::turn(ring[k], ring[(k + 1) % ring.len()], *at) >= 0.0)
-        };
-        places.extend(grid.filter(is_inside));
-        places
-            .into_iter()
-            .filter_map(|at| self.screw_at(at))
-            .collect()
+        let apart = |a: &Screw, b: &Screw| (a.foot - b.foot).norm();
+        spread(&places, &spacing, from_middle, apart)
     }
 
     /// Returns the screw at a place; `None` if its head meets a hole, or its bore the outside.

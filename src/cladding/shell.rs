@@ -59,6 +59,18 @@ impl Scene<'_> {
         request: &ShellRequest,
         watch: &Watch,
     ) -> Result<CladShell, CladdingError> {
+        let bare = self.clad_bare(panels, request, watch)?;
+        let assembly = self.assembly(&bare.parts, &request.up)?;
+        Ok(CladShell { assembly, ..bare })
+    }
+
+    /// Makes the shell without units.
+    pub(super) fn clad_bare(
+        &self,
+        panels: &PanelSet,
+        request: &ShellRequest,
+        watch: &Watch,
+    ) -> Result<CladShell, CladdingError> {
         let wall_mm = request.wall_mm;
         if !(wall_mm > 0.0 && wall_mm.is_finite()) {
             return Err(CladdingError::NotPositive {
@@ -90,14 +102,13 @@ impl Scene<'_> {
                 panels.panels[screws.panel].holes.extend(screws.holes(kit));
             }
         }
-        let assembly = self.assembly(&parts, &request.up)?;
         Ok(CladShell {
             bores_mm3: bores.iter().sum(),
             parts,
             cups,
             screws,
             panels,
-            assembly,
+            assembly: Assembly::default(),
         })
     }
 

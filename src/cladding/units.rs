@@ -9,11 +9,13 @@ use super::part::{Holding, Part};
 use crate::geom::Vector;
 
 /// Area below which a way is free, mm²: what rounding leaves along seams.
-const FREE_MM2: f64 = 1e-3;
+pub(super) const FREE_MM2: f64 = 1e-3;
 
 /// A panel with its parts, or a part that is pinned to another unit: it moves as one piece.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Unit {
+    /// The index of the polyhedron to which it belongs.
+    pub polyhedron: usize,
     /// The index of the face along whose normal it leaves.
     pub face: usize,
     /// True if it holds the panel of that face.
@@ -27,7 +29,7 @@ pub struct Unit {
 }
 
 /// Units and the order in which they are joined.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Assembly {
     /// The units.
     pub units: Vec<Unit>,
@@ -36,16 +38,27 @@ pub struct Assembly {
     pub order: Vec<usize>,
     /// The index of the closing unit: the last one with a panel.
     pub closing: Option<usize>,
+    /// The ways in which several polyhedra come together, in their order; empty for one.
+    pub joins: Vec<Join>,
+    /// The number of units at the end of the order that come after all joins.
+    pub last: usize,
+}
+
+/// The joining of polyhedra that are put together, but still open, across a plane between them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Join {
+    /// The indices of the polyhedra that come.
+    pub moving: Vec<usize>,
+    /// The indices of those to which they come.
+    pub standing: Vec<usize>,
+    /// The direction in which they would leave again, a unit vector.
+    pub way: Vector,
 }
 
 impl Scene<'_> {
     /// Returns the face that looks down most along a direction.
     pub fn bottom_face(&self, up: &Vector) -> Option<usize> {
-        let faces = self.base.faces().iter().enumerate();
-        let faces = faces.filter(|(_, face)| face.area_mm2 > 0.0);
-        let steep = faces.map(|(index, face)| (up.dot(&face.plane.normal), index));
-        let lowest = steep.reduce(|a, b| if b.0 < a.0 { b } else { a });
-        lowest.map(|(_, index)| index)
+        self.base.bottom_face(up)
     }
 
     /// Gathers parts in units and orders them. `up` is the direction up of the object: the unit at
@@ -57,12 +70,37 @@ impl Scene<'_> {
     /// # Errors
     /// The units bar each other's ways in a circle: the error names them.
     pub fn assembly(&self, parts: &[Part], up: &Vector) -> Result<Assembly, CladdingError> {
-        let units = self.gather(parts);
-        let bottom = self.bottom_face(up);
-        let unit_of = |part: usize| units.iter().position(|unit| unit.parts.contains(&part));
+        self.closed_by(self.blocked(parts), up, self.bottom_face(up))
+    }
+
+    /// Orders units so that the one of a face closes.
+    pub(super) fn closed_by(
+        &self,
+        units: Vec<Unit>,
+        up: &Vector,
+        face: Option<usize>,
+    ) -> Result<Assembly, CladdingError> {
         let closing = units
             .iter()
-            .position(|unit| unit.has_panel && Some(unit.face) == bottom);
+            .position(|unit| unit.has_panel && Some(unit.face) == face);
+        let heights_mm: Vec<f64> = units
+            .iter()
+            .map(|unit| up.dot(&self.base.faces()[unit.face].centroid.coords))
+            .collect();
+        let order = order(&units, &heights_mm, closing)?;
+        Ok(Assembly {
+            units,
+            order,
+            closing,
+            joins: Vec::new(),
+            last: 0,
+        })
+    }
+
+    /// Gathers parts in units, each with those that must leave before it.
+    pub(super) fn blocked(&self, parts: &[Part]) -> Vec<Unit> {
+        let units = self.gather(parts);
+        let unit_of = |part: usize| units.iter().position(|unit| unit.parts.contains(&part));
         let after: Vec<Vec<usize>> = (0..units.len())
             .into_par_iter()
             .map(|unit| {
@@ -80,26 +118,14 @@ impl Scene<'_> {
                 others.filter(must_wait).collect()
             })
             .collect();
-        let units: Vec<Unit> = units
-            .into_iter()
-            .zip(after)
-            .map(|(unit, after)| Unit { after, ..unit })
-            .collect();
-        let heights_mm: Vec<f64> = units
-            .iter()
-            .map(|unit| up.dot(&self.base.faces()[unit.face].centroid.coords))
-            .collect();
-        let order = order(&units, &heights_mm, closing)?;
-        Ok(Assembly {
-            units,
-            order,
-            closing,
-        })
+        let units = units.into_iter().zip(after);
+        units.map(|(unit, after)| Unit { after, ..unit }).collect()
     }
 
     /// Returns the units, those with panels first, without their order.
     fn gather(&self, parts: &[Part]) -> Vec<Unit> {
         let new = |face: usize, has_panel: bool, parts: Vec<usize>| Unit {
+            polyhedron: 0,
             face,
             has_panel,
             parts,
@@ -169,8 +195,9 @@ fn order(
             first.then(heights_mm[a].total_cmp(&heights_mm[b]))
         });
         let Some(next) = next else {
-            let units = (0..units.len()).filter(|&unit| !has_left[unit]).collect();
-            return Err(CladdingError::Cycle { units });
+            let barred = (0..units.len()).filter(|&unit| !has_left[unit]);
+            let faces = barred.map(|unit| units[unit].face).collect();
+            return Err(CladdingError::Cycle { faces });
         };
         has_left[next] = true;
         order.push(next);

@@ -37,11 +37,16 @@ impl Wing for CoreWing {
         let stands = sheet.toppling_deg.map_or_else(String::new, |toppling| {
             format!("stands     until leaned by {}\n", measured(toppling, "°"))
         });
+        let polyhedra = sheet.base.polyhedra.len();
+        let several = match polyhedra {
+            0 => String::new(),
+            count => format!(" of {count} polyhedra with"),
+        };
         let brackets =
             sheet.parts.len() - sheet.part_rows.iter().filter(|row| is_shell(row)).count();
         format!(
             "size       {}, {}\n\
-             base       {}, {} of the model, for {}\n\
+             base      {several} {}, {} of the model, for {}\n\
              parts      {} and {} in {}, for {}\n\
              mass       printed {}, panels {}; solid it would be {}\n{stands}",
             measured_extent(&sheet.model.size_mm),

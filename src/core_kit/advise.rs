@@ -6,7 +6,7 @@ use super::made::Made;
 use super::mass::{Weighed, point, weigh};
 use crate::base::numbers::measured;
 use crate::base::setting::{Key, Setting};
-use crate::cladding::Scene;
+use crate::cladding::CladdingError;
 use crate::geom::Point;
 use crate::goal::{Goal, Up, compute_figures, support_edges};
 use crate::job::core_kit::{CoreGoal, CoreJoints, CoreShell};
@@ -45,14 +45,47 @@ pub fn refused(asked: &Asked, refused: &Refused) -> Impossible {
             }
             answer
         }
-        Refused::Shell(why) => {
-            let mut answer = Impossible::new(why.to_string());
-            let faces = "ask for another number of faces, or for a printer with more room";
-            answer.hints.push(faces.to_owned());
-            answer
-        }
+        Refused::Apart => apart(asked.connector.radius_mm),
+        Refused::Shell(why) => unclad(asked, why),
         Refused::Sheets(why) => Impossible::new(why.to_string()),
     }
+}
+
+/// Tells that the polyhedra of a given base are not joined, and what helps.
+fn apart(radius_mm: f64) -> Impossible {
+    let mut answer = Impossible::new(format!(
+        "the polyhedra of the base are not joined: across a plane, no two locked faces share a \
+         disc of {} radius",
+        measured(radius_mm, "mm")
+    ));
+    let halved = format!("{}mm", (0.5 * radius_mm).max(1.0));
+    answer.hints.push(format!(
+        "ask for a smaller disc, such as `{}`, or lock larger faces on the planes",
+        Setting::new(Key::Connector, halved)
+    ));
+    answer
+}
+
+/// Tells why a base gets no shell, and what helps.
+fn unclad(asked: &Asked, why: &CladdingError) -> Impossible {
+    let mut answer = Impossible::new(why.to_string());
+    let hint = match why {
+        CladdingError::NoBolts { .. } => {
+            let larger = format!("{}mm", (1.5 * asked.connector.radius_mm).ceil());
+            format!(
+                "ask for a larger disc between polyhedra, such as `{}`",
+                Setting::new(Key::Connector, larger)
+            )
+        }
+        CladdingError::Enclosed { .. } => format!(
+            "ask for `{}`: its units pass no others; or give a base whose named faces lean away \
+             from the plane",
+            Setting::new(Key::Polyhedra, 1)
+        ),
+        _ => "ask for another number of faces, or for a printer with more room".to_owned(),
+    };
+    answer.hints.push(hint);
+    answer
 }
 
 /// Returns the lean at which an object topples, degrees; less than zero if it does not stand.
@@ -156,10 +189,9 @@ fn solid_shell(asked: &Asked, made: &Made, goal: &Goal) -> Option<Remedy> {
 
 /// Returns the least ballast on the bottom panel with which the object stands as asked, in words.
 fn ballast(asked: &Asked, made: &Made, goal: &Goal, weighed: &Weighed) -> Option<String> {
-    let base = &made.built.base;
-    let scene = Scene::new(asked.ground, base, asked.gap_mm).ok()?;
-    let bottom = scene.bottom_face(&asked.up)?;
-    let face = &base.faces()[bottom];
+    let plan = &made.built.plan;
+    let bottom = plan.bottom_face(&asked.up)?;
+    let face = plan.face(bottom)?;
     let at = face.centroid - face.plane.normal * asked.panels.sheet_mm;
     let mass_g = least_ballast_g(goal, weighed, &at, asked.job.least_angle_deg)?;
     let panels = made.built.shell.panels.panels.iter();

@@ -3,14 +3,14 @@
 use super::error::CoreRunError;
 use super::load::{Loaded, Shop};
 use crate::base::watch::Watch;
-use crate::cladding::ScrewKit;
+use crate::cladding::{BoltKit, ScrewKit};
 use crate::cutter::{CutterNumber, Fastener, FastenerShape};
 use crate::cutting::SheetError;
 use crate::geom::Vector;
 use crate::goal::{Goal, GoalError, GoalKind, Request as GoalRequest, Up, find_upright, place};
 use crate::job::core_kit::{CoreGoal, CoreJob, CoreJoints};
 use crate::panels::{BracketKind, JointStyle, PanelRequest};
-use crate::polyhedra::{Ground, Limits, Request};
+use crate::polyhedra::{ConnectorRequest, Ground, Limits, Request};
 
 /// The wall of parts if the job says nothing else, mm.
 const USUAL_WALL_MM: f64 = 3.0;
@@ -20,6 +20,13 @@ const GAP_MM: f64 = 0.5;
 const SPARE_MM: f64 = 0.1;
 /// The least thread of screws, mm.
 const THREAD_MM: f64 = 3.0;
+/// The gap between panels that bear on each other, mm: sheets are not quite flat.
+const BEARING_MM: f64 = 0.1;
+/// The least radius of the disc in which they do so if the job says nothing else, mm. It is more if
+/// two bolts need more.
+const CONNECTOR_MM: f64 = 20.0;
+/// The least thread of bolts between polyhedra, mm.
+const BOLT_MM: f64 = 4.0;
 /// The hole into which a screw cuts its own thread, over the thread.
 const CORE_HOLE_RATIO: f64 = 2.5 / 3.0;
 /// The thickness of a bracket's flange, mm, and the share of it that a screw must reach into.
@@ -38,6 +45,10 @@ pub struct Asked<'a> {
     pub gap_mm: f64,
     /// The order for the base.
     pub base: Request,
+    /// The order for the connections of its polyhedra.
+    pub connector: ConnectorRequest,
+    /// The bolts between polyhedra; `None` if no stock screw is long enough.
+    pub bolt: Option<BoltKit>,
     /// The order for its panels.
     pub panels: PanelRequest,
     /// The screws and inserts of parts.
@@ -78,6 +89,9 @@ pub fn measure<'a>(
         ..Request::new(distance_mm, limits)
     };
     base.check()?;
+    let bolt = BoltKit::choose(&shop.fasteners, BOLT_MM, 2.0 * sheet_mm + BEARING_MM);
+    let two_mm = bolt.as_ref().map_or(0.0, |bolt| bolt.disc_mm(sheet_mm));
+    let disc_mm = CONNECTOR_MM.max(two_mm.ceil());
     let (up, goal) = stance(job, &loaded.ground, wall_mm, watch)?;
     Ok(Asked {
         job,
@@ -88,6 +102,12 @@ pub fn measure<'a>(
         wall_mm,
         gap_mm: GAP_MM,
         base,
+        connector: ConnectorRequest {
+            radius_mm: job.connector.map_or(disc_mm, |radius| radius.mm()),
+            gap_mm: BEARING_MM,
+            takes_tubes: false,
+        },
+        bolt,
         panels: panel_request(job, sheet_mm, &bracket_screw),
         screws,
         bracket_screw,

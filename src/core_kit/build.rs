@@ -5,20 +5,23 @@ use super::error::CoreRunError;
 use super::pockets::{Pocket, cut_pockets, pockets};
 use crate::base::verdict::Verdict;
 use crate::base::watch::{Phase, Watch};
-use crate::cladding::{CladShell, CladdingError, Scene, ShellRequest, ShellStyle};
+use crate::cladding::{Bolt, CladShell, CladdingError, ShellRequest, ShellStyle, Sides, bolts};
 use crate::cutting::{CutSheet, SheetError, SheetOrder, cut_sheets};
+use crate::job::base_choice::Polyhedra;
 use crate::job::core_kit::CoreShell;
 use crate::panels::{Bracket, PanelError, PanelSet};
-use crate::polyhedra::{NoRoom, Polyhedron, grow_polyhedron};
+use crate::polyhedra::{BasePlan, Count, NoRoom, Several, grow_polyhedra, grow_polyhedron};
 
 /// The largest piece without a panel that grows on a part of another cell, mm³.
 const CRUMB_MM3: f64 = 2000.0;
 
 /// The object as drawn.
 pub struct Built {
-    pub base: Polyhedron,
+    pub plan: BasePlan,
     pub shell: CladShell,
     pub brackets: Vec<Bracket>,
+    /// The bolts between polyhedra.
+    pub bolts: Vec<Bolt>,
     pub pockets: Vec<Pocket>,
     pub sheets: Vec<CutSheet>,
 }
@@ -28,6 +31,8 @@ pub struct Built {
 pub enum Refused {
     /// The model is too thin.
     NoRoom(NoRoom),
+    /// The polyhedra of a given base are not joined to one.
+    Apart,
     /// The base gets no panels.
     Panels(PanelError),
     /// The parts of the shell cannot be cut or joined.
@@ -39,24 +44,50 @@ pub enum Refused {
 /// Draws the object that is asked for.
 pub fn build(asked: &Asked, watch: &Watch) -> Result<Verdict<Built, Refused>, CoreRunError> {
     watch.enter(Phase::Columns);
-    let base = match grow_polyhedron(asked.ground, &asked.base, watch)? {
-        Verdict::Found(base) => base,
+    let plan = match base(asked, watch)? {
+        Verdict::Found(plan) if plan.is_joined() => plan,
+        Verdict::Found(_) => return Ok(Verdict::No(Refused::Apart)),
         Verdict::No(why) => return Ok(Verdict::No(Refused::NoRoom(why))),
     };
-    let panels = match PanelSet::of(&base, &asked.panels) {
+    if plan.polyhedra.len() > 1 && asked.bolt.is_none() {
+        let sheet_mm = asked.panels.sheet_mm;
+        return Err(CoreRunError::NoBolt { sheet_mm });
+    }
+    let bodies = plan.polyhedra.iter();
+    let panels = bodies.map(|body| PanelSet::of(body, &asked.panels));
+    let panels: Vec<PanelSet> = match panels.collect() {
         Ok(panels) => panels,
         Err(why) => return Ok(Verdict::No(Refused::Panels(why))),
     };
     watch.enter(Phase::Shell);
-    let mut shell = match clad(asked, &base, &panels, watch) {
-        Ok(shell) => shell,
-        Err(why @ (CladdingError::Cycle { .. } | CladdingError::NoCut { .. })) => {
-            return Ok(Verdict::No(Refused::Shell(why)));
-        }
+    let (shell, bolts) = match clad(asked, &plan, &panels, watch) {
+        Ok(clad) => clad,
+        Err(why) if is_answer(&why) => return Ok(Verdict::No(Refused::Shell(why))),
         Err(error) => return Err(error.into()),
     };
+    furnish(asked, Bare { plan, shell, bolts }, watch)
+}
+
+/// A base with its shell and bolts, without brackets.
+struct Bare {
+    plan: BasePlan,
+    shell: CladShell,
+    bolts: Vec<Bolt>,
+}
+
+/// Adds brackets and their pockets, and lays the panels out on sheets.
+fn furnish(
+    asked: &Asked,
+    bare: Bare,
+    watch: &Watch,
+) -> Result<Verdict<Built, Refused>, CoreRunError> {
+    let Bare {
+        plan,
+        mut shell,
+        bolts,
+    } = bare;
     let brackets = shell.panels.brackets(&asked.panels)?;
-    let pockets = pockets(asked, &shell, &brackets);
+    let pockets = pockets(asked, &plan, &shell, &brackets);
     cut_pockets(&mut shell, &pockets)?;
     watch.enter(Phase::Plan);
     let order = SheetOrder {
@@ -71,22 +102,59 @@ pub fn build(asked: &Asked, watch: &Watch) -> Result<Verdict<Built, Refused>, Co
         Err(error) => return Err(error.into()),
     };
     Ok(Verdict::Found(Built {
-        base,
+        plan,
         shell,
         brackets,
+        bolts,
         pockets,
         sheets,
     }))
 }
 
-/// Makes the shell around the panels of a base.
+/// Returns the base that is given, or the one that is found.
+fn base(asked: &Asked, watch: &Watch) -> Result<Verdict<BasePlan, NoRoom>, CoreRunError> {
+    if let Some(given) = &asked.job.base {
+        let text = [given.file.as_str(), given.toml.as_str()];
+        let plan = BasePlan::from_toml(text, asked.ground, &asked.base, &asked.connector)?;
+        return Ok(Verdict::Found(plan));
+    }
+    let count = match asked.job.polyhedra {
+        Polyhedra::Exactly(1) => {
+            let base = grow_polyhedron(asked.ground, &asked.base, watch)?;
+            return Ok(match base {
+                Verdict::Found(base) => Verdict::Found(BasePlan::one(base)),
+                Verdict::No(why) => Verdict::No(why),
+            });
+        }
+        Polyhedra::Exactly(count) => Count::Exactly(count),
+        Polyhedra::Auto => Count::Auto(Polyhedra::Auto.most()),
+    };
+    let several = Several {
+        count,
+        connector: asked.connector,
+    };
+    Ok(grow_polyhedra(asked.ground, &asked.base, &several, watch)?)
+}
+
+/// Returns true if an error in making the shell is an answer: another base may do.
+fn is_answer(why: &CladdingError) -> bool {
+    matches!(
+        why,
+        CladdingError::Cycle { .. }
+            | CladdingError::Enclosed { .. }
+            | CladdingError::NoBolts { .. }
+            | CladdingError::NoCut { .. }
+    )
+}
+
+/// Makes the shell around the panels of a base, with the bolts through common ones.
 fn clad(
     asked: &Asked,
-    base: &Polyhedron,
-    panels: &PanelSet,
+    plan: &BasePlan,
+    panels: &[PanelSet],
     watch: &Watch,
-) -> Result<CladShell, CladdingError> {
-    let scene = Scene::new(asked.ground, base, asked.gap_mm)?;
+) -> Result<(CladShell, Vec<Bolt>), CladdingError> {
+    let sides = Sides::new(asked.ground, plan, asked.gap_mm)?;
     let request = ShellRequest {
         wall_mm: asked.wall_mm,
         style: match asked.job.shell {
@@ -98,5 +166,13 @@ fn clad(
         kit: Some(&asked.screws),
         up: asked.up,
     };
-    scene.clad(panels, &request, watch)
+    let mut shell = sides.clad(panels, &request, watch)?;
+    let Some(kit) = &asked.bolt else {
+        return Ok((shell, Vec::new()));
+    };
+    let bolts = bolts(plan, &shell.panels, &asked.panels, kit)?;
+    for (panel, hole) in bolts.iter().flat_map(|bolt| bolt.holes(kit)) {
+        shell.panels.panels[panel].holes.push(hole);
+    }
+    Ok((shell, bolts))
 }

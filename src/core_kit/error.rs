@@ -14,7 +14,7 @@ use crate::io::{ContentError, ReadError, StlError};
 use crate::job::JobError;
 use crate::mend::MendError;
 use crate::mesh::{ClipError, Defects};
-use crate::polyhedra::{RequestError, SeparationError};
+use crate::polyhedra::{BaseFileError, RequestError, SeparationError};
 use crate::printer::{MaterialError, ProfileError, WallError};
 use crate::repair::NotOneBody;
 use crate::verify::CoreVerifyError;
@@ -72,6 +72,9 @@ pub enum CoreRunError {
     /// The number of faces cannot be.
     #[error(transparent)]
     Faces(#[from] RequestError),
+    /// The file of a base describes none of this model.
+    #[error(transparent)]
+    Base(#[from] BaseFileError),
     /// The goal cannot be placed.
     #[error(transparent)]
     Goal(#[from] GoalError),
@@ -80,6 +83,15 @@ pub enum CoreRunError {
         "no stock screw reaches through a sheet of {sheet_mm} mm; remedy: choose a thinner sheet"
     )]
     NoScrew {
+        /// The thickness of the sheet, mm.
+        sheet_mm: f64,
+    },
+    /// No stock screw passes two sheets.
+    #[error(
+        "no stock screw reaches through two sheets of {sheet_mm} mm, two washers and a nut; \
+         remedy: choose a thinner sheet, or one polyhedron"
+    )]
+    NoBolt {
         /// The thickness of the sheet, mm.
         sheet_mm: f64,
     },

@@ -4,16 +4,16 @@ use super::asked::Asked;
 use super::error::CoreRunError;
 use super::made::{Made, WrittenPart};
 use crate::draw::part_color;
-use crate::geom::{Matrix, Point, Vector};
+use crate::geom::{Matrix, Plane, Point, Vector};
 use crate::io::threemf::{Build, Object, Package, Transform};
 use crate::io::{encode_cut_svg, encode_dxf, stl};
 use crate::make::{File, plates, print_settings};
 use crate::mesh::TriMesh;
 use crate::panels::{EdgeJoint, Hole, PanelEdge};
-use crate::polyhedra::{Obstacles, Separation};
+use crate::polyhedra::{BasePlan, Obstacles, Separation};
 use crate::verify::{
-    CoreCertificate, CutSheetPromise, EdgePromise, HolePromise, MODEL_FILE, PanelPromise,
-    PanelsFile, PlacedPanel,
+    BaseCertificate, CoreCertificate, CutSheetPromise, EdgePromise, HolePromise, MODEL_FILE,
+    PanelPromise, PanelsFile, PlacedPanel,
 };
 
 /// The version of the keys of panels and certificate.
@@ -34,22 +34,40 @@ pub fn certificate(
     made: &Made,
     model_stl: &[u8],
 ) -> Result<CoreCertificate, CoreRunError> {
-    let planes = made.built.base.planes();
+    let plan = &made.built.plan;
     let longest_mm = asked.ground.obstacles().longest_edge_mm();
     let obstacles = Obstacles::of_mesh(&stl::decode(model_stl)?, longest_mm);
-    let separation = Separation::find(&planes, &obstacles, asked.base.distance_mm)?;
-    let numbers = planes.iter().map(|plane| {
+    let distance_mm = asked.base.distance_mm;
+    let numbers = |plane: &Plane| {
         let [x, y, z] = plane.normal.into();
         [x, y, z, plane.offset_mm]
+    };
+    let bases = plan.polyhedra.iter().enumerate().map(|(index, body)| {
+        let planes = body.planes();
+        Ok(BaseCertificate {
+            faces: Separation::find(&planes, &obstacles, distance_mm)?.faces,
+            planes: planes.iter().map(numbers).collect(),
+            sides: plan.sides(index).iter().map(numbers).collect(),
+        })
     });
+    let mut bases: Vec<BaseCertificate> = bases.collect::<Result<_, CoreRunError>>()?;
+    let others = bases.split_off(bases.len().min(1));
     Ok(CoreCertificate {
         schema: SCHEMA,
         model: MODEL_FILE.to_owned(),
-        distance_mm: separation.distance_mm,
-        longest_edge_mm: separation.longest_edge_mm,
-        planes: numbers.collect(),
-        faces: separation.faces,
+        distance_mm,
+        longest_edge_mm: longest_mm,
+        base: bases.pop().unwrap_or_default(),
+        others,
     })
+}
+
+/// Returns the polyhedron of a face of the whole base, and the face's index in it.
+fn face_in(plan: &BasePlan, face: usize) -> [usize; 2] {
+    let counts = 0..plan.polyhedra.len();
+    let own = counts.rev().find(|at| plan.faces_before(*at) <= face);
+    let polyhedron = own.unwrap_or(0);
+    [polyhedron, face - plan.faces_before(polyhedron)]
 }
 
 /// Returns the panels as plain data.
@@ -62,9 +80,11 @@ pub fn panels(made: &Made) -> PanelsFile {
     let panels = set.panels.iter().enumerate().map(|(index, panel)| {
         let axis = |column: usize| panel.frame.axes.column(column).into_owned().into();
         let edges = set.edges.iter().filter(|edge| edge.panels.contains(&index));
+        let [polyhedron, plane] = face_in(&made.built.plan, panel.face);
         PanelPromise {
             panel: index + 1,
-            plane: panel.face,
+            polyhedron: polyhedron + 1,
+            plane,
             origin_mm: panel.frame.origin.into(),
             axes: [0, 1, 2].map(axis),
             outline_mm: panel.outline.corners().to_vec(),

@@ -47,22 +47,57 @@ pub fn fasteners(asked: &Asked, made: &Made) -> Vec<FastenerPromise> {
         }
     }
     for (index, bracket) in made.built.brackets.iter().enumerate() {
-        let (flange, panel) = home_panel(shell, bracket);
-        let out = shell.panels.panels[panel].frame.axis();
-        all.extend(bracket.screws[flange].map(|inner| {
+        let home = home_panel(&made.built.plan, shell, bracket);
+        let out = shell.panels.panels[home.panel].frame.axis();
+        let screws = bracket.screws[home.flange].iter();
+        all.extend(screws.filter(|_| home.is_screwed).map(|inner| {
             let place = Place {
                 part: &bracket_id(index),
-                panel: panel + 1,
+                panel: home.panel + 1,
                 seat: inner + out * asked.panels.sheet_mm,
                 axis: -out,
             };
             place.fastener(&asked.bracket_screw)
         }));
     }
+    all.extend(bolts(asked, made));
     all
 }
 
+/// Returns all bolts between polyhedra, each with its washers and its nut.
+fn bolts(asked: &Asked, made: &Made) -> Vec<FastenerPromise> {
+    let Some(kit) = &asked.bolt else {
+        return Vec::new();
+    };
+    let all = made.built.bolts.iter().flat_map(|bolt| {
+        let joint = &made.built.plan.connections[bolt.connection];
+        let [a, b] = joint.polyhedra.map(|polyhedron| polyhedron + 1);
+        let name = format!("polyhedra {a} and {b}");
+        let [head, nut] = [0, 1].map(|side| {
+            let panel = &made.built.shell.panels.panels[bolt.panels[side]];
+            // The end of the bolt is inside of the polyhedron, on its washer.
+            Place {
+                part: &name,
+                panel: bolt.panels[side] + 1,
+                seat: panel.at(bolt.at_mm[side], 1.0),
+                axis: panel.frame.axis(),
+            }
+        });
+        let screw = head.behind(kit.washer_mm()).fastener(&kit.screw);
+        let bolt = FastenerPromise {
+            kind: FastenerKind::Bolt,
+            through: Some(nut.panel),
+            ..screw
+        };
+        let washers = [&head, &nut].map(|place| place.fastener(&kit.washer));
+        let nut = nut.behind(kit.washer_mm()).fastener(&kit.nut);
+        [bolt, nut].into_iter().chain(washers).collect::<Vec<_>>()
+    });
+    all.collect()
+}
+
 /// The place of a fastener.
+#[derive(Clone, Copy)]
 struct Place<'a> {
     part: &'a str,
     panel: usize,
@@ -73,6 +108,14 @@ struct Place<'a> {
 }
 
 impl Place<'_> {
+    /// Returns the place behind this one, mm.
+    fn behind(self, by_mm: f64) -> Self {
+        Self {
+            seat: self.seat - self.axis * by_mm,
+            ..self
+        }
+    }
+
     fn fastener(&self, of: &Fastener) -> FastenerPromise {
         let (kind, along_mm, head_mm) = match of.shape {
             FastenerShape::Screw {
@@ -87,9 +130,24 @@ impl Place<'_> {
             FastenerShape::Insert { length_mm, .. } => {
                 (FastenerKind::Insert, 0.5 * length_mm, [0.0; 2])
             }
-            FastenerShape::Washer { thickness_mm, .. } => {
-                (FastenerKind::Insert, 0.5 * thickness_mm, [0.0; 2])
-            }
+            FastenerShape::Washer {
+                diameter_mm,
+                thickness_mm,
+                ..
+            } => (
+                FastenerKind::Washer,
+                -0.5 * thickness_mm,
+                [diameter_mm, thickness_mm],
+            ),
+            FastenerShape::Nut {
+                diameter_mm,
+                thickness_mm,
+                ..
+            } => (
+                FastenerKind::Nut,
+                -0.5 * thickness_mm,
+                [diameter_mm, thickness_mm],
+            ),
         };
         FastenerPromise {
             id: of.id.clone(),
@@ -101,6 +159,7 @@ impl Place<'_> {
             seat_mm: self.seat.into(),
             axis: self.axis.into(),
             head_mm,
+            through: None,
         }
     }
 }
@@ -151,16 +210,19 @@ fn along_edges(asked: &Asked, made: &Made) -> Vec<GluePromise> {
 fn under_flanges(asked: &Asked, made: &Made) -> Vec<GluePromise> {
     let kind = &asked.panels.brackets;
     let area_mm2 = kind.width_mm() * asked.panels.flange_mm();
-    let brackets = made.built.brackets.iter().enumerate();
-    brackets
-        .map(|(index, bracket)| {
-            let (home, _) = home_panel(&made.built.shell, bracket);
-            let [a, b] = bracket.screws[1 - home];
-            let other = made.built.shell.panels.edges[bracket.edge].panels[1 - home];
-            let joint = format!("bracket {} and panel {}", bracket_id(index), other + 1);
-            wood_film(joint, area_mm2, nalgebra::center(&a, &b))
-        })
-        .collect()
+    let shell = &made.built.shell;
+    let mut films = Vec::new();
+    for (index, bracket) in made.built.brackets.iter().enumerate() {
+        let home = home_panel(&made.built.plan, shell, bracket);
+        let glued = [1 - home.flange].into_iter();
+        for flange in glued.chain((!home.is_screwed).then_some(home.flange)) {
+            let [a, b] = bracket.screws[flange];
+            let panel = shell.panels.edges[bracket.edge].panels[flange] + 1;
+            let joint = format!("bracket {} and panel {panel}", bracket_id(index));
+            films.push(wood_film(joint, area_mm2, nalgebra::center(&a, &b)));
+        }
+    }
+    films
 }
 
 fn wood_film(joint: String, area_mm2: f64, middle: Point) -> GluePromise {

@@ -2,10 +2,25 @@
 
 use crate::cladding::CladShell;
 use crate::panels::Bracket;
+use crate::polyhedra::BasePlan;
 
-/// Returns the flange by which a bracket is screwed to its panel, and the index of that panel. It
-/// is the one of both that is joined first; the other one is glued on when it comes.
-pub fn home_panel(shell: &CladShell, bracket: &Bracket) -> (usize, usize) {
+/// The panel that carries a bracket.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Home {
+    /// The flange of the bracket on that panel.
+    pub flange: usize,
+    /// The index of the panel.
+    pub panel: usize,
+    /// False if the bracket is glued there too: heads of screws would stand in the panel of
+    /// another polyhedron that bears on it.
+    pub is_screwed: bool,
+}
+
+/// Returns the panel that carries a bracket.
+///
+/// It is the one of both that is joined first; the other one is glued on when it comes. A panel
+/// that bears on another polyhedron comes second, for heads have no room there.
+pub fn home_panel(plan: &BasePlan, shell: &CladShell, bracket: &Bracket) -> Home {
     let panels = shell.panels.edges[bracket.edge].panels;
     let place = |panel: usize| {
         let face = shell.panels.panels[panel].face;
@@ -14,6 +29,15 @@ pub fn home_panel(shell: &CladShell, bracket: &Bracket) -> (usize, usize) {
             |unit: &usize| assembly.units[*unit].has_panel && assembly.units[*unit].face == face;
         assembly.order.iter().position(is_own)
     };
-    let flange = usize::from(place(panels[1]) < place(panels[0]));
-    (flange, panels[flange])
+    let bears = |panel: usize| {
+        let face = plan.face(shell.panels.panels[panel].face);
+        face.is_some_and(|face| face.is_locked)
+    };
+    let [first, second] = panels.map(|panel| (bears(panel), place(panel)));
+    let flange = usize::from(second < first);
+    Home {
+        flange,
+        panel: panels[flange],
+        is_screwed: !(first.0 && second.0),
+    }
 }

@@ -8,7 +8,7 @@ use super::error::CoreRunError;
 use super::names::{Names, bracket_id};
 use super::pockets::Pocket;
 use crate::base::watch::{Phase, Watch};
-use crate::cladding::{BoundKind, CladdingError, Lie, Part, Room, Scene};
+use crate::cladding::{BoundKind, CladdingError, Lie, Part, Room};
 use crate::geom::{Frame, Point, Vector};
 use crate::io::stl;
 use crate::make::write_free_of_folds;
@@ -67,7 +67,6 @@ pub fn make(asked: &Asked, built: Built, watch: &Watch) -> Result<Made, CoreRunE
         asked,
         built: &built,
         names: &names,
-        scene: Scene::new(asked.ground, &built.base, asked.gap_mm)?,
         watch,
     };
     let shell = (0..built.shell.parts.len()).into_par_iter();
@@ -88,7 +87,6 @@ struct Writer<'a> {
     asked: &'a Asked<'a>,
     built: &'a Built,
     names: &'a Names,
-    scene: Scene<'a>,
     watch: &'a Watch,
 }
 
@@ -102,10 +100,11 @@ impl Writer<'_> {
             wall_mm: self.asked.wall_mm,
         };
         let no_cut = CladdingError::NoCut { face: part.face };
-        let lie: Lie = self.scene.lie(part, &room).ok_or(no_cut)?;
+        let face = self.built.plan.face(part.face);
+        let up = face.map_or_else(Vector::zeros, |face| face.plane.normal);
+        let lie = Lie::of_part(part, &up, &room).ok_or(no_cut)?;
         let body = &shell.cups[index].body;
         let written = self.write(body, &lie.frame, &self.names.parts[index])?;
-        let up = self.scene.normal(part.face);
         Ok(WrittenPart {
             kind: CorePartKind::Shell,
             panel: self.names.panels[index],
@@ -181,10 +180,10 @@ impl Writer<'_> {
     }
 }
 
-/// Returns the planes of cuts along a part's sides.
+/// Returns the planes of cuts along a part's sides, and of those to other polyhedra.
 fn cuts(part: &Part) -> Vec<[f64; 4]> {
     let bounds = part.region.bounds().iter();
-    let cuts = bounds.filter(|bound| bound.kind == BoundKind::Cut);
+    let cuts = bounds.filter(|bound| matches!(bound.kind, BoundKind::Cut | BoundKind::Split));
     cuts.map(|bound| {
         let [x, y, z] = bound.plane.normal.into();
         [x, y, z, bound.plane.offset_mm]

@@ -15,6 +15,8 @@ use crate::verify::{
 };
 use crate::wing::{Papers, Prepared};
 
+/// The base in a kit, for a person to edit.
+const BASE_FILE: &str = "base.toml";
 /// The ending of drawings that the page shows.
 const DRAWING: &str = ".svg";
 
@@ -39,6 +41,7 @@ pub fn finish(
     kit.add(MODEL_FILE, draft.model_stl);
     kit.add(PANELS_FILE, draft.panels_json.into_bytes());
     kit.add(CORE_CERTIFICATE_FILE, draft.certificate_json.into_bytes());
+    kit.add(BASE_FILE, draft.made.built.plan.to_toml().into_bytes());
     kit.add(JOB_FILE, asked.job.in_kit().to_toml()?.into_bytes());
     let copy = ModelChoice::copy_name(&asked.job.model.path, &asked.job.name());
     kit.add(&format!("{MODEL_FOLDER}{copy}"), asked.model_bytes.to_vec());

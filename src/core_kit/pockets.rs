@@ -8,6 +8,7 @@ use crate::cutter::FastenerShape;
 use crate::geom::{Frame, Point, Vector};
 use crate::mesh::{Csg, TriMesh, primitives};
 use crate::panels::Bracket;
+use crate::polyhedra::BasePlan;
 use crate::verify::BossPromise;
 
 /// Room about a head, mm.
@@ -48,7 +49,12 @@ impl Pocket {
 }
 
 /// Returns the pockets for the screws of all brackets.
-pub fn pockets(asked: &Asked, shell: &CladShell, brackets: &[Bracket]) -> Vec<Pocket> {
+pub fn pockets(
+    asked: &Asked,
+    plan: &BasePlan,
+    shell: &CladShell,
+    brackets: &[Bracket],
+) -> Vec<Pocket> {
     let FastenerShape::Screw {
         head_diameter_mm,
         head_height_mm,
@@ -58,8 +64,9 @@ pub fn pockets(asked: &Asked, shell: &CladShell, brackets: &[Bracket]) -> Vec<Po
         return Vec::new();
     };
     let screws = brackets.iter().flat_map(|bracket| {
-        let (flange, panel) = home_panel(shell, bracket);
-        bracket.screws[flange].map(|inner| (panel, inner))
+        let home = home_panel(plan, shell, bracket);
+        let screws = bracket.screws[home.flange].map(|inner| (home.panel, inner));
+        screws.into_iter().filter(move |_| home.is_screwed)
     });
     screws
         .map(|(panel, inner)| {

@@ -3,18 +3,19 @@
 use super::asked::Asked;
 use super::error::CoreRunError;
 use super::made::Made;
-use super::units::units;
+use super::units::{joins, units};
 use crate::base::watch::Watch;
 use crate::geom::Vector;
 use crate::mesh::TriMesh;
-use crate::page::{CoreView, Picture, ShownThing, draw_core};
+use crate::page::{CoreView, JoinStep, Picture, ShownThing, draw_core};
+use crate::verify::{JoinPromise, UnitPromise};
 
 /// The width of pictures of parts, in the size of the model: coarse bodies look the same.
 const COARSE_RATIO: f64 = 0.002;
 
 /// Draws the pictures of an object.
 pub fn pictures(asked: &Asked, made: &Made, watch: &Watch) -> Result<Vec<Picture>, CoreRunError> {
-    let units = units(made);
+    let (units, joins) = (units(made), joins(made));
     let size_mm = asked.ground.solid().mesh().longest_side_mm();
     let bodies: Vec<TriMesh> = made
         .built
@@ -55,8 +56,57 @@ pub fn pictures(asked: &Asked, made: &Made, watch: &Watch) -> Result<Vec<Picture
     let view = CoreView {
         things: &things,
         units: units.iter().map(|unit| unit.id.clone()).collect(),
-        ways: units.iter().map(|unit| Vector::from(unit.way)).collect(),
+        apart: units.iter().map(|unit| apart(unit, &joins)).collect(),
+        steps: steps(&units, &joins),
         up: asked.up,
     };
     Ok(draw_core(&view)?)
+}
+
+/// Returns the way by which a unit is drawn apart: its own, and those of its polyhedron.
+fn apart(unit: &UnitPromise, joins: &[JoinPromise]) -> Vector {
+    let comes = |join: &&JoinPromise| {
+        let own = unit.polyhedron;
+        own.is_some_and(|own| join.moving.contains(&own))
+    };
+    let ways = joins.iter().filter(comes);
+    let ways = ways.map(|join| Vector::from(join.way));
+    ways.fold(Vector::from(unit.way), |all, way| all + way)
+}
+
+/// Returns the steps in which the object is put together: each polyhedron but for what closes it,
+/// then the polyhedra, then the rest.
+fn steps(units: &[UnitPromise], joins: &[JoinPromise]) -> Vec<JoinStep> {
+    let own = |unit: usize| JoinStep {
+        name: units[unit].id.clone(),
+        moving: vec![unit],
+        standing: (0..unit)
+            .filter(|&other| {
+                let is_beside = units[other].polyhedron == units[unit].polyhedron;
+                units[unit].is_last || (is_beside && !units[other].is_last)
+            })
+            .collect(),
+        way: Vector::from(units[unit].way),
+    };
+    let whole = joins.iter().map(|join| {
+        let within = |numbers: &[usize]| {
+            let is_in = |unit: &UnitPromise| {
+                let own = unit.polyhedron;
+                own.is_some_and(|own| numbers.contains(&own)) && !unit.is_last
+            };
+            (0..units.len())
+                .filter(|&unit| is_in(&units[unit]))
+                .collect()
+        };
+        JoinStep {
+            name: join.name(),
+            moving: within(&join.moving),
+            standing: within(&join.standing),
+            way: Vector::from(join.way),
+        }
+    });
+    let is_last = |unit: &usize| units[*unit].is_last;
+    let before = (0..units.len()).filter(|unit| !is_last(unit)).map(own);
+    let after = (0..units.len()).filter(is_last).map(own);
+    before.chain(whole).chain(after).collect()
 }

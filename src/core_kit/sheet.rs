@@ -5,21 +5,23 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::advise::toppling_deg;
 use super::asked::Asked;
 use super::files::{cut_sheets, joint_word};
+use super::home::home_panel;
 use super::made::{Made, WrittenPart};
 use super::mass::{Weighed, paper_estimate};
-use super::units::units;
+use super::units::{joins, units};
 use crate::base::digest::sha256_hex;
 use crate::base::sourced::Sure;
-use crate::cladding::Holding;
+use crate::cladding::{HAND_MM2, Holding};
 use crate::cutter::CutterNumber;
+use crate::job::base_choice::Polyhedra;
 use crate::job::core_kit::CoreShell;
 use crate::mass::moments_of_mesh;
-use crate::mesh::surface_mm2;
+use crate::mesh::{TriMesh, surface_mm2};
 use crate::polyhedra::{Breach, LimitKind};
 use crate::sheet::Verdict;
 use crate::sheet::core_kit::{
     BaseRow, BuyRow, CORE_SHEET_SCHEMA, CoreMaterialRow, CoreModelRow, CorePartRow, CorePrinterRow,
-    CoreSheet, CutSheetRow, CutterRow, MassRow, SheetRow,
+    CoreSheet, CutSheetRow, CutterRow, MassRow, PolyhedronRow, SheetRow,
 };
 use crate::verify::{CorePartPromise, CutPromise, PrinterLimits};
 
@@ -49,6 +51,7 @@ pub fn checklist(asked: &Asked, made: &Made, weighed: &Weighed) -> CoreSheet {
         fasteners: weighed.fasteners.clone(),
         glue: weighed.glue.clone(),
         units: units(made),
+        joins: joins(made),
         buy: buy(asked, made, weighed),
         up: asked.up.into(),
         mass_g: weighed.mass_g(),
@@ -131,7 +134,7 @@ fn sheet(asked: &Asked) -> SheetRow {
 }
 
 fn base(asked: &Asked, made: &Made) -> BaseRow {
-    let base = &made.built.base;
+    let plan = &made.built.plan;
     let edges = &made.built.shell.panels.edges;
     let count = |word: &str| {
         let own = edges.iter().filter(|edge| joint_word(&edge.joint) == word);
@@ -139,13 +142,36 @@ fn base(asked: &Asked, made: &Made) -> BaseRow {
     };
     BaseRow {
         panels: made.built.shell.panels.panels.len(),
-        volume_mm3: base.volume_mm3(),
-        volume_ratio: base.volume_mm3() / asked.ground.volume_mm3(),
+        polyhedra: polyhedra(made),
+        volume_mm3: plan.volume_mm3(),
+        volume_ratio: plan.volume_mm3() / asked.ground.volume_mm3(),
         panels_mm2: made.built.sheets.iter().map(|sheet| sheet.panels_mm2).sum(),
         finger_edges: count("fingers"),
         bracket_edges: count("brackets"),
         glued_edges: count("glue"),
     }
+}
+
+/// Returns the rows of several polyhedra; none for one.
+fn polyhedra(made: &Made) -> Vec<PolyhedronRow> {
+    let plan = &made.built.plan;
+    let panels = &made.built.shell.panels.panels;
+    let assembly = &made.built.shell.assembly;
+    let last = &assembly.order[assembly.order.len() - assembly.last..];
+    let all = plan.polyhedra.iter().enumerate();
+    let several = all.filter(|_| plan.polyhedra.len() > 1);
+    let rows = several.map(|(index, body)| {
+        let own = plan.faces_before(index)..plan.faces_before(index + 1);
+        let number = |face: usize| panels.iter().position(|panel| panel.face == face);
+        let mut closing = last.iter().map(|&unit| &assembly.units[unit]);
+        let closing = closing.find(|unit| unit.polyhedron == index && unit.has_panel);
+        PolyhedronRow {
+            panels: own.clone().filter_map(number).map(|at| at + 1).collect(),
+            volume_mm3: body.volume_mm3(),
+            closed_by: closing.and_then(|unit| number(unit.face)).map(|at| at + 1),
+        }
+    });
+    rows.collect()
 }
 
 fn sheet_rows(asked: &Asked, made: &Made) -> Vec<CutSheetRow> {
@@ -198,7 +224,7 @@ fn part_rows(asked: &Asked, made: &Made) -> Vec<CorePartRow> {
             }
             Some(Holding::Pinned { to, .. }) => format!("glue on {}", made.names.parts[to]),
             Some(Holding::Nothing) => "nothing".to_owned(),
-            None => "2 screws, and glue on the other panel".to_owned(),
+            None => bracket_words(made, index - shell.parts.len()).to_owned(),
         };
         let lies = match (part.lies_on_panel_side, shell.parts.get(index)) {
             (true, _) => "panel side down",
@@ -214,6 +240,17 @@ fn part_rows(asked: &Asked, made: &Made) -> Vec<CorePartRow> {
         }
     });
     rows.collect()
+}
+
+/// Words what holds a bracket.
+fn bracket_words(made: &Made, bracket: usize) -> &'static str {
+    let built = &made.built;
+    let home = home_panel(&built.plan, &built.shell, &built.brackets[bracket]);
+    if home.is_screwed {
+        "2 screws, and glue on the other panel"
+    } else {
+        "glue on both panels"
+    }
 }
 
 fn buy(asked: &Asked, made: &Made, weighed: &Weighed) -> Vec<BuyRow> {
@@ -252,7 +289,9 @@ fn buy(asked: &Asked, made: &Made, weighed: &Weighed) -> Vec<BuyRow> {
 fn masses(asked: &Asked, made: &Made, weighed: &Weighed) -> MassRow {
     let model = asked.ground.solid().mesh();
     let densities = [asked.print_g_mm3(), asked.shop.sheet.mass_per_area_g_mm2()];
-    let base = made.built.base.mesh().unwrap_or_default();
+    let bodies = made.built.plan.polyhedra.iter();
+    let bodies = bodies.filter_map(|body| body.mesh().ok());
+    let base = bodies.fold(TriMesh::default(), |all, body| all.joined(&body));
     let (paper_g, paper_centre) = paper_estimate(model, &base, densities);
     MassRow {
         shell_g: weighed.shell_g,
@@ -273,7 +312,16 @@ fn warnings(asked: &Asked, made: &Made) -> Vec<String> {
         "glue, screws and brackets hold the base together: it does not lock by its shape"
             .to_owned(),
     );
-    warnings.extend(made.built.base.breaches().iter().map(breach));
+    let bodies = &made.built.plan.polyhedra;
+    warnings.extend(bodies.iter().flat_map(|body| body.breaches()).map(breach));
+    warnings.extend(narrow(made));
+    let wanted = asked.job.polyhedra;
+    if asked.job.base.is_none() && wanted != Polyhedra::Auto && bodies.len() < wanted.most() {
+        warnings.push(format!(
+            "the base has {} of {wanted} polyhedra: no plane leaves room for one more",
+            bodies.len()
+        ));
+    }
     let shell = &made.built.shell;
     let parts = shell.parts.iter().enumerate();
     let unheld = parts.filter(|(_, part)| part.holding == Holding::Nothing);
@@ -293,6 +341,26 @@ fn warnings(asked: &Asked, made: &Made) -> Vec<String> {
         ));
     }
     warnings
+}
+
+/// Names the polyhedra, of several, whose open side is narrower than a hand.
+fn narrow(made: &Made) -> Vec<String> {
+    let panels = &made.built.shell.panels.panels;
+    let area_mm2 = |number: usize| {
+        let face = panels.get(number - 1).map(|panel| panel.face);
+        let face = face.and_then(|face| made.built.plan.face(face));
+        face.map_or(0.0, |face| face.area_mm2)
+    };
+    let rows = polyhedra(made).into_iter().enumerate();
+    let narrow = rows.filter_map(|(index, row)| {
+        let panel = row.closed_by.filter(|panel| area_mm2(*panel) < HAND_MM2)?;
+        Some(format!(
+            "no hand passes the open side of polyhedron {}, panel {panel}: glue its nuts to their \
+             panel on the bench, or hold them by long pliers",
+            index + 1
+        ))
+    });
+    narrow.collect()
 }
 
 /// Words a limit that the base breaks.

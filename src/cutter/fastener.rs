@@ -1,12 +1,12 @@
-//! The fasteners of a shop: screws, inserts and washers, each number with its source.
+//! The fasteners of a shop: screws, nuts, inserts and washers, each number with its source.
 
-use std::f64::consts::FRAC_PI_4;
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 use toml::Spanned;
 
 use super::error::{Problem, ProfileError, suggest};
+use super::fastener_shape::FastenerShape;
 use super::library::{FASTENERS, Profile, by_id, ids, is_path, read_text};
 use super::reader::{Key, Reader};
 use crate::base::sourced::Sure;
@@ -19,8 +19,6 @@ const MASS_G: std::ops::RangeInclusive<f64> = 0.005..=500.0;
 /// The plausible densities of the nominal shape, g/cm³: threads, sockets and knurls take some of
 /// it away. Outside them a size or mass is misprinted.
 const DENSITY_G_CM3: std::ops::RangeInclusive<f64> = 3.0..=10.0;
-/// The share of the cylinder around it that a round head fills.
-const HEAD_RATIO: f64 = 0.55;
 
 /// The source of a fastener's sizes, or of its mass.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -30,156 +28,6 @@ pub struct Provenance {
     pub source: String,
     /// The confidence in it.
     pub sure: Sure,
-}
-
-/// The sizes of a fastener, mm.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
-pub enum FastenerShape {
-    /// A machine screw with a round head.
-    Screw {
-        /// Nominal diameter of the thread.
-        thread_mm: f64,
-        /// Length below the head.
-        length_mm: f64,
-        /// Diameter of the head.
-        head_diameter_mm: f64,
-        /// Height of the head.
-        head_height_mm: f64,
-        /// Diameter of the hole that it passes with play.
-        hole_mm: f64,
-    },
-    /// A threaded insert that is pressed hot into a print.
-    Insert {
-        /// Nominal diameter of the thread.
-        thread_mm: f64,
-        /// Length.
-        length_mm: f64,
-        /// Diameter over the knurl.
-        diameter_mm: f64,
-        /// Diameter of the hole that is printed for it.
-        hole_mm: f64,
-    },
-    /// A flat washer.
-    Washer {
-        /// Nominal diameter of the thread that it fits.
-        thread_mm: f64,
-        /// Outer diameter.
-        diameter_mm: f64,
-        /// Diameter of its hole.
-        bore_mm: f64,
-        /// Thickness.
-        thickness_mm: f64,
-    },
-}
-
-impl FastenerShape {
-    /// Returns the nominal diameter of its thread, mm.
-    pub fn thread_mm(&self) -> f64 {
-        match *self {
-            Self::Screw { thread_mm, .. }
-            | Self::Insert { thread_mm, .. }
-            | Self::Washer { thread_mm, .. } => thread_mm,
-        }
-    }
-
-    /// Returns the greatest diameter, mm.
-    pub fn diameter_mm(&self) -> f64 {
-        match *self {
-            Self::Screw {
-                head_diameter_mm, ..
-            } => head_diameter_mm,
-            Self::Insert { diameter_mm, .. } | Self::Washer { diameter_mm, .. } => diameter_mm,
-        }
-    }
-
-    /// Returns the volume of the nominal shape, mm³, threads and knurls as full cylinders.
-    pub fn volume_mm3(&self) -> f64 {
-        let rod = |diameter: f64, length: f64| FRAC_PI_4 * diameter * diameter * length;
-        match *self {
-            Self::Screw {
-                thread_mm,
-                length_mm,
-                head_diameter_mm,
-                head_height_mm,
-                ..
-            } => rod(thread_mm, length_mm) + HEAD_RATIO * rod(head_diameter_mm, head_height_mm),
-            Self::Insert {
-                thread_mm,
-                length_mm,
-                diameter_mm,
-                ..
-            } => rod(diameter_mm, length_mm) - rod(thread_mm, length_mm),
-            Self::Washer {
-                diameter_mm,
-                bore_mm,
-                thickness_mm,
-                ..
-            } => rod(diameter_mm, thickness_mm) - rod(bore_mm, thickness_mm),
-        }
-    }
-
-    /// Returns every size with its key, mm.
-    pub fn sizes_mm(&self) -> Vec<(&'static str, f64)> {
-        match *self {
-            Self::Screw {
-                thread_mm,
-                length_mm,
-                head_diameter_mm,
-                head_height_mm,
-                hole_mm,
-            } => vec![
-                ("thread_mm", thread_mm),
-                ("length_mm", length_mm),
-                ("head_diameter_mm", head_diameter_mm),
-                ("head_height_mm", head_height_mm),
-                ("hole_mm", hole_mm),
-            ],
-            Self::Insert {
-                thread_mm,
-                length_mm,
-                diameter_mm,
-                hole_mm,
-            } => vec![
-                ("thread_mm", thread_mm),
-                ("length_mm", length_mm),
-                ("diameter_mm", diameter_mm),
-                ("hole_mm", hole_mm),
-            ],
-            Self::Washer {
-                thread_mm,
-                diameter_mm,
-                bore_mm,
-                thickness_mm,
-            } => vec![
-                ("thread_mm", thread_mm),
-                ("diameter_mm", diameter_mm),
-                ("bore_mm", bore_mm),
-                ("thickness_mm", thickness_mm),
-            ],
-        }
-    }
-
-    /// Returns two sizes of which the first must be below the second, with their keys.
-    fn order(&self) -> [(&'static str, f64); 2] {
-        match *self {
-            Self::Screw {
-                hole_mm,
-                head_diameter_mm,
-                ..
-            } => [("hole_mm", hole_mm), ("head_diameter_mm", head_diameter_mm)],
-            Self::Insert {
-                thread_mm,
-                diameter_mm,
-                ..
-            } => [("thread_mm", thread_mm), ("diameter_mm", diameter_mm)],
-            Self::Washer {
-                bore_mm,
-                diameter_mm,
-                ..
-            } => [("bore_mm", bore_mm), ("diameter_mm", diameter_mm)],
-        }
-    }
 }
 
 /// A fastener on stock.
@@ -231,7 +79,8 @@ struct PartText {
 }
 
 impl Fastener {
-    /// Returns all built-in fasteners: inserts, screws, then washers, each as its file lists them.
+    /// Returns all built-in fasteners: inserts, nuts, screws, then washers, each as its file lists
+    /// them.
     pub fn all() -> Result<Vec<Self>, ProfileError> {
         let families = FASTENERS.iter().map(|family| read_family(*family));
         let families: Vec<Vec<Self>> = families.collect::<Result<_, _>>()?;

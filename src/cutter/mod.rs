@@ -6,7 +6,7 @@
 //!
 //! * **[`Cutter`]:** bed, kerf by material and thickness, the finest cuts, the colours of drawings.
 //! * **[`StockSheet`]:** material, thickness, density, grain, and the sizes on sale.
-//! * **[`Fastener`]:** screws, inserts and washers, with their masses.
+//! * **[`Fastener`]:** screws, nuts, inserts and washers, with their masses.
 //!
 //! A shop describes its own cutter in a file such as this one:
 //!
@@ -28,6 +28,7 @@ mod calibrate;
 mod cutter_layer;
 mod error;
 mod fastener;
+mod fastener_shape;
 mod find;
 mod library;
 mod machine;
@@ -43,7 +44,8 @@ pub use calibrate::{
     CutCalibrateError, CutMeasured, calibrate_cutter, calibrate_sheet, thickness_warning,
 };
 pub use error::{Fault, Faults, Problem, ProfileError};
-pub use fastener::{Fastener, FastenerShape, Provenance};
+pub use fastener::{Fastener, Provenance};
+pub use fastener_shape::FastenerShape;
 pub use machine::{CannotCut, Cutter, CutterNumber, Dialect, Kerf, KerfAt, Thickest};
 pub use material::SheetMaterial;
 pub use stock::{Grain, StockSheet, StockSize};

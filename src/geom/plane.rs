@@ -22,6 +22,15 @@ impl Plane {
         }
     }
 
+    /// Returns the same plane, seen from its other side.
+    #[must_use]
+    pub fn flipped(&self) -> Self {
+        Self {
+            normal: -self.normal,
+            offset_mm: -self.offset_mm,
+        }
+    }
+
     /// Returns the signed distance of `point`, mm: positive on the side to which the normal
     /// points.
     pub fn distance(&self, point: &Point) -> f64 {

@@ -52,7 +52,24 @@
 //! glued to a part that does. Where that part is of another cell, the order is found by
 //! looking.
 //!
-//! # 6. What is not proved
+//! # 6. Several polyhedra
+//! A plane parts the model, and each side grows a polyhedron with one face locked beside the
+//! plane. Where two such faces overlap in a wide disc, their panels bear on each other and are
+//! bolted through. Cells end at the plane. So all of one side lies below it, and all of the
+//! other above it. Two sides that are put together come together along the plane's normal, and
+//! nothing bars them.
+//!
+//! A unit alone may not be so free. Near a waist the normals of both sides lean over the plane:
+//! each side's units would run into the other's. So every polyhedron is put together before it
+//! meets the others, and only what closes it comes afterwards
+//! ([`crate::cladding::Sides`]). That is a side whose way no other polyhedron bars, found by
+//! looking at all triangles. If there is none, the answer names the faces that bar.
+//!
+//! Grown by the gap g, a polyhedron would reach over the plane. Its locked face lies half the
+//! bearing gap below, which is less than g. So on its own side it ends at the plane, no part is
+//! missing there, and volumes still add up to the model's.
+//!
+//! # 7. What is not proved
 //! The base does not lock by its shape: glue, screws and brackets hold it. A wall is kept, but
 //! how much it carries is not worked out. How wide the beam cuts is a figure of the profile,
 //! until the shop cuts its coupon.

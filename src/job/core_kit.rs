@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Deserializer, Serialize, de::Error as _};
 
+use super::base_choice::{BaseChoice, Polyhedra};
 use super::{JobError, ModelChoice, PrinterChoice};
 use crate::base::digest::sha256_hex;
 use crate::base::toml_text::{self, TextFault};
@@ -73,8 +74,15 @@ pub struct CoreJob {
     pub schema: u32,
     /// Always an object on a base.
     pub kind: CoreKind,
-    /// The greatest number of faces of the base.
+    /// The greatest number of faces of each polyhedron of the base.
     pub faces: usize,
+    /// The number of polyhedra.
+    #[serde(default = "one_polyhedron", skip_serializing_if = "Polyhedra::is_one")]
+    pub polyhedra: Polyhedra,
+    /// The least radius of the disc in which panels of two polyhedra bear on each other. If `None`,
+    /// it is 20 mm, or what two bolts need if that is more.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub connector: Option<Length>,
     /// The joints between panels.
     pub joints: CoreJoints,
     /// The style of the printed parts.
@@ -93,6 +101,9 @@ pub struct CoreJob {
     pub printer: PrinterChoice,
     /// The cutter and its sheet.
     pub cutting: CutChoice,
+    /// The base to use, in place of one that is looked for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub base: Option<BaseChoice>,
     /// A copy of the model that is read in its place. It is no part of the file.
     #[serde(skip)]
     pub model_copy: Option<PathBuf>,
@@ -115,6 +126,8 @@ impl CoreJob {
             schema: CORE_SCHEMA,
             kind: CoreKind::Core,
             faces: USUAL_FACES,
+            polyhedra: one_polyhedron(),
+            connector: None,
             joints: CoreJoints::Auto,
             shell: CoreShell::Cups,
             wall: None,
@@ -124,6 +137,7 @@ impl CoreJob {
             model,
             printer,
             cutting,
+            base: None,
             model_copy: None,
         }
     }
@@ -147,6 +161,7 @@ impl CoreJob {
     pub fn in_kit(&self) -> Self {
         Self {
             model: self.model.without_folder(),
+            base: self.base.as_ref().map(BaseChoice::without_folder),
             ..self.clone()
         }
     }
@@ -187,6 +202,10 @@ impl CoreJob {
     }
 }
 
+fn one_polyhedron() -> Polyhedra {
+    Polyhedra::Exactly(1)
+}
+
 fn read_schema<'de, D: Deserializer<'de>>(deserializer: D) -> Result<u32, D::Error> {
     match u32::deserialize(deserializer)? {
         CORE_SCHEMA => Ok(CORE_SCHEMA),
@@ -225,6 +244,18 @@ mod tests {
         job.joints = CoreJoints::Brackets;
         job.wall = Some(Length::from_mm(3.2).unwrap());
         job.up = Up::Along([0.0, 0.5, 1.0]);
+        let plain = job.to_toml().unwrap();
+        assert!(
+            !plain.contains("polyhedra") && !plain.contains("base"),
+            "{plain}"
+        );
+        assert_eq!(CoreJob::from_toml("job.toml", &plain).unwrap(), job);
+        job.polyhedra = Polyhedra::Auto;
+        job.connector = Some(Length::from_mm(25.0).unwrap());
+        job.base = Some(BaseChoice {
+            file: "base.toml".to_owned(),
+            toml: "# A base\n[[polyhedron]]\nword = \"it's\"\n".to_owned(),
+        });
         let text = job.to_toml().unwrap();
         assert!(text.contains("kind = \"core\""));
         assert_eq!(CoreJob::from_toml("job.toml", &text).unwrap(), job);

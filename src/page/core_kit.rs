@@ -3,6 +3,7 @@
 
 use maud::{Markup, PreEscaped, html};
 
+use super::core_kit_joining as joining;
 use super::document::styled_document;
 use super::fields::{blank, file_name, sentence};
 use super::figure::{Picture, Role, figures};
@@ -44,7 +45,9 @@ impl CorePage<'_> {
 /// Returns the job sheet as a self-contained HTML page with its pictures.
 pub fn core_job(page: &CorePage) -> String {
     let job = page.job_id();
-    let steps = [buy, cut, print, screw_on, join, close, test];
+    let join = |page: &CorePage| joining::join(page.sheet, page.pictures);
+    let close = |page: &CorePage| joining::close(page.sheet);
+    let steps: [fn(&CorePage) -> Markup; 7] = [buy, cut, print, screw_on, join, close, test];
     let body = html! {
         (cover(page, &job))
         main {
@@ -330,33 +333,6 @@ fn screws(sheet: &CoreSheet, unit: &UnitPromise) -> usize {
         one.kind == crate::verify::FastenerKind::Screw && unit.parts.contains(&one.part)
     });
     own.count()
-}
-
-fn join(page: &CorePage) -> Markup {
-    let units = &page.sheet.units;
-    html! {
-        p {
-            "Join the units in this order, each along the normal of its panel. Wood glue on fingers and on the free flanges of brackets. "
-            "Every panel has its number in its middle, and beside each edge the number of the panel that comes there."
-        }
-        ol {
-            @for unit in &units[..units.len().saturating_sub(1)] {
-                li { "☐ " (unit.id) ": " (unit.parts.join(", ")) }
-            }
-        }
-        (figures(page.pictures, Role::Exploded))
-        (figures(page.pictures, Role::CutAway))
-        (figures(page.pictures, Role::State))
-    }
-}
-
-fn close(page: &CorePage) -> Markup {
-    html! {
-        @if let Some(last) = page.sheet.units.last() {
-            p { "☐ " (last.id) " comes last (" (last.parts.join(", ")) "). Nothing can be reached inside afterwards: look for loose screws first." }
-        }
-        p { "Glue, screws and brackets hold the base. It does not lock by its shape, so let the glue set before you lift it." }
-    }
 }
 
 fn test(page: &CorePage) -> Markup {

@@ -28,6 +28,19 @@ pub struct ShownThing<'a> {
     pub is_panel: bool,
 }
 
+/// A step of putting the object together.
+#[derive(Debug, Clone, PartialEq)]
+pub struct JoinStep {
+    /// The name of what comes.
+    pub name: String,
+    /// The indices of the units that come.
+    pub moving: Vec<usize>,
+    /// The indices of the units that stand.
+    pub standing: Vec<usize>,
+    /// The direction in which it would leave again.
+    pub way: Vector,
+}
+
 /// What the pictures of an object on a base show.
 #[derive(Debug)]
 pub struct CoreView<'a> {
@@ -35,8 +48,10 @@ pub struct CoreView<'a> {
     pub things: &'a [ShownThing<'a>],
     /// The names of the units in the order in which they are joined.
     pub units: Vec<String>,
-    /// The directions in which they leave.
-    pub ways: Vec<Vector>,
+    /// The ways by which units are drawn apart, each as a multiple of the usual one.
+    pub apart: Vec<Vector>,
+    /// The steps in which the object is put together.
+    pub steps: Vec<JoinStep>,
     /// The direction that points up.
     pub up: Vector,
 }
@@ -47,7 +62,7 @@ pub struct CoreView<'a> {
 /// A picture cannot be encoded.
 pub fn draw_core(view: &CoreView) -> Result<Vec<Picture>, PictureError> {
     let mut drafts = vec![whole(view), apart(view), base(view)];
-    drafts.extend((0..view.units.len()).map(|unit| joined(view, unit)));
+    drafts.extend((0..view.steps.len()).map(|step| joined(view, step)));
     drafts.par_iter().map(Draft::draw).collect()
 }
 
@@ -109,7 +124,7 @@ fn apart<'a>(view: &'a CoreView) -> Draft<'a> {
     let size = boxes.fold(Aabb::EMPTY, |all, one| all.union(&one)).size();
     let way_mm = APART_RATIO * size.max();
     let items = (0..view.things.len()).map(|at| Item {
-        shift: view.ways[view.things[at].unit] * way_mm,
+        shift: view.apart[view.things[at].unit] * way_mm,
         ..view.item(at)
     });
     let named = view.units.iter().enumerate().filter_map(|(unit, name)| {
@@ -161,24 +176,25 @@ fn base<'a>(view: &'a CoreView) -> Draft<'a> {
     }
 }
 
-/// Draws what stands when a unit is joined, with the unit on its way in.
-fn joined<'a>(view: &'a CoreView, unit: usize) -> Draft<'a> {
+/// Draws what stands when something is joined, with that on its way in.
+fn joined<'a>(view: &'a CoreView, index: usize) -> Draft<'a> {
+    let step = &view.steps[index];
     let boxes = view.things.iter().map(|thing| thing.mesh.aabb());
     let size = boxes.fold(Aabb::EMPTY, |all, one| all.union(&one)).size();
-    let shift = view.ways[unit] * (APART_RATIO * size.max());
-    let here = (0..view.things.len()).filter(|&at| view.things[at].unit <= unit);
-    let items = here.map(|at| {
-        let item = view.item(at);
-        let is_new = view.things[at].unit == unit;
-        Item {
+    let shift = step.way * (APART_RATIO * size.max());
+    let items = (0..view.things.len()).filter_map(|at| {
+        let unit = view.things[at].unit;
+        let is_new = step.moving.contains(&unit);
+        let item = Item {
             shift: if is_new { shift } else { Vector::zeros() },
-            ..item
-        }
+            ..view.item(at)
+        };
+        (is_new || step.standing.contains(&unit)).then_some(item)
     });
-    let name = &view.units[unit];
-    let caption = format!("{}. {name} comes in.", unit + 1);
+    let name = &step.name;
+    let caption = format!("{}. {name} comes in.", index + 1);
     let alt = format!("What stands, and {name} on its way in.");
-    let file = format!("pictures/join-{:02}.png", unit + 1);
+    let file = format!("pictures/join-{:02}.png", index + 1);
     let draft = view.draft(file, items.collect(), [&caption, &alt]);
     Draft {
         role: Role::State,

@@ -66,6 +66,31 @@ impl PanelSet {
     }
 }
 
+impl PanelSet {
+    /// Joins the panels of several polyhedra to one set, in their order. Each comes with the number
+    /// by which the indices of its faces rise.
+    pub fn joined(sets: impl IntoIterator<Item = (Self, usize)>) -> Self {
+        let mut all = Self {
+            panels: Vec::new(),
+            edges: Vec::new(),
+        };
+        for (set, first_face) in sets {
+            let first = all.panels.len();
+            let panels = set.panels.into_iter();
+            all.panels.extend(panels.map(|panel| Panel {
+                face: panel.face + first_face,
+                ..panel
+            }));
+            let edges = set.edges.into_iter();
+            all.edges.extend(edges.map(|edge| PanelEdge {
+                panels: edge.panels.map(|panel| panel + first),
+                ..edge
+            }));
+        }
+        all
+    }
+}
+
 /// Returns the indices of a face's edges in their order, counterclockwise; `None` if they do not
 /// close.
 fn ring_of(face: usize, edges: &[Edge]) -> Option<Vec<usize>> {

@@ -2,8 +2,8 @@
 
 use super::connection::{Connection, ConnectorRequest, Pair};
 use super::ground::Ground;
-use super::polyhedron::Polyhedron;
-use crate::geom::Plane;
+use super::polyhedron::{Face, Polyhedron, lowest};
+use crate::geom::{Plane, Vector};
 
 /// One side of a split.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -84,6 +84,48 @@ fn leaves_of(splits: &[Split], side: Child) -> Vec<usize> {
 }
 
 impl BasePlan {
+    /// Returns the base of one polyhedron.
+    pub fn one(polyhedron: Polyhedron) -> Self {
+        Self {
+            polyhedra: vec![polyhedron],
+            splits: Vec::new(),
+            connections: Vec::new(),
+        }
+    }
+
+    /// Returns the planes of the splits that bound a polyhedron's part of the model; their normals
+    /// point out of it. Empty for one polyhedron.
+    pub fn sides(&self, polyhedron: usize) -> Vec<Plane> {
+        let beside = self.splits.iter().enumerate().filter_map(|(at, split)| {
+            let [below, above] = self.polyhedra_beside(at);
+            if below.contains(&polyhedron) {
+                Some(split.plane)
+            } else {
+                above.contains(&polyhedron).then(|| split.plane.flipped())
+            }
+        });
+        beside.collect()
+    }
+
+    /// Returns the number of faces of all polyhedra before one. Counted on from there, its faces
+    /// have indices of their own in the whole base.
+    pub fn faces_before(&self, polyhedron: usize) -> usize {
+        let before = self.polyhedra.iter().take(polyhedron);
+        before.map(|one| one.faces().len()).sum()
+    }
+
+    /// Returns a face by its index in the whole base.
+    pub fn face(&self, index: usize) -> Option<&Face> {
+        self.polyhedra.iter().flat_map(Polyhedron::faces).nth(index)
+    }
+
+    /// Returns the index in the whole base of the face that looks down most along a direction.
+    /// Faces on planes between polyhedra do not count.
+    pub fn bottom_face(&self, up: &Vector) -> Option<usize> {
+        let faces = self.polyhedra.iter().flat_map(Polyhedron::faces);
+        lowest(faces.enumerate().filter(|(_, face)| !face.is_locked), up)
+    }
+
     /// Returns the volume of all polyhedra, mm³.
     pub fn volume_mm3(&self) -> f64 {
         self.polyhedra.iter().map(Polyhedron::volume_mm3).sum()

@@ -68,6 +68,8 @@ pub struct ConnectorRequest {
     pub radius_mm: f64,
     /// The gap between panels that bear on each other, mm.
     pub gap_mm: f64,
+    /// True if a tube may join polyhedra that do not bear on each other.
+    pub takes_tubes: bool,
 }
 
 /// Two polyhedra on both sides of a plane: the one below it first.
@@ -82,7 +84,8 @@ pub(super) struct Pair<'a> {
 impl Pair<'_> {
     /// Returns the best connection across the plane; `None` if there is none of the radius.
     pub fn connect(&self, request: &ConnectorRequest) -> Option<Connection> {
-        self.bolted(request).or_else(|| self.tube(request))
+        let bolted = self.bolted(request);
+        bolted.or_else(|| request.takes_tubes.then(|| self.tube(request))?)
     }
 
     /// Connects two locked faces by the largest disc that both have.

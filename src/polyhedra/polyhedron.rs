@@ -5,7 +5,7 @@ use super::ground::Ground;
 use super::limits::{Breach, Limits};
 use super::separation::{Separation, SeparationError};
 use super::side::Side;
-use crate::geom::{Aabb, Plane, Point};
+use crate::geom::{Aabb, Plane, Point, Vector};
 use crate::mesh::{MeshError, TriMesh};
 
 /// A convex polyhedron that keeps a distance from the surface of a model.
@@ -180,9 +180,14 @@ impl Polyhedron {
             .collect()
     }
 
+    /// Returns the face that looks down most along a direction.
+    pub fn bottom_face(&self, up: &Vector) -> Option<usize> {
+        lowest(self.faces.iter().enumerate(), up)
+    }
+
     /// Returns the mean of the corners, a point inside.
     pub fn middle(&self) -> Point {
-        let sum: crate::geom::Vector = self.corners.iter().map(|p| p.coords).sum();
+        let sum: Vector = self.corners.iter().map(|p| p.coords).sum();
         Point::from(sum / self.corners.len().max(1) as f64)
     }
 
@@ -194,4 +199,15 @@ impl Polyhedron {
         });
         TriMesh::new(self.corners.clone(), fans.collect())
     }
+}
+
+/// Returns the index of the face with an area that looks down most along a direction.
+pub(super) fn lowest<'a>(
+    faces: impl Iterator<Item = (usize, &'a Face)>,
+    up: &Vector,
+) -> Option<usize> {
+    let faces = faces.filter(|(_, face)| face.area_mm2 > 0.0);
+    let steep = faces.map(|(index, face)| (up.dot(&face.plane.normal), index));
+    let lowest = steep.reduce(|a, b| if b.0 < a.0 { b } else { a });
+    lowest.map(|(_, index)| index)
 }

@@ -7,7 +7,7 @@ use serde::Serialize;
 use super::Verdict;
 use super::kind::kind_sheet;
 use crate::verify::{
-    Check, CorePartPromise, CutPromise, CutSheetPromise, FastenerPromise, GluePromise,
+    Check, CorePartPromise, CutPromise, CutSheetPromise, FastenerPromise, GluePromise, JoinPromise,
     PrinterLimits, UnitPromise,
 };
 
@@ -61,6 +61,9 @@ pub struct CoreSheet {
     pub glue: Vec<GluePromise>,
     /// The units in the order in which they are joined.
     pub units: Vec<UnitPromise>,
+    /// The ways in which several polyhedra come together, in their order; empty for one.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub joins: Vec<JoinPromise>,
     /// What is bought.
     pub buy: Vec<BuyRow>,
     /// The direction up in the model, a unit vector.
@@ -163,6 +166,9 @@ pub struct SheetRow {
 pub struct BaseRow {
     /// The number of panels.
     pub panels: usize,
+    /// The polyhedra, if there are several.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub polyhedra: Vec<PolyhedronRow>,
     /// Its volume, mm³.
     pub volume_mm3: f64,
     /// Its volume over that of the model.
@@ -175,6 +181,17 @@ pub struct BaseRow {
     pub bracket_edges: usize,
     /// The number of edges that are glued alone.
     pub glued_edges: usize,
+}
+
+/// A polyhedron among several.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct PolyhedronRow {
+    /// The numbers of its panels.
+    pub panels: Vec<usize>,
+    /// Its volume, mm³.
+    pub volume_mm3: f64,
+    /// The number of the panel that closes it, when it is bolted to others; `None` if none does.
+    pub closed_by: Option<usize>,
 }
 
 /// The figures of a sheet with panels.

@@ -179,6 +179,8 @@ pub enum CheckKind {
     PanelOverlap,
     /// Panels that reach out of their base.
     PanelsInBase,
+    /// Distance of two polyhedra of a base from the plane between them.
+    Polyhedra,
     /// Drawings of sheets that are not those of the panels.
     Drawings,
     /// Paths of the beam beside the outlines of panels.
@@ -231,6 +233,7 @@ impl CheckKind {
             Self::BaseInside => "base inside",
             Self::PanelOverlap => "panel overlap",
             Self::PanelsInBase => "panels in base",
+            Self::Polyhedra => "polyhedra",
             Self::Drawings => "drawings",
             Self::BeamPaths => "beam paths",
             Self::SheetSpacing => "sheet spacing",
@@ -313,7 +316,7 @@ mod tests {
     use serde_json::json;
 
     /// The keys and names of all kinds without data.
-    const KEYS: [(CheckKind, &str, &str); 81] = [
+    const KEYS: [(CheckKind, &str, &str); 82] = [
         (CheckKind::Plugs, "plugs", "plugs"),
         (CheckKind::DrainHoles, "drain-holes", "drain holes"),
         (CheckKind::MatchMass, "match-mass", "mass of the match"),
@@ -423,6 +426,7 @@ mod tests {
         (CheckKind::BaseInside, "base-inside", "base inside"),
         (CheckKind::PanelOverlap, "panel-overlap", "panel overlap"),
         (CheckKind::PanelsInBase, "panels-in-base", "panels in base"),
+        (CheckKind::Polyhedra, "polyhedra", "polyhedra"),
         (CheckKind::Drawings, "drawings", "drawings"),
         (CheckKind::BeamPaths, "beam-paths", "beam paths"),
         (CheckKind::SheetSpacing, "sheet-spacing", "sheet spacing"),

@@ -179,10 +179,11 @@ pub use printed::{
 pub use kit_folder::{KindJudgement, KitFolderError, KitKind};
 // Objects on a base.
 pub use core_kit::{
-    BossPromise, CORE_CERTIFICATE_FILE, CoreCertificate, CoreEvidence, CoreFacts, CorePartKind,
-    CorePartPromise, CorePromise, CoreVerifyError, CutPromise, CutSheetPromise, EdgePromise,
-    FastenerKind, FastenerPromise, GluePromise, HolePromise, MODEL_FILE, PANELS_FILE, PanelPromise,
-    PanelsFile, PlacedPanel, UnitPromise, core_checks, judge_core, verify_core,
+    BaseCertificate, BossPromise, CORE_CERTIFICATE_FILE, CoreCertificate, CoreEvidence, CoreFacts,
+    CorePartKind, CorePartPromise, CorePromise, CoreVerifyError, CutPromise, CutSheetPromise,
+    EdgePromise, FastenerKind, FastenerPromise, GluePromise, HolePromise, JoinPromise, MODEL_FILE,
+    PANELS_FILE, PanelPromise, PanelsFile, PlacedPanel, UnitPromise, core_checks, judge_core,
+    verify_core,
 };
 // Telescopes.
 pub use telescope::{

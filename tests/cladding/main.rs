@@ -10,6 +10,7 @@
 mod common;
 mod models;
 mod scenes;
+mod several;
 mod ways;
 
 use equipoise::base::watch::Watch;

@@ -79,7 +79,11 @@ pub fn dodecahedron(offset_mm: f64) -> Vec<(Vector, f64)> {
 }
 
 pub fn panels(base: &Polyhedron) -> PanelSet {
-    let request = PanelRequest {
+    PanelSet::of(base, &panel_request()).unwrap()
+}
+
+pub fn panel_request() -> PanelRequest {
+    PanelRequest {
         sheet_mm: SHEET_MM,
         joints: JointStyle::Auto,
         press_mm: 0.0,
@@ -89,8 +93,7 @@ pub fn panels(base: &Polyhedron) -> PanelSet {
             thread_mm: 2.5,
             flange_mm: 4.0,
         },
-    };
-    PanelSet::of(base, &request).unwrap()
+    }
 }
 
 /// Returns by how much the parts and the base grown by the gap miss the model's volume, relative.
@@ -146,13 +149,10 @@ pub fn hold_cup(part: &Part, cup: &Cup, wall_mm: f64, name: &str) -> f64 {
     thinnest
 }
 
-/// Takes the units apart in their order, in steps. Returns the greatest overlap with what stays,
-/// mm³.
-pub fn take_apart(shell: &CladShell) -> f64 {
-    let bodies: Vec<Vec<TriMesh>> = shell
-        .assembly
-        .units
-        .iter()
+/// Returns the bodies of all units: their parts, solid, and their panels.
+pub fn unit_bodies(shell: &CladShell) -> Vec<Vec<TriMesh>> {
+    let units = shell.assembly.units.iter();
+    units
         .map(|unit| {
             let parts = unit
                 .parts
@@ -162,18 +162,32 @@ pub fn take_apart(shell: &CladShell) -> f64 {
             let own = own.filter(|panel| unit.has_panel && panel.face == unit.face);
             parts.chain(own.map(|panel| panel.body())).collect()
         })
-        .collect();
+        .collect()
+}
+
+/// Takes the units apart in their order, in steps. Returns the greatest overlap with what stays,
+/// mm³.
+pub fn take_apart(shell: &CladShell) -> f64 {
+    let bodies = unit_bodies(shell);
     let mut staying: Vec<usize> = shell.assembly.order.clone();
     let mut worst_mm3 = 0.0_f64;
     while let Some(unit) = staying.pop() {
+        let moving: Vec<&TriMesh> = bodies[unit].iter().collect();
+        let others: Vec<&TriMesh> = staying.iter().flat_map(|&other| &bodies[other]).collect();
         let way = shell.assembly.units[unit].way;
-        for step_mm in STEPS_MM {
-            for body in &bodies[unit] {
-                let moved = body.map_vertices(|p| p + way * step_mm);
-                let others = staying.iter().flat_map(|&other| &bodies[other]);
-                let overlap_mm3: f64 = others.map(|other| overlap_mm3(&moved, other)).sum();
-                worst_mm3 = worst_mm3.max(overlap_mm3);
-            }
+        worst_mm3 = worst_mm3.max(on_the_way_mm3(&moving, &others, way));
+    }
+    worst_mm3
+}
+
+/// Returns the greatest overlap of a body that leaves in steps with all that stays, mm³.
+pub fn on_the_way_mm3(moving: &[&TriMesh], staying: &[&TriMesh], way: Vector) -> f64 {
+    let mut worst_mm3 = 0.0_f64;
+    for step_mm in STEPS_MM {
+        for body in moving {
+            let moved = body.map_vertices(|p| p + way * step_mm);
+            let others = staying.iter().map(|other| overlap_mm3(&moved, other));
+            worst_mm3 = worst_mm3.max(others.sum());
         }
     }
     worst_mm3

@@ -17,6 +17,7 @@ import sys
 from pathlib import Path
 
 import manifold3d
+import networkx
 import numpy as np
 import scipy.optimize
 import scipy.spatial
@@ -59,12 +60,36 @@ def moments(mesh):
     return volume, first + volume * middle
 
 
+class Base:
+    """A polyhedron of the base: its planes, and the planes between it and others."""
+
+    def __init__(self, certificate):
+        self.planes = np.array(certificate["planes"])
+        self.sides = np.array(certificate.get("sides", [])).reshape(-1, 4)
+        self.named = np.array(certificate["faces"])
+
+    def solid(self, by, is_bounded=False, inset=0.0):
+        """The polyhedron with each plane moved out by a distance; if asked, bounded by the planes to others, or by these moved in."""
+        planes = self.planes + [0, 0, 0, by]
+        if is_bounded:
+            planes = np.concatenate([planes, self.sides - [0, 0, 0, inset]])
+        half = np.column_stack([planes[:, :3], -planes[:, 3]])
+        corners = scipy.spatial.HalfspaceIntersection(half, self.middle()).intersections
+        return manifold3d.Manifold.hull_points(corners), corners
+
+    def middle(self):
+        """A point inside: the middle of the largest ball."""
+        rows = np.column_stack([self.planes[:, :3], np.ones(len(self.planes))])
+        best = scipy.optimize.linprog([0, 0, 0, -1], A_ub=rows, b_ub=self.planes[:, 3], bounds=[(None, None)] * 3 + [(0, None)])
+        return best.x[:3]
+
+
 class Kit:
     def __init__(self, folder):
         self.folder = Path(folder)
         load = lambda name: json.loads((self.folder / name).read_text())
         self.sheet, self.panels, self.certificate = load("checklist.json"), load("panels.json")["panels"], load("certificate.json")
-        self.planes = np.array(self.certificate["planes"])
+        self.bases = [Base(one) for one in [self.certificate, *self.certificate.get("others", [])]]
         self.model = trimesh.load(self.folder / self.certificate["model"], process=False)
         scale = np.array(self.sheet["printer"].get("print_scale_ratio") or [1.0] * 3)
         self.parts = {}
@@ -92,19 +117,8 @@ class Kit:
         place = np.column_stack([axes, np.array(panel["origin_mm"]) - axes[:, 2] * self.thick])
         return body.transform(place)
 
-    def base_solid(self, by):
-        """The base from its planes, each moved out by a distance."""
-        inside = self.middle()
-        half = np.column_stack([self.planes[:, :3], -(self.planes[:, 3] + by)])
-        corners = scipy.spatial.HalfspaceIntersection(half, inside).intersections
-        return manifold3d.Manifold.hull_points(corners), corners
-
-    def middle(self):
-        """A point inside the base: the middle of its largest ball."""
-        count = len(self.planes)
-        rows = np.column_stack([self.planes[:, :3], np.ones(count)])
-        best = scipy.optimize.linprog([0, 0, 0, -1], A_ub=rows, b_ub=self.planes[:, 3], bounds=[(None, None)] * 3 + [(0, None)])
-        return best.x[:3]
+    def base_of(self, panel):
+        return self.bases[panel.get("polyhedron", 1) - 1]
 
 
 def judge_files(kit):
@@ -137,20 +151,32 @@ def pieces(triangles, longest):
 def judge_base(kit):
     certificate, distance = kit.certificate, kit.certificate["distance_mm"]
     cut = pieces(np.asarray(kit.model.triangles), certificate["longest_edge_mm"])
-    named = np.array(certificate["faces"])
-    same = len(cut) == len(named) and named.max() < len(kit.planes)
-    kit.check("pieces of the surface", len(cut), same, f"{len(named)} in the certificate")
-    if same:
-        planes = kit.planes[named]
-        heights = np.einsum("ijk,ik->ij", cut, planes[:, :3]) - planes[:, 3:]
-        kit.check("parted by, mm", heights.min(), heights.min() >= distance - PARTED_MM, f"at least {distance}")
     model = trimesh.Trimesh(kit.model.vertices, kit.model.faces, process=True)
-    base, corners = kit.base_solid(0.0)
-    kit.check("volume of the base outside, mm³", (base - solid_of(model)).volume(), (base - solid_of(model)).volume() <= OUTSIDE_MM3, OUTSIDE_MM3)
-    hull = trimesh.convex.convex_hull(corners)
-    points = np.concatenate([trimesh.sample.sample_surface(hull, SAMPLES, seed=7)[0], corners])
-    near = np.abs(trimesh.proximity.closest_point(model, points)[1]).min()
-    kit.check("sampled distance of the base, mm", near, near >= distance - SAMPLED_MM, f"at least {distance}")
+    all_corners = []
+    for base in kit.bases:
+        same = len(cut) == len(base.named) and base.named.max() < len(base.planes)
+        kit.check("pieces of the surface", len(cut), same, f"{len(base.named)} in the certificate")
+        if same:
+            planes = base.planes[base.named]
+            heights = np.einsum("ijk,ik->ij", cut, planes[:, :3]) - planes[:, 3:]
+            kit.check("parted by, mm", heights.min(), heights.min() >= distance - PARTED_MM, f"at least {distance}")
+        body, corners = base.solid(0.0)
+        all_corners.append(corners)
+        outside = (body - solid_of(model)).volume()
+        kit.check("volume of the base outside, mm³", outside, outside <= OUTSIDE_MM3, OUTSIDE_MM3)
+        hull = trimesh.convex.convex_hull(corners)
+        points = np.concatenate([trimesh.sample.sample_surface(hull, SAMPLES, seed=7)[0], corners])
+        near = np.abs(trimesh.proximity.closest_point(model, points)[1]).min()
+        kit.check("sampled distance of the base, mm", near, near >= distance - SAMPLED_MM, f"at least {distance}")
+    for one in range(len(kit.bases)):
+        for other in range(one):
+            # Any plane between both will do: the judge looks for one among their sides.
+            gaps = [-math.inf]
+            for side in kit.bases[one].sides:
+                below = side[3] - (all_corners[one] @ side[:3]).max()
+                above = (all_corners[other] @ side[:3]).min() - side[3]
+                gaps.append(min(below, above))
+            kit.check(f"polyhedra {other + 1} and {one + 1} apart, mm", max(gaps), max(gaps) >= 0, 0)
     return solid_of(model)
 
 
@@ -158,13 +184,17 @@ def judge_panels(kit):
     bodies = [kit.panel_solid(panel) for panel in kit.panels]
     shared = [(a ^ b).volume() for at, a in enumerate(bodies) for b in bodies[:at]]
     kit.check("volume that two panels share, mm³", max(shared, default=0), max(shared, default=0) <= PANELS_MM3, PANELS_MM3)
-    corners = np.concatenate([body.to_mesh64().vert_properties[:, :3] for body in bodies])
-    out = (corners @ kit.planes[:, :3].T - kit.planes[:, 3]).max()
+    out = -math.inf
+    for panel, body in zip(kit.panels, bodies):
+        planes = kit.base_of(panel).planes
+        corners = body.to_mesh64().vert_properties[:, :3]
+        out = max(out, (corners @ planes[:, :3].T - planes[:, 3]).max())
     kit.check("panels out of the base, mm", out, out <= 1e-6, 1e-6)
-    screws = [one for one in kit.sheet["fasteners"] if one["kind"] == "screw"]
+    screws = [one for one in kit.sheet["fasteners"] if one["kind"] != "insert"]
     loose = 0
-    for screw in screws:
-        panel = kit.panels[screw["panel"] - 1]
+    passed = [(one, one["panel"]) for one in screws] + [(one, one["through"]) for one in screws if one.get("through")]
+    for screw, number in passed:
+        panel = kit.panels[number - 1]
         local = np.array(panel["axes"]) @ (np.array(screw["center_mm"]) - panel["origin_mm"])
         loose += not any(math.dist(hole["at_mm"], local[:2]) < NEAR_MM for hole in panel["holes"])
     kit.check("screws without a hole", loose, loose == 0, f"0 of {len(screws)}")
@@ -231,13 +261,13 @@ def judge_parts(kit, model):
         fits = room is None or size[2] <= room[2] + NEAR_MM and (lies(room[0], room[1]) or lies(room[1], room[0]))
         if abs(low[2]) > NEAR_MM or not fits:
             kit.faults.append(f"part {part['id']} does not lie in the printer's room")
-    grown, _ = kit.base_solid(kit.sheet["gap_mm"])
-    clear, _ = kit.base_solid(kit.sheet["gap_mm"] - 0.01)
-    inside = sum((kit.solids[part["id"]] ^ clear).volume() for part in shell)
+    grown = [base.solid(kit.sheet["gap_mm"], True)[0] for base in kit.bases]
+    clear = [base.solid(kit.sheet["gap_mm"] - 0.01, True, 0.01)[0] for base in kit.bases]
+    inside = sum((kit.solids[part["id"]] ^ one).volume() for part in shell for one in clear)
     kit.check("parts within the gap, mm³", inside, inside <= IN_BASE_MM3, IN_BASE_MM3)
     parts = math.fsum(moments(kit.parts[part["id"]])[0] + part["void_mm3"] + part["bores_mm3"] for part in shell)
     whole = moments(kit.model)[0]
-    off = (parts + (grown ^ model).volume()) / whole - 1
+    off = (parts + sum((one ^ model).volume() for one in grown)) / whole - 1
     kit.check("sum of volumes, relative", off, abs(off) <= VOLUME_RATIO, VOLUME_RATIO)
 
 
@@ -251,15 +281,46 @@ def judge_ways(kit, panels):
         own = [kit.solids[name] for name in unit["parts"]]
         bodies.append(own + ([panels[unit["panel"] - 1]] if unit["panel"] else []))
     worst, where = 0.0, "none"
-    for at in reversed(range(len(units))):
-        way = np.array(units[at]["way"])
-        standing = [body for earlier in bodies[:at] for body in earlier]
+    for name, way, moving, standing in steps(kit, bodies):
         for step in STEPS_MM:
-            moved = [body.translate(way * step) for body in bodies[at]]
+            moved = [body.translate(np.array(way) * step) for body in moving]
             shared = sum((a ^ b).volume() for a in moved for b in standing if meets(a, b))
             if shared > worst:
-                worst, where = shared, f"{units[at]['id']} at {step} mm"
+                worst, where = shared, f"{name} at {step} mm"
     kit.check(f"shared on the way, mm³, worst {where}", worst, worst <= WAY_MM3, WAY_MM3)
+    if len(kit.bases) > 1:
+        judge_joins(kit)
+
+
+def steps(kit, bodies):
+    """The steps of putting the object together: units of each polyhedron, the polyhedra, then what comes last."""
+    units = kit.sheet["units"]
+    last = lambda at: units[at].get("is_last", False)
+    group = lambda at: units[at].get("polyhedron")
+    for at, unit in enumerate(units):
+        there = [other for other in range(at) if last(at) or (not last(other) and group(other) == group(at))]
+        yield unit["id"], unit["way"], bodies[at], [body for other in there for body in bodies[other]]
+    for join in kit.sheet.get("joins", []):
+        of = lambda numbers: [body for at in range(len(units)) if group(at) in numbers and not last(at) for body in bodies[at]]
+        yield f"polyhedra {join['moving']}", join["way"], of(join["moving"]), of(join["standing"])
+
+
+def judge_joins(kit):
+    """All polyhedra come together, and bolts hold each."""
+    polyhedron = lambda number: kit.panels[number - 1].get("polyhedron", 1)
+    bolts = [one for one in kit.sheet["fasteners"] if one["kind"] == "bolt"]
+    for name, groups in [
+        ("polyhedra that come together", [join["moving"] + join["standing"] for join in kit.sheet["joins"]]),
+        ("polyhedra that are bolted", [[polyhedron(bolt["panel"]), polyhedron(bolt["through"])] for bolt in bolts]),
+    ]:
+        graph = networkx.Graph()
+        graph.add_nodes_from(range(1, len(kit.bases) + 1))
+        for group in groups:
+            networkx.add_path(graph, group)
+        whole = networkx.is_connected(graph)
+        kit.check(name, len(kit.bases), whole, len(kit.bases))
+    nuts = sum(one["kind"] == "nut" for one in kit.sheet["fasteners"])
+    kit.check("nuts", nuts, nuts == len(bolts), len(bolts))
 
 
 def meets(a, b):

@@ -35,6 +35,7 @@ use equipoise::job::core_kit::CoreJob;
 use equipoise::job::telescope::TelescopeJob;
 use equipoise::job::{Job, read_plan};
 use equipoise::mesh::{Solid, primitives::cuboid};
+use equipoise::polyhedra::{BasePlan, ConnectorRequest, Ground, Limits, Request};
 use equipoise::printer::Printer;
 use equipoise::skeleton::Skeleton;
 
@@ -287,6 +288,31 @@ fn orders_of_cuts_jobs_and_skeletons() {
         std::str::from_utf8(bytes).is_ok_and(|text| Skeleton::from_toml("s.toml", text).is_ok())
     };
     fuzz("skeleton", &[seeds::skeleton()], reads);
+}
+
+#[test]
+fn bases_of_large_objects() {
+    let solid = Solid::new(cuboid(&Point::origin(), &Point::new(300.0, 90.0, 80.0))).unwrap();
+    let ground = Ground::new(&solid).unwrap();
+    let request = Request::new(5.0, Limits::NONE);
+    let connector = ConnectorRequest {
+        radius_mm: 20.0,
+        gap_mm: 0.1,
+        takes_tubes: true,
+    };
+    let reads = |bytes: &[u8]| {
+        let read = |text| BasePlan::from_toml(["base.toml", text], &ground, &request, &connector);
+        let plan = std::str::from_utf8(bytes)
+            .ok()
+            .and_then(|text| read(text).ok());
+        plan.is_some_and(|plan| {
+            // What is read is proved: the polyhedra are in the box, and apart.
+            assert!(plan.volume_mm3() <= 290.0 * 80.0 * 70.0 + 1e-6);
+            assert!(plan.parted_mm() > 0.0);
+            true
+        })
+    };
+    fuzz("base", &[seeds::base()], reads);
 }
 
 #[test]

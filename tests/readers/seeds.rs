@@ -383,3 +383,24 @@ pub fn field() -> Vec<u8> {
       densities = [0.1, 0.2] } },\n]\n"
         .to_vec()
 }
+
+/// Returns a base of two boxes on both sides of a plane.
+pub fn base() -> Vec<u8> {
+    let face = |normal: [f64; 3], offset_mm: f64, locked: bool| {
+        format!(
+            "[[polyhedron.face]]\nnormal = {normal:?}\noffset_mm = {offset_mm}\nlocked = {locked}\n"
+        )
+    };
+    let sides = [
+        face([0.0, 1.0, 0.0], 80.0, false),
+        face([0.0, -1.0, 0.0], -10.0, false),
+        face([0.0, 0.0, 1.0], 70.0, false),
+        face([0.0, 0.0, -1.0], -10.0, false),
+    ]
+    .concat();
+    let low = face([1.0, 0.0, 0.0], 149.95, true) + &face([-1.0, 0.0, 0.0], -10.0, false);
+    let high = face([-1.0, 0.0, 0.0], -150.05, true) + &face([1.0, 0.0, 0.0], 290.0, false);
+    let split =
+        "[[split]]\nnormal = [1.0, 0.0, 0.0]\noffset_mm = 150.0\nbelow = \"Q1\"\nabove = \"Q2\"\n";
+    format!("{split}[[polyhedron]]\n{sides}{low}[[polyhedron]]\n{sides}{high}").into_bytes()
+}

@@ -13,6 +13,7 @@ use crate::cli::shop::chosen_printer;
 use crate::cli::wing::Order;
 use crate::goal::Up;
 use crate::job::ModelChoice;
+use crate::job::base_choice::{BaseChoice, Polyhedra};
 use crate::job::core_kit::{CoreGoal, CoreJob, CoreJoints, CoreShell, CutChoice};
 
 /// The arguments of `core`.
@@ -57,9 +58,19 @@ pub struct CoreArgs {
 #[derive(Debug, Clone, Args)]
 #[command(next_help_heading = "Base and shell")]
 pub struct BaseArgs {
-    /// The greatest number of panels, from 4 to 32 [default: 12]
+    /// The greatest number of panels of a polyhedron, from 4 to 32 [default: 12]
     #[arg(long, value_name = "N", allow_hyphen_values = true)]
     pub faces: Option<usize>,
+    /// The number of polyhedra inside, bolted together: auto, or 1 to 6 [default: 1]
+    #[arg(long, value_name = "auto|N", allow_hyphen_values = true)]
+    pub polyhedra: Option<Polyhedra>,
+    /// The least radius of the disc in which two polyhedra bear on each other [default: 20mm, or
+    /// what two bolts need]
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
+    pub connector: Option<Length>,
+    /// The base in this file, such as an edited base.toml of a kit; with a job, in place of its own
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["polyhedra", "faces"])]
+    pub base: Option<PathBuf>,
     /// Fingers where they fit and brackets elsewhere, or one of both on all edges [default: auto]
     #[arg(long, value_parser = words::<CoreJoints>(CoreJoints::WORDS))]
     pub joints: Option<CoreJoints>,
@@ -88,7 +99,7 @@ pub struct CoreStanceArgs {
 }
 
 /// The arguments that a replayed job decides.
-const DECIDED_BY_JOB: [&str; 14] = [
+const DECIDED_BY_JOB: [&str; 16] = [
     "printer",
     "material",
     "cutter",
@@ -97,6 +108,8 @@ const DECIDED_BY_JOB: [&str; 14] = [
     "scale",
     "unit",
     "faces",
+    "polyhedra",
+    "connector",
     "joints",
     "wall",
     "shell",
@@ -112,9 +125,15 @@ impl CoreArgs {
     /// A machine or the sheet is missing, or a file they name cannot be used.
     pub fn order(self) -> Result<Order<CoreJob>, ArgsError> {
         let (out, force) = (self.out.clone(), self.force);
+        let base = self.base.base.clone();
         let job = match &self.job {
             Some(path) => replay(path, self.model)?,
             None => self.new_job()?,
+        };
+        let base = base.map(|path| BaseChoice::read(&path)).transpose()?;
+        let job = CoreJob {
+            base: base.or(job.base),
+            ..job
         };
         let usual = || PathBuf::from(format!("{}-core", job.name()));
         Ok(Order {
@@ -141,6 +160,8 @@ impl CoreArgs {
         let (base, stance) = (self.base, self.stance);
         Ok(CoreJob {
             faces: base.faces.unwrap_or(default.faces),
+            polyhedra: base.polyhedra.unwrap_or(default.polyhedra),
+            connector: base.connector,
             joints: base.joints.unwrap_or(default.joints),
             wall: base.wall,
             shell: base.shell.unwrap_or(default.shell),

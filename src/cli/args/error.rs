@@ -2,6 +2,7 @@
 
 use super::missing::Missing;
 use crate::goal::RequestError;
+use crate::job::base_choice::BaseReadError;
 use crate::job::{FieldOrderError, JobError, PlanError};
 use crate::printer::ShopError;
 
@@ -14,6 +15,9 @@ pub enum ArgsError {
     /// The replayed job cannot be used.
     #[error(transparent)]
     Job(#[from] JobError),
+    /// The base cannot be read.
+    #[error(transparent)]
+    Base(#[from] BaseReadError),
     /// The plan of the cuts cannot be used.
     #[error(transparent)]
     Plan(#[from] PlanError),

@@ -1,7 +1,7 @@
 //! The certificate that a base keeps its distance from the surface, checked anew, and the base
 //! itself from its planes.
 
-use super::evidence::CoreEvidence;
+use super::evidence::{BaseEvidence, CoreEvidence};
 use crate::geom::{Plane, Point};
 use crate::mesh::{ClipError, Csg, MeshDistance, TriMesh, primitives, spread_points};
 use crate::repair::weld;
@@ -23,13 +23,16 @@ pub struct BaseFacts {
     pub outside_mm3: f64,
     /// The volume of the base grown by the gap, mm³.
     pub grown_mm3: f64,
+    /// The least distance of two polyhedra from the plane between them, mm; infinite for one.
+    /// `None` if there is no such plane between two.
+    pub apart_mm: Option<f64>,
 }
 
-/// Returns the least distance by which the pieces of a surface are parted, mm. `None` if their
-/// number is another one, or one names no plane.
-fn parted_mm(evidence: &CoreEvidence, planes: &[Plane]) -> Option<f64> {
+/// Returns the least distance by which the pieces of a surface are parted from a polyhedron, mm.
+/// `None` if their number is another one, or one names no plane.
+fn parted_mm(evidence: &CoreEvidence, base: &BaseEvidence) -> Option<f64> {
     let certificate = &evidence.certificate;
-    let mut named = certificate.faces.iter();
+    let mut named = base.faces.iter();
     let mut least_mm = f64::INFINITY;
     let limit = certificate.longest_edge_mm;
     let least_edge_mm = LEAST_EDGE_RATIO * evidence.model.longest_side_mm();
@@ -41,7 +44,7 @@ fn parted_mm(evidence: &CoreEvidence, planes: &[Plane]) -> Option<f64> {
             match halves(&corners, limit) {
                 Some([first, second]) => waiting.extend([second, first]),
                 None => {
-                    let plane = planes.get(*named.next()? as usize)?;
+                    let plane = base.planes.get(*named.next()? as usize)?;
                     let heights = corners.iter().map(|p| plane.distance(p));
                     least_mm = heights.fold(least_mm, f64::min);
                 }
@@ -68,10 +71,10 @@ fn halves(corners: &[Point; 3], limit_mm: f64) -> Option<[[Point; 3]; 2]> {
 }
 
 /// Returns the body below some planes, each moved outward by a distance, mm.
-pub fn body_below(evidence: &CoreEvidence, by_mm: f64) -> Result<Csg, ClipError> {
+pub fn body_below(evidence: &CoreEvidence, planes: &[Plane], by_mm: f64) -> Result<Csg, ClipError> {
     let around = evidence.model.aabb().inflated(1.0);
     let block = Csg::of_mesh(&primitives::cuboid(&around.min, &around.max))?;
-    evidence.planes().iter().try_fold(block, |body, plane| {
+    planes.iter().try_fold(block, |body, plane| {
         let moved = Plane {
             offset_mm: plane.offset_mm + by_mm,
             ..*plane
@@ -80,24 +83,77 @@ pub fn body_below(evidence: &CoreEvidence, by_mm: f64) -> Result<Csg, ClipError>
     })
 }
 
+/// Returns a polyhedron grown by a distance, mm. It keeps another one from the planes to others.
+pub fn grown_base(
+    evidence: &CoreEvidence,
+    base: &BaseEvidence,
+    by_mm: f64,
+    from_sides_mm: f64,
+) -> Result<Csg, ClipError> {
+    let grown = body_below(evidence, &base.planes, by_mm)?;
+    let clip = |body: Csg, side: &Plane| {
+        let side = Plane {
+            offset_mm: side.offset_mm - from_sides_mm,
+            ..*side
+        };
+        Ok(body.split_by_plane(&side)?.1)
+    };
+    base.sides.iter().try_fold(grown, clip)
+}
+
 /// Measures the base.
 pub fn measure_base(evidence: &CoreEvidence) -> Result<BaseFacts, ClipError> {
-    let base = body_below(evidence, 0.0)?;
-    let mesh: TriMesh = base.to_mesh()?;
     let model = weld(&evidence.model);
     let surface = MeshDistance::new(&model);
-    let triangles: Vec<[Point; 3]> = mesh.iter_corners().collect();
-    let points = spread_points(&triangles, SAMPLES).into_iter();
-    let points = points
-        .map(|point| point.at)
-        .chain(mesh.vertices().iter().copied());
-    let distances = points.map(|at| surface.signed(&at));
-    let outside = base.subtract(&Csg::of_mesh(&model)?)?;
-    let grown = body_below(evidence, evidence.promise.gap_mm)?;
-    Ok(BaseFacts {
-        parted_mm: parted_mm(evidence, &evidence.planes()),
-        sampled_mm: distances.fold(f64::INFINITY, f64::min),
-        outside_mm3: outside.to_mesh()?.signed_volume_mm3().max(0.0),
-        grown_mm3: grown.to_mesh()?.signed_volume_mm3(),
-    })
+    let solid = Csg::of_mesh(&model)?;
+    let mut facts = BaseFacts {
+        parted_mm: Some(f64::INFINITY),
+        sampled_mm: f64::INFINITY,
+        outside_mm3: 0.0,
+        grown_mm3: 0.0,
+        apart_mm: Some(f64::INFINITY),
+    };
+    let bases = evidence.bases();
+    let mut corners: Vec<Vec<Point>> = Vec::new();
+    for base in &bases {
+        let body = body_below(evidence, &base.planes, 0.0)?;
+        let mesh: TriMesh = body.to_mesh()?;
+        let triangles: Vec<[Point; 3]> = mesh.iter_corners().collect();
+        let points = spread_points(&triangles, SAMPLES).into_iter();
+        let points = points
+            .map(|point| point.at)
+            .chain(mesh.vertices().iter().copied());
+        let distances = points.map(|at| surface.signed(&at));
+        facts.sampled_mm = distances.fold(facts.sampled_mm, f64::min);
+        let outside = body.subtract(&solid)?;
+        facts.outside_mm3 += outside.to_mesh()?.signed_volume_mm3().max(0.0);
+        let grown = grown_base(evidence, base, evidence.promise.gap_mm, 0.0)?;
+        facts.grown_mm3 += grown.to_mesh()?.signed_volume_mm3();
+        let parted_mm = parted_mm(evidence, base);
+        facts.parted_mm = facts
+            .parted_mm
+            .zip(parted_mm)
+            .map(|(least, own)| least.min(own));
+        corners.push(mesh.into_vertices());
+    }
+    facts.apart_mm = apart_mm(&bases, &corners);
+    Ok(facts)
+}
+
+/// Returns the least distance of two polyhedra from the plane between them, mm. A plane is between
+/// two if it bounds one, and seen from its other side bounds the other.
+fn apart_mm(bases: &[BaseEvidence], corners: &[Vec<Point>]) -> Option<f64> {
+    let mut least_mm = f64::INFINITY;
+    for (at, one) in bases.iter().enumerate() {
+        for (other, two) in bases.iter().enumerate().take(at) {
+            let shared = one
+                .sides
+                .iter()
+                .find(|side| two.sides.contains(&side.flipped()))?;
+            let below = corners[at].iter().map(|p| -shared.distance(p));
+            let above = corners[other].iter().map(|p| shared.distance(p));
+            least_mm = below.chain(above).fold(least_mm, f64::min);
+        }
+    }
+    Some(least_mm)
 }

@@ -67,7 +67,7 @@ fn none(kind: CheckKind, promise: &str, faults: &[String]) -> Check {
 
 fn of_base(facts: &CoreFacts, promise: &CorePromise) -> Vec<Check> {
     let distance_mm = promise.distance_mm;
-    vec![
+    let mut checks = vec![
         Check::new(
             CheckKind::Separation,
             "every piece of the model's surface is parted from the base by a plane of it",
@@ -103,7 +103,16 @@ fn of_base(facts: &CoreFacts, promise: &CorePromise) -> Vec<Check> {
             "every screw passes a hole of its panel, and every insert has its bore",
             &[facts.panels.unscrewed.as_slice(), &facts.shell.unbored].concat(),
         ),
-    ]
+    ];
+    if !promise.joins.is_empty() || facts.base.apart_mm != Some(f64::INFINITY) {
+        checks.push(Check::new(
+            CheckKind::Polyhedra,
+            "a plane parts every two polyhedra of the base",
+            facts.base.apart_mm,
+            Limit::at_least(0.0, "mm"),
+        ));
+    }
+    checks
 }
 
 fn of_sheets(promise: &CorePromise, facts: &CoreFacts) -> Vec<Check> {

@@ -23,10 +23,27 @@ pub struct CoreEvidence {
 }
 
 impl CoreEvidence {
-    /// Returns the planes of the certificate.
-    pub(super) fn planes(&self) -> Vec<Plane> {
-        let numbers = self.certificate.planes.iter();
-        numbers.map(|&numbers| plane_of(numbers)).collect()
+    /// Returns the polyhedra of the certificate.
+    pub(super) fn bases(&self) -> Vec<BaseEvidence<'_>> {
+        let planes =
+            |numbers: &[[f64; 4]]| numbers.iter().map(|&numbers| plane_of(numbers)).collect();
+        let bases = self.certificate.bases().map(|of| BaseEvidence {
+            planes: planes(&of.planes),
+            sides: planes(&of.sides),
+            faces: &of.faces,
+        });
+        bases.collect()
+    }
+
+    /// Returns the polyhedron and the plane of a panel, by its index; `None` if there is none.
+    pub(super) fn base_of<'a, 'b>(
+        &self,
+        bases: &'b [BaseEvidence<'a>],
+        panel: usize,
+    ) -> Option<(&'b BaseEvidence<'a>, usize)> {
+        let of = self.panels.panels.get(panel)?;
+        let base = bases.get(of.polyhedron.wrapping_sub(1))?;
+        Some((base, of.plane))
     }
 
     /// Returns the ids and meshes of the parts of the shell.
@@ -49,6 +66,16 @@ impl CoreEvidence {
             axes: Matrix::from_columns(&of.axes.map(Vector::from)),
         }
     }
+}
+
+/// A polyhedron of the base.
+pub(super) struct BaseEvidence<'a> {
+    /// Its planes.
+    pub planes: Vec<Plane>,
+    /// The planes between it and other polyhedra.
+    pub sides: Vec<Plane>,
+    /// For each piece of the surface, the index of the plane that parts it.
+    pub faces: &'a [u32],
 }
 
 /// Returns the plane of four numbers: normal and offset.

@@ -26,8 +26,8 @@ pub use error::CoreVerifyError;
 pub use evidence::CoreEvidence;
 pub use facts::{CoreFacts, judge_core};
 pub use promise::{
-    BossPromise, CoreCertificate, CorePartKind, CorePartPromise, CorePromise, CutPromise,
-    CutSheetPromise, EdgePromise, FastenerKind, FastenerPromise, GluePromise, HolePromise,
-    PanelPromise, PanelsFile, PlacedPanel, UnitPromise,
+    BaseCertificate, BossPromise, CoreCertificate, CorePartKind, CorePartPromise, CorePromise,
+    CutPromise, CutSheetPromise, EdgePromise, FastenerKind, FastenerPromise, GluePromise,
+    HolePromise, JoinPromise, PanelPromise, PanelsFile, PlacedPanel, UnitPromise,
 };
 pub use reading::{CORE_CERTIFICATE_FILE, MODEL_FILE, PANELS_FILE, verify_core};

@@ -74,10 +74,14 @@ pub fn measure_panels(evidence: &CoreEvidence) -> Result<PanelFacts, ClipError> 
     let bodies: Vec<TriMesh> = (0..count)
         .map(|panel| panel_body(evidence, panel))
         .collect();
-    let planes = evidence.planes();
-    let corners = bodies.iter().flat_map(|body| body.vertices());
-    let heights = corners.flat_map(|p| planes.iter().map(|plane| plane.distance(p)));
-    let out_mm = heights.fold(off_plane_mm(evidence), f64::max);
+    let bases = evidence.bases();
+    let mut out_mm = off_plane_mm(evidence);
+    for (panel, body) in bodies.iter().enumerate() {
+        let own = evidence.base_of(&bases, panel);
+        let planes = own.into_iter().flat_map(|(base, _)| &base.planes);
+        let heights = planes.flat_map(|plane| body.vertices().iter().map(|p| plane.distance(p)));
+        out_mm = heights.fold(out_mm, f64::max);
+    }
     let mut overlap_mm3 = 0.0_f64;
     for (index, body) in bodies.iter().enumerate() {
         for other in &bodies[..index] {
@@ -94,10 +98,14 @@ pub fn measure_panels(evidence: &CoreEvidence) -> Result<PanelFacts, ClipError> 
 
 /// Returns the greatest distance of a panel's outer side from its plane of the base, mm.
 fn off_plane_mm(evidence: &CoreEvidence) -> f64 {
-    let planes = evidence.planes();
+    let bases = evidence.bases();
     let panels = evidence.panels.panels.iter().enumerate();
-    let distances = panels.flat_map(|(index, panel)| {
-        let (frame, plane) = (evidence.frame(index), planes[panel.plane]);
+    let placed = panels.filter_map(|(index, panel)| {
+        let (base, plane) = evidence.base_of(&bases, index)?;
+        Some((index, panel, *base.planes.get(plane)?))
+    });
+    let distances = placed.flat_map(|(index, panel, plane)| {
+        let frame = evidence.frame(index);
         let corners = panel.outline_mm.iter();
         corners.map(move |[x, y]| {
             plane
@@ -129,28 +137,27 @@ pub fn shared_mm3(a: &TriMesh, b: &TriMesh) -> Result<f64, ClipError> {
     Ok(shared.to_mesh()?.signed_volume_mm3().max(0.0))
 }
 
-/// Returns the screws that pass no hole of their panel, in words.
+/// Returns the screws that pass no hole of their panels, in words.
 fn unscrewed(evidence: &CoreEvidence) -> Vec<String> {
     let screws = evidence.promise.fasteners.iter();
-    let screws = screws.filter(|one| one.kind == FastenerKind::Screw);
-    let loose = screws.filter(|screw| {
-        let panel = screw.panel.wrapping_sub(1);
+    let screws = screws.filter(|one| one.kind != FastenerKind::Insert);
+    let passes = |at: [f64; 3], panel: usize| {
+        let panel = panel.wrapping_sub(1);
         let Some(of) = evidence.panels.panels.get(panel) else {
-            return true;
+            return false;
         };
-        let local = evidence
-            .frame(panel)
-            .to_local(&Point::from(screw.center_mm));
-        !of.holes
+        let local = evidence.frame(panel).to_local(&Point::from(at));
+        of.holes
             .iter()
             .any(|hole| apart(hole.at_mm, [local.x, local.y]) <= BESIDE_MM)
-    });
-    loose
-        .map(|screw| {
-            format!(
-                "a screw of {} passes no hole of panel {}",
-                screw.part, screw.panel
-            )
+    };
+    let passes = &passes;
+    let loose = screws.flat_map(|screw| {
+        let panels = [Some(screw.panel), screw.through].into_iter().flatten();
+        panels.filter_map(move |panel| {
+            let words = || format!("a screw of {} passes no hole of panel {panel}", screw.part);
+            (!passes(screw.center_mm, panel)).then(words)
         })
-        .collect()
+    });
+    loose.collect()
 }

@@ -33,6 +33,9 @@ pub struct CorePromise {
     pub glue: Vec<GluePromise>,
     /// The units in the order in which they are joined.
     pub units: Vec<UnitPromise>,
+    /// The ways in which several polyhedra come together, in their order; empty for one.
+    #[serde(default)]
+    pub joins: Vec<JoinPromise>,
     /// The direction up in the model, a unit vector.
     pub up: [f64; 3],
     /// The mass of the whole, g.
@@ -141,6 +144,12 @@ pub enum FastenerKind {
     Screw,
     /// An insert in a part.
     Insert,
+    /// A screw through panels of two polyhedra, with a nut.
+    Bolt,
+    /// The nut of a bolt.
+    Nut,
+    /// A washer of a bolt.
+    Washer,
 }
 
 /// A fastener in its place, taken as a point of its mass.
@@ -150,7 +159,7 @@ pub struct FastenerPromise {
     pub id: String,
     /// Its kind.
     pub kind: FastenerKind,
-    /// The printed part that it holds.
+    /// The printed part that it holds; the joint of a bolt and its nut, in words.
     pub part: String,
     /// The number of the panel that it passes, or on which its part bears, from 1.
     pub panel: usize,
@@ -162,8 +171,11 @@ pub struct FastenerPromise {
     pub seat_mm: [f64; 3],
     /// The unit direction from there along its shaft.
     pub axis: [f64; 3],
-    /// Diameter and height of a screw's head, mm; zero for an insert.
+    /// Diameter and height of a screw's head, a nut or a washer, mm; zero for an insert.
     pub head_mm: [f64; 2],
+    /// The number of the other panel that a bolt passes, from 1; `None` for all else.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub through: Option<usize>,
 }
 
 /// A film of glue, taken as a point of its mass.
@@ -190,6 +202,46 @@ pub struct UnitPromise {
     pub parts: Vec<String>,
     /// The direction in which it leaves, a unit vector.
     pub way: [f64; 3],
+    /// The number of its polyhedron, from 1; `None` if the base is one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub polyhedron: Option<usize>,
+    /// True if it comes when all polyhedra are joined.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub is_last: bool,
+}
+
+/// The joining of polyhedra that are put together, but still open.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct JoinPromise {
+    /// The numbers of the polyhedra that come, from 1.
+    pub moving: Vec<usize>,
+    /// The numbers of those to which they come.
+    pub standing: Vec<usize>,
+    /// The direction in which they would leave again, a unit vector.
+    pub way: [f64; 3],
+    /// The number of bolts that then hold them.
+    pub bolts: usize,
+}
+
+impl JoinPromise {
+    /// Names what comes.
+    pub fn name(&self) -> String {
+        words(&self.moving)
+    }
+
+    /// Names what it comes to.
+    pub fn others(&self) -> String {
+        words(&self.standing)
+    }
+}
+
+/// Names polyhedra by their numbers.
+fn words(numbers: &[usize]) -> String {
+    let numbers: Vec<String> = numbers.iter().map(usize::to_string).collect();
+    match numbers.as_slice() {
+        [one] => format!("polyhedron {one}"),
+        several => format!("polyhedra {}", several.join(" and ")),
+    }
 }
 
 /// The panels: `panels.json`.
@@ -206,7 +258,10 @@ pub struct PanelsFile {
 pub struct PanelPromise {
     /// Its number, from 1; it is engraved.
     pub panel: usize,
-    /// The index of its plane in the certificate.
+    /// The number of its polyhedron, from 1.
+    #[serde(default = "first", skip_serializing_if = "is_first")]
+    pub polyhedron: usize,
+    /// The index of its plane in the certificate of that polyhedron.
     pub plane: usize,
     /// The origin of its frame in the model, mm.
     pub origin_mm: [f64; 3],
@@ -253,8 +308,50 @@ pub struct CoreCertificate {
     pub distance_mm: f64,
     /// The longest edge of a piece of the surface, mm: longer triangles are halved.
     pub longest_edge_mm: f64,
-    /// The planes of the base: outward unit normal, and offset, mm.
+    /// The base, or the first polyhedron of it.
+    #[serde(flatten)]
+    pub base: BaseCertificate,
+    /// Its other polyhedra.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub others: Vec<BaseCertificate>,
+}
+
+impl CoreCertificate {
+    /// Returns all polyhedra of the base in their order.
+    pub fn bases(&self) -> impl Iterator<Item = &BaseCertificate> {
+        std::iter::once(&self.base).chain(&self.others)
+    }
+}
+
+/// The certificate of a polyhedron.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct BaseCertificate {
+    /// The planes of the polyhedron: outward unit normal, and offset, mm.
     pub planes: Vec<[f64; 4]>,
     /// For each piece of the surface, the index of a plane that parts it.
     pub faces: Vec<u32>,
+    /// The planes between it and other polyhedra, which bound its part of the model. Their normals
+    /// point out of it.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub sides: Vec<[f64; 4]>,
+}
+
+fn first() -> usize {
+    1
+}
+
+#[expect(
+    clippy::trivially_copy_pass_by_ref,
+    reason = "serde asks for a reference"
+)]
+fn is_first(number: &usize) -> bool {
+    *number == first()
+}
+
+#[expect(
+    clippy::trivially_copy_pass_by_ref,
+    reason = "serde asks for a reference"
+)]
+fn is_false(flag: &bool) -> bool {
+    !flag
 }

@@ -7,7 +7,9 @@ use super::error::CoreVerifyError;
 use super::evidence::CoreEvidence;
 use super::facts::judge_core;
 use super::packages::packages_check;
-use super::promise::{CoreCertificate, CorePartPromise, CorePromise, CutSheetPromise, PanelsFile};
+use super::promise::{
+    BaseCertificate, CoreCertificate, CorePartPromise, CorePromise, CutSheetPromise, PanelsFile,
+};
 use crate::base::watch::Watch;
 use crate::geom::Vector;
 use crate::io::{DrawnLine, decode_cut_svg, decode_dxf, read_model};
@@ -98,14 +100,18 @@ fn mismatch(
 ) -> Option<(&'static str, &'static str)> {
     // A longer normal would exaggerate distances.
     let is_unit = |[x, y, z, _]: &[f64; 4]| (x * x + y * y + z * z - 1.0).abs() <= UNIT_SLACK;
-    if !certificate.planes.iter().all(is_unit) {
+    let planes = |of: &BaseCertificate| of.planes.iter().chain(&of.sides).all(is_unit);
+    if !certificate.bases().all(planes) {
         let why = "a normal of its planes has not the length 1";
         return Some((CORE_CERTIFICATE_FILE, why));
     }
+    let bases: Vec<&BaseCertificate> = certificate.bases().collect();
     let mut all = panels.panels.iter().enumerate();
     let is_wrong = all.any(|(index, panel)| {
         panel.panel != index + 1
-            || panel.plane >= certificate.planes.len()
+            || bases
+                .get(panel.polyhedron.wrapping_sub(1))
+                .is_none_or(|base| panel.plane >= base.planes.len())
             || panel.outline_mm.len() < 3
     });
     let why = "its panels are not numbered, or lie on no plane of the certificate";

@@ -3,7 +3,7 @@
 
 use rayon::prelude::*;
 
-use super::certificate::body_below;
+use super::certificate::{body_below, grown_base};
 use super::error::CoreVerifyError;
 use super::evidence::{CoreEvidence, plane_of};
 use super::panels::shared_mm3;
@@ -23,7 +23,8 @@ const HEAD_SIDES: u32 = 24;
 const ON_SURFACE_MM: f64 = 2e-3;
 /// Distance from a bore within which its own wall is not measured, mm.
 const BORE_MM: f64 = 0.05;
-/// By how much the base is grown less than the gap when parts must keep clear of it, mm.
+/// By how much the base is grown less than the gap when parts must keep clear of it, mm. It keeps
+/// as far from planes to other polyhedra, at which their parts end.
 const CLEAR_MM: f64 = 0.01;
 
 /// The facts about the shell.
@@ -60,11 +61,13 @@ pub fn measure_shell(
 ) -> Result<ShellFacts, CoreVerifyError> {
     let (wall_mm, thinnest) = thinnest_wall(evidence, watch)?;
     let clear_mm = (evidence.promise.gap_mm - CLEAR_MM).max(0.0);
-    let grown = body_below(evidence, clear_mm)?.to_mesh()?;
-    let in_base = evidence
-        .shell()
-        .map(|(_, mesh)| shared_mm3(&weld(mesh), &grown));
-    let in_base: Vec<f64> = in_base.collect::<Result<_, _>>()?;
+    let mut in_base_mm3 = 0.0;
+    for base in evidence.bases() {
+        let grown = grown_base(evidence, &base, clear_mm, CLEAR_MM)?.to_mesh()?;
+        for (_, mesh) in evidence.shell() {
+            in_base_mm3 += shared_mm3(&weld(mesh), &grown)?;
+        }
+    }
     let volumes = evidence.shell().map(|(index, mesh)| {
         let part = &evidence.promise.parts[index];
         mesh.signed_volume_mm3() + part.void_mm3 + part.bores_mm3
@@ -72,7 +75,7 @@ pub fn measure_shell(
     Ok(ShellFacts {
         uncovered_mm: uncovered_mm(evidence),
         beyond_mm: beyond_mm(evidence),
-        in_base_mm3: in_base.iter().sum(),
+        in_base_mm3,
         brackets_mm3: brackets_mm3(evidence)?,
         parts_mm3: volumes.sum(),
         wall_mm,
@@ -108,7 +111,9 @@ fn beyond_mm(evidence: &CoreEvidence) -> f64 {
 /// Returns the volume of brackets that is outside of the base or in a panel, mm³.
 fn brackets_mm3(evidence: &CoreEvidence) -> Result<f64, CoreVerifyError> {
     let is_shell: Vec<usize> = evidence.shell().map(|(index, _)| index).collect();
-    let base = body_below(evidence, 0.0)?.to_mesh()?;
+    let bases = evidence.bases().into_iter();
+    let bases = bases.map(|base| body_below(evidence, &base.planes, 0.0)?.to_mesh());
+    let bases: Vec<TriMesh> = bases.collect::<Result<_, _>>()?;
     let count = evidence.panels.panels.len();
     let panels: Vec<TriMesh> = (0..count)
         .map(|panel| super::panels::panel_body(evidence, panel))
@@ -119,7 +124,11 @@ fn brackets_mm3(evidence: &CoreEvidence) -> Result<f64, CoreVerifyError> {
             continue;
         }
         let body = weld(mesh);
-        wrong_mm3 += (body.signed_volume_mm3() - shared_mm3(&body, &base)?).max(0.0);
+        let mut inside_mm3 = 0.0_f64;
+        for base in &bases {
+            inside_mm3 = inside_mm3.max(shared_mm3(&body, base)?);
+        }
+        wrong_mm3 += (body.signed_volume_mm3() - inside_mm3).max(0.0);
         for panel in &panels {
             wrong_mm3 += shared_mm3(&body, panel)?;
         }
@@ -175,17 +184,18 @@ fn thinnest_wall(
     watch: &Watch,
 ) -> Result<(f64, Option<String>), CoreVerifyError> {
     let surface = MeshDistance::new(&weld(&evidence.model));
-    let planes = evidence.planes();
+    let bases = evidence.bases();
     let shell: Vec<(usize, &TriMesh)> = evidence.shell().collect();
     let walls = shell.par_iter().map(|&(index, mesh)| {
         watch.check()?;
         let panel = evidence.promise.parts[index].panel.wrapping_sub(1);
-        let face = evidence.panels.panels.get(panel).map(|panel| panel.plane);
+        let own = evidence.base_of(&bases, panel);
         let judge = WallJudge {
             evidence,
             index,
             surface: &surface,
-            seams: &face.map_or_else(Vec::new, |face| seams(&planes, face)),
+            planes: own.map_or(&[], |(base, _)| &base.planes),
+            seams: &own.map_or_else(Vec::new, |(base, face)| seams(&base.planes, face)),
         };
         Ok((
             judge.wall_mm(mesh),
@@ -207,6 +217,8 @@ struct WallJudge<'a> {
     evidence: &'a CoreEvidence,
     index: usize,
     surface: &'a MeshDistance,
+    /// The planes of its polyhedron.
+    planes: &'a [Plane],
     seams: &'a [Plane],
 }
 
@@ -217,9 +229,9 @@ impl WallJudge<'_> {
     /// A point is an inner one if it lies on none of these, on no floor and in no bore.
     fn wall_mm(&self, mesh: &TriMesh) -> f64 {
         let part = &self.evidence.promise.parts[self.index];
-        let planes = self.evidence.planes();
         let gap_mm = self.evidence.promise.gap_mm;
-        let floors: Vec<Plane> = planes
+        let floors: Vec<Plane> = self
+            .planes
             .iter()
             .map(|plane| Plane {
                 offset_mm: plane.offset_mm + gap_mm,
@@ -294,7 +306,8 @@ fn unbored(evidence: &CoreEvidence) -> Vec<String> {
         }
     }
     let named = evidence.promise.fasteners.iter();
-    let strange = named.filter(|one| evidence.part(&one.part).is_none());
+    let is_in_part = |kind| matches!(kind, FastenerKind::Screw | FastenerKind::Insert);
+    let strange = named.filter(|one| is_in_part(one.kind) && evidence.part(&one.part).is_none());
     wrong.extend(strange.map(|one| format!("there is no part {}", one.part)));
     wrong
 }

@@ -5,6 +5,7 @@ use rayon::prelude::*;
 use super::error::CoreVerifyError;
 use super::evidence::CoreEvidence;
 use super::panels::{panel_body, shared_mm3};
+use super::promise::FastenerKind;
 use crate::base::watch::Watch;
 use crate::geom::{Aabb, Bvh, Point, Vector};
 use crate::mesh::{TriMesh, spread_points};
@@ -45,23 +46,32 @@ struct UnitBodies {
     id: String,
 }
 
-/// Measures the ways of all units, the last joined one first.
+/// A step of putting the object together.
+struct Step<'a> {
+    moving: Vec<&'a TriMesh>,
+    standing: Vec<&'a TriMesh>,
+    /// The direction in which it is undone.
+    way: Vector,
+    id: String,
+}
+
+/// Measures the ways of all units, and of polyhedra that are joined.
 ///
 /// # Errors
 /// The boolean engine fails, or the watch is stopped.
 pub fn measure_ways(evidence: &CoreEvidence, watch: &Watch) -> Result<WayFacts, CoreVerifyError> {
     let mut facts = WayFacts {
-        strays: strays(evidence),
+        strays: [strays(evidence), unjoined(evidence)].concat(),
         ..WayFacts::default()
     };
     let units: Vec<UnitBodies> = bodies(evidence);
-    let ways = (0..units.len()).into_par_iter().map(|unit| {
+    let steps = steps(evidence, &units);
+    let ways = steps.par_iter().map(|step| {
         watch.check()?;
-        let standing: Vec<&TriMesh> = units[..unit].iter().flat_map(|one| &one.bodies).collect();
-        measure_way(&units[unit], &standing)
+        measure_way(step)
     });
     let ways: Vec<Way> = ways.collect::<Result<_, CoreVerifyError>>()?;
-    for (unit, way) in units.iter().zip(ways) {
+    for (step, way) in steps.iter().zip(ways) {
         let Way {
             overlap_mm3,
             standing_mm3,
@@ -69,19 +79,98 @@ pub fn measure_ways(evidence: &CoreEvidence, watch: &Watch) -> Result<WayFacts, 
         } = way;
         if overlap_mm3 > facts.overlap_mm3 {
             facts.overlap_mm3 = overlap_mm3;
-            facts.worst = Some(unit.id.clone());
+            facts.worst = Some(step.id.clone());
         }
         facts.standing_mm3 = facts.standing_mm3.max(standing_mm3);
         if let Some(first) = barred.first() {
             let [x, y, z] = [0, 1, 2].map(|k| first[k]);
             facts.barred.push(format!(
                 "{} meets others at {} points, such as ({x:.1}, {y:.1}, {z:.1}) mm",
-                unit.id,
+                step.id,
                 barred.len()
             ));
         }
     }
     Ok(facts)
+}
+
+/// Returns the steps in which the object is put together: the units of every polyhedron, then the
+/// polyhedra, then the units that come last.
+fn steps<'a>(evidence: &CoreEvidence, units: &'a [UnitBodies]) -> Vec<Step<'a>> {
+    let promise = &evidence.promise;
+    let all = || promise.units.iter().zip(units).enumerate();
+    let of_units = all().map(|(index, (unit, own))| {
+        let stands = all().take(index).filter(|(_, (other, _))| {
+            unit.is_last || (!other.is_last && other.polyhedron == unit.polyhedron)
+        });
+        Step {
+            moving: own.bodies.iter().collect(),
+            standing: stands.flat_map(|(_, (_, own))| &own.bodies).collect(),
+            way: own.way,
+            id: own.id.clone(),
+        }
+    });
+    let of_joins = promise.joins.iter().map(|join| {
+        let within = |numbers: &[usize]| {
+            let own = all().filter(|(_, (unit, _))| {
+                let is_in = unit.polyhedron.is_some_and(|at| numbers.contains(&at));
+                is_in && !unit.is_last
+            });
+            own.flat_map(|(_, (_, own))| &own.bodies).collect()
+        };
+        Step {
+            moving: within(&join.moving),
+            standing: within(&join.standing),
+            way: Vector::from(join.way),
+            id: join.name(),
+        }
+    });
+    of_units.chain(of_joins).collect()
+}
+
+/// Returns the polyhedra that no join brings to the first one, and those that no bolts hold.
+fn unjoined(evidence: &CoreEvidence) -> Vec<String> {
+    let promise = &evidence.promise;
+    let come = promise.joins.iter().map(|join| {
+        let both = join.moving.iter().chain(&join.standing);
+        both.copied().collect::<Vec<usize>>()
+    });
+    let polyhedron = |panel: usize| {
+        let panel = evidence.panels.panels.get(panel.wrapping_sub(1));
+        panel.map_or(0, |panel| panel.polyhedron)
+    };
+    let bolts = promise.fasteners.iter();
+    let bolts = bolts.filter(|one| one.kind == FastenerKind::Bolt);
+    let held = bolts.filter_map(|bolt| Some([bolt.panel, bolt.through?].map(polyhedron).to_vec()));
+    let count = evidence.certificate.bases().count();
+    let words = |groups: Vec<Vec<usize>>, what: &str| -> Vec<String> {
+        let joined = reached(&groups);
+        let apart = (1..=count).filter(|number| !joined.contains(number));
+        apart
+            .map(|number| format!("polyhedron {number} {what}"))
+            .collect()
+    };
+    [
+        words(come.collect(), "comes to no other"),
+        words(held.collect(), "is bolted to no other"),
+    ]
+    .concat()
+}
+
+/// Returns all numbers that groups, which share some, join to 1.
+fn reached(groups: &[Vec<usize>]) -> Vec<usize> {
+    let mut joined = vec![1];
+    // Each pass reaches one more group, or none is left.
+    for _ in groups {
+        for group in groups {
+            if group.iter().any(|number| joined.contains(number)) {
+                joined.extend(group);
+            }
+        }
+        joined.sort_unstable();
+        joined.dedup();
+    }
+    joined
 }
 
 /// Returns the things that belong to no unit, or to several.
@@ -131,12 +220,13 @@ struct Way {
 }
 
 /// Measures the way of a unit past what still stands.
-fn measure_way(unit: &UnitBodies, standing: &[&TriMesh]) -> Result<Way, CoreVerifyError> {
+fn measure_way(step: &Step) -> Result<Way, CoreVerifyError> {
     let at = |step_mm: f64| -> Result<f64, CoreVerifyError> {
         let mut shared = 0.0;
-        for body in &unit.bodies {
-            let moved = body.map_vertices(|p| p + unit.way * step_mm);
-            let near = standing
+        for body in &step.moving {
+            let moved = body.map_vertices(|p| p + step.way * step_mm);
+            let near = step
+                .standing
                 .iter()
                 .filter(|other| meets(&moved.aabb(), &other.aabb()));
             for other in near {
@@ -152,7 +242,7 @@ fn measure_way(unit: &UnitBodies, standing: &[&TriMesh]) -> Result<Way, CoreVeri
     Ok(Way {
         overlap_mm3,
         standing_mm3: at(0.0)?,
-        barred: barred(unit, standing),
+        barred: barred(step),
     })
 }
 
@@ -162,9 +252,9 @@ fn meets(a: &Aabb, b: &Aabb) -> bool {
 
 /// Returns the points of a unit that meet what stands on the way out. Those of what stands that
 /// meet the unit on the way back count too.
-fn barred(unit: &UnitBodies, standing: &[&TriMesh]) -> Vec<Point> {
-    let own = Bvh::new(unit.bodies.iter().flat_map(|body| body.iter_corners()));
-    let others = Bvh::new(standing.iter().flat_map(|body| body.iter_corners()));
+fn barred(step: &Step) -> Vec<Point> {
+    let own = Bvh::new(step.moving.iter().flat_map(|body| body.iter_corners()));
+    let others = Bvh::new(step.standing.iter().flat_map(|body| body.iter_corners()));
     if own.is_empty() || others.is_empty() {
         return Vec::new();
     }
@@ -173,10 +263,10 @@ fn barred(unit: &UnitBodies, standing: &[&TriMesh]) -> Vec<Point> {
         bvh.crosses_segment(&(p + way * TOUCH_MM), &(p + way * reach_mm))
             && dips(bvh, p, way * reach_mm)
     };
-    let ahead = unit.bodies.iter().flat_map(inner_points);
-    let ahead = ahead.filter(|p| is_barred(&others, p, unit.way));
-    let back = standing.iter().flat_map(|body| inner_points(body));
-    let back = back.filter(|p| is_barred(&own, p, -unit.way));
+    let ahead = step.moving.iter().flat_map(|body| inner_points(body));
+    let ahead = ahead.filter(|p| is_barred(&others, p, step.way));
+    let back = step.standing.iter().flat_map(|body| inner_points(body));
+    let back = back.filter(|p| is_barred(&own, p, -step.way));
     ahead.chain(back).collect()
 }
 
@@ -247,12 +337,13 @@ mod tests {
         TriMesh::new(corners, triangles).unwrap()
     }
 
-    fn unit(body: TriMesh, way: Vector) -> UnitBodies {
-        UnitBodies {
-            bodies: vec![body],
+    fn meeting(body: &TriMesh, way: Vector, other: &TriMesh) -> Vec<Point> {
+        barred(&Step {
+            moving: vec![body],
+            standing: vec![other],
             way,
             id: "unit 1".to_owned(),
-        }
+        })
     }
 
     #[test]
@@ -262,7 +353,7 @@ mod tests {
             primitives::cuboid(&Point::new(-5.0, -5.0, -10.0), &Point::new(15.0, 15.0, 0.0));
         for slope in [0.3, 0.05, 0.01] {
             for way in [Vector::x(), Vector::y(), -Vector::y()] {
-                let found = barred(&unit(wedge(slope), way), &[&block]);
+                let found = meeting(&wedge(slope), way, &block);
                 assert!(found.is_empty(), "{slope} {way:?}: {found:?}");
             }
         }
@@ -272,9 +363,9 @@ mod tests {
     fn a_corner_that_goes_into_another_body_is_barred() {
         let wall = primitives::cuboid(&Point::new(20.0, 4.0, -5.0), &Point::new(20.5, 6.0, 5.0));
         let moving = primitives::cuboid(&Point::origin(), &Point::new(10.0, 10.0, 1.0));
-        let found = barred(&unit(moving.clone(), Vector::x()), &[&wall]);
+        let found = meeting(&moving, Vector::x(), &wall);
         assert!(!found.is_empty());
-        let found = barred(&unit(moving, -Vector::x()), &[&wall]);
+        let found = meeting(&moving, -Vector::x(), &wall);
         assert!(found.is_empty());
     }
 }

@@ -7,7 +7,9 @@
 )]
 #![allow(clippy::print_stderr, reason = "a skipped test says so")]
 
+#[path = "../common/mod.rs"]
 mod common;
+mod several;
 
 use std::ffi::OsString;
 use std::fs;
@@ -368,6 +370,10 @@ fn bad_input_is_named_with_what_to_type_and_leaves_nothing_behind() {
         ("--size 20mm --wall 0", "wall"),
         ("--up auto", "direction"),
         ("--joints dovetail", "fingers"),
+        ("--polyhedra 9", "give auto, or 1 to 6"),
+        ("--connector 20kg", "mm"),
+        ("--base nowhere.toml", "a kit's base.toml"),
+        ("--base nowhere.toml --polyhedra 2", "cannot be used with"),
     ];
     for (options, words) in cases {
         let kit = folder.path().join("kit");

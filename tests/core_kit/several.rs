@@ -1,0 +1,216 @@
+//! Bases of several polyhedra, bolted together, and bases that a person edits.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use equipoise::geom::Point;
+use equipoise::io::stl;
+use equipoise::mesh::primitives;
+use serde_json::Value;
+
+use super::common::{
+    assert_exit, checklist, copy, equipoise, files, json, list, number, path, printed, verify,
+};
+use super::{add, core, hold_broken, judge_in_python};
+
+/// The sides of the long box, mm.
+const LONG_MM: [f64; 3] = [520.0, 180.0, 170.0];
+
+fn long_block(folder: &Path) -> PathBuf {
+    let mesh = primitives::cuboid(&Point::origin(), &Point::from(LONG_MM));
+    let file = folder.join("beam.stl");
+    fs::write(&file, stl::encode(&mesh, "beam")).unwrap();
+    file
+}
+
+#[test]
+fn a_long_box_on_two_polyhedra_is_bolted_together_and_passes_both_judges() {
+    let folder = tempfile::tempdir().unwrap();
+    let kit = folder.path().join("kit");
+    let model = long_block(folder.path());
+    let output = core(&model, &kit, "--faces 6 --up z --polyhedra 2");
+    assert_exit(&output, 0);
+    let sheet = checklist(&kit);
+    hold_two(&sheet);
+    let (code, said) = verify(&kit);
+    assert_eq!(code, Some(0), "{said}");
+    judge_in_python(&kit);
+    tell_lies(folder.path(), &kit);
+    give_base(folder.path(), &model, &kit);
+}
+
+/// Holds what a base of two boxes must have.
+fn hold_two(sheet: &Value) {
+    let polyhedra = list(&sheet["base"], "polyhedra");
+    assert_eq!(polyhedra.len(), 2);
+    let numbers = polyhedra.iter().flat_map(|row| list(row, "panels"));
+    let numbers: Vec<u64> = numbers.map(|panel| panel.as_u64().unwrap()).collect();
+    assert_eq!(numbers, (1..=12).collect::<Vec<u64>>());
+    // Both are the inset halves, a tenth of a millimetre apart.
+    let inset_mm = 2.0 * number(sheet, "/distance_mm");
+    let whole: f64 = LONG_MM.map(|side| side - inset_mm).iter().product();
+    let ratio = number(sheet, "/base/volume_mm3") / whole;
+    assert!(ratio > 0.97 && ratio < 1.0, "{ratio}");
+    let count = |kind: &str| {
+        let all = list(sheet, "fasteners").iter();
+        all.filter(|one| one["kind"] == kind).count()
+    };
+    let bolts = count("bolt");
+    assert!(bolts >= 3, "{bolts}");
+    assert_eq!([count("nut"), count("washer")], [bolts, 2 * bolts]);
+    let bought = list(sheet, "buy").iter();
+    let bought: Vec<&Value> = bought
+        .filter(|row| row["id"].as_str().unwrap().starts_with("nut-"))
+        .collect();
+    assert_eq!(number(bought[0], "/count"), bolts as f64);
+    let joins = list(sheet, "joins");
+    assert_eq!(joins.len(), 1);
+    assert_eq!(number(&joins[0], "/bolts"), bolts as f64);
+    // One side of each stays open until the bolts hold, and no open side is the common one.
+    for (index, row) in polyhedra.iter().enumerate() {
+        let closing = format!("unit {}", number(row, "/closed_by"));
+        let unit = list(sheet, "units")
+            .iter()
+            .find(|unit| unit["id"] == closing.as_str());
+        let unit = unit.unwrap();
+        assert_eq!(unit["is_last"], true);
+        assert_eq!(number(unit, "/polyhedron"), (index + 1) as f64);
+        assert!(!list(unit, "parts").is_empty(), "{unit}");
+    }
+}
+
+/// A lie in a file, and words of the promise that it breaks.
+type Lie = (&'static str, &'static str, fn(&mut Value));
+
+/// Lies about polyhedra that a judge could overlook.
+const LIES: [Lie; 5] = [
+    ("checklist.json", "what still stands", |sheet| {
+        // The second polyhedron would leave through the first one.
+        for number in sheet["joins"][0]["way"].as_array_mut().unwrap() {
+            let by = -2.0 * number.as_f64().unwrap();
+            add(number, by);
+        }
+    }),
+    ("checklist.json", "all the way", |sheet| {
+        sheet["joins"].as_array_mut().unwrap().clear();
+    }),
+    ("checklist.json", "all the way", |sheet| {
+        let all = sheet["fasteners"].as_array_mut().unwrap();
+        all.retain(|one| one["kind"] != "bolt");
+    }),
+    ("checklist.json", "passes a hole", |sheet| {
+        let all = sheet["fasteners"].as_array_mut().unwrap();
+        let bolt = all.iter_mut().find(|one| one["kind"] == "bolt").unwrap();
+        bolt["through"] = bolt["panel"].as_u64().map(|panel| panel + 1).into();
+    }),
+    ("certificate.json", "parts every two", |certificate| {
+        add(&mut certificate["sides"][0][3], 5.0);
+        add(&mut certificate["others"][0]["sides"][0][3], -5.0);
+    }),
+];
+
+fn tell_lies(folder: &Path, kit: &Path) {
+    for (index, (file, promise, tell)) in LIES.iter().enumerate() {
+        let copied = folder.join(format!("lie-{index}"));
+        copy(kit, &copied);
+        let text = fs::read(copied.join(file)).unwrap();
+        let mut value: Value = serde_json::from_slice(&text).unwrap();
+        tell(&mut value);
+        fs::write(copied.join(file), value.to_string()).unwrap();
+        hold_broken(&copied, promise);
+    }
+}
+
+/// Gives the base of a kit back: the same kit comes of it, and an edited one if its plane parts.
+fn give_base(folder: &Path, model: &Path, kit: &Path) {
+    let base = kit.join("base.toml");
+    let again = folder.join("again");
+    let options = format!("--up z --base {}", path(&base));
+    assert_exit(&core(model, &again, &options), 0);
+    let mut same = files(kit);
+    let mut others = files(&again);
+    assert_eq!(
+        same.keys().collect::<Vec<_>>(),
+        others.keys().collect::<Vec<_>>()
+    );
+    // The order is another one, and the lists have its hash.
+    let listing = ["job.toml", "checklist.json", "job.html", "SHA256SUMS"];
+    for file in listing {
+        same.remove(Path::new(file));
+        others.remove(Path::new(file));
+    }
+    assert_eq!(same, others);
+    let replayed = folder.join("replayed");
+    let job = again.join("job.toml");
+    let arguments = ["core", "--job", path(&job), "--out", path(&replayed)];
+    assert_exit(&equipoise(&arguments), 0);
+    assert_eq!(files(&again), files(&replayed));
+    // A plane that is moved into a polyhedron is named with its place.
+    let text = fs::read_to_string(&base).unwrap();
+    let line = text
+        .lines()
+        .find(|line| line.starts_with("offset_mm"))
+        .unwrap();
+    let offset_mm: f64 = line.trim_start_matches("offset_mm = ").parse().unwrap();
+    let edited = folder.join("edited.toml");
+    let moved = format!("offset_mm = {:?}", offset_mm + 30.0);
+    fs::write(&edited, text.replacen(line, &moved, 1)).unwrap();
+    let target = folder.join("edited");
+    let output = core(model, &target, &format!("--up z --base {}", path(&edited)));
+    assert_exit(&output, 2);
+    let said = printed(&output);
+    assert!(
+        said.contains("edited.toml:4:") && said.contains("crosses it by"),
+        "{said}"
+    );
+    assert!(!target.exists());
+}
+
+#[test]
+fn a_disc_larger_than_the_common_panels_is_an_answer_with_what_helps() {
+    let folder = tempfile::tempdir().unwrap();
+    let kit = folder.path().join("kit");
+    let model = long_block(folder.path());
+    let base = folder.path().join("base.toml");
+    fs::write(&base, two_boxes()).unwrap();
+    let options = format!(
+        "--up z --goal none --base {} --connector 90mm --json",
+        path(&base)
+    );
+    let output = core(&model, &kit, &options);
+    assert_exit(&output, 1);
+    let answer = json(&output);
+    assert!(
+        answer["reason"]
+            .as_str()
+            .unwrap()
+            .contains("are not joined"),
+        "{answer}"
+    );
+    assert!(
+        answer["hints"][0].as_str().unwrap().contains("45mm"),
+        "{answer}"
+    );
+    assert!(!kit.exists());
+}
+
+/// Returns a base of two boxes with one face each on the plane x = 260.
+fn two_boxes() -> String {
+    let face = |normal: [f64; 3], offset_mm: f64, locked: bool| {
+        format!(
+            "[[polyhedron.face]]\nnormal = {normal:?}\noffset_mm = {offset_mm:?}\nlocked = {locked}\n"
+        )
+    };
+    let sides = [
+        face([0.0, 1.0, 0.0], 160.0, false),
+        face([0.0, -1.0, 0.0], -20.0, false),
+        face([0.0, 0.0, 1.0], 150.0, false),
+        face([0.0, 0.0, -1.0], -20.0, false),
+    ]
+    .concat();
+    let split =
+        "[[split]]\nnormal = [1.0, 0.0, 0.0]\noffset_mm = 260.0\nbelow = \"Q1\"\nabove = \"Q2\"\n";
+    let low = face([1.0, 0.0, 0.0], 259.95, true) + &face([-1.0, 0.0, 0.0], -20.0, false);
+    let high = face([-1.0, 0.0, 0.0], -260.05, true) + &face([1.0, 0.0, 0.0], 500.0, false);
+    format!("{split}[[polyhedron]]\n{sides}{low}[[polyhedron]]\n{sides}{high}")
+}
