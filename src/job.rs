@@ -14,6 +14,7 @@ mod reading;
 mod sliced;
 mod slicer;
 pub mod telescope;
+mod telescope_root;
 
 use std::path::{Path, PathBuf};
 
