@@ -19,6 +19,8 @@ const RING_POINTS: usize = 48;
 const COLLAR_WALLS: f64 = 2.0;
 /// Length of a root that its collar holds, in its radii; and what the cap takes.
 const HELD_RADII: f64 = 0.6;
+/// Length ahead of a root's mouth that is bored for what comes out of it, in its radii.
+const CLEAR_RADII: f64 = 2.0;
 /// Least radius of a ball, in walls: thinner ends snap.
 const LEAST_BALL_WALLS: f64 = 1.5;
 
@@ -32,16 +34,19 @@ struct Ball {
 /// Returns the solid of a juncture where it lies when all is out.
 pub fn body(tree: &Tree, juncture: usize, kind: JunctureKind) -> Result<Solid, ClipError> {
     let shape = Shape { tree, juncture };
-    let mut whole = shape.links()?;
-    if let Some(hull) = (kind == JunctureKind::Hull).then(|| shape.hull()).flatten() {
-        whole = whole.union(&Csg::convex_hull(&hull)?)?;
-    } else {
-        whole = whole.union(&shape.collars()?)?;
+    let mut whole = joined(&shape.links())?;
+    if !shape.outgoing().is_empty() {
+        let holder = match kind {
+            JunctureKind::Ball => joined(&shape.collars())?,
+            JunctureKind::Hull => Csg::convex_hull(&shape.hull())?,
+        };
+        whole = whole.union(&holder)?;
     }
     for limb in shape.outgoing() {
         let telescope = &tree.network.limbs[limb].telescope;
         let start = telescope.start;
-        let socket = telescope.socket(shape.reach_mm())?.to_mesh()?;
+        let clear_mm = CLEAR_RADII * telescope.shells[0].body_mm;
+        let socket = telescope.socket(clear_mm)?.to_mesh()?;
         let socket = Csg::of_mesh(&socket.map_vertices(|p| start.to_model(p)))?;
         whole = whole.subtract(&socket)?;
     }
@@ -103,14 +108,6 @@ impl Shape<'_> {
         own.map(|limb| &limb.telescope)
     }
 
-    /// Returns a length that is greater than any body, mm.
-    fn reach_mm(&self) -> f64 {
-        let balls = self.node_balls();
-        let most = balls.iter().map(|ball| ball.radius_mm).fold(0.0, f64::max);
-        let centres: Vec<Point> = balls.iter().map(|ball| ball.centre).collect();
-        2.0 * most + crate::geom::Aabb::of_points(&centres).size().norm()
-    }
-
     fn node(&self, node: usize) -> Ball {
         let least_mm = LEAST_BALL_WALLS * self.tree.wall_mm;
         let node = &self.tree.skeleton.nodes[node];
@@ -120,14 +117,9 @@ impl Shape<'_> {
         }
     }
 
-    fn node_balls(&self) -> Vec<Ball> {
-        let nodes = self.tree.nodes[self.juncture].iter();
-        nodes.map(|node| self.node(*node)).collect()
-    }
-
     /// Returns the balls of the juncture's nodes, joined along what stays solid, and what is beyond
     /// the mouth that carries it.
-    fn links(&self) -> Result<Csg, ClipError> {
+    fn links(&self) -> Vec<[Ball; 2]> {
         let own: BTreeSet<usize> = self.tree.nodes[self.juncture].iter().copied().collect();
         let links = self.tree.skeleton.links();
         let links = links.filter(|link| link.iter().all(|node| own.contains(node)));
@@ -147,19 +139,20 @@ impl Shape<'_> {
             pairs.extend(run.windows(2).map(|pair| [pair[0], pair[1]]));
             pairs.push([first; 2]);
         }
-        joined(&pairs)
+        pairs
     }
 
     /// Returns the collars: what holds the roots of the telescopes.
-    fn collars(&self) -> Result<Csg, ClipError> {
+    fn collars(&self) -> Vec<[Ball; 2]> {
         let mut pairs = Vec::new();
         for limb in self.outgoing() {
             let collar = self.collar(limb);
             let before = self.tree.before[limb].iter().map(|node| self.node(*node));
             let run: Vec<Ball> = before.chain([collar]).collect();
             pairs.extend(run.windows(2).map(|pair| [pair[0], pair[1]]));
+            pairs.push([collar; 2]);
         }
-        joined(&pairs)
+        pairs
     }
 
     /// Returns the ball of a collar, on the axis of the root.
@@ -174,8 +167,8 @@ impl Shape<'_> {
         }
     }
 
-    /// Returns the points whose hull covers the ends that meet; `None` if only one does.
-    fn hull(&self) -> Option<Vec<Point>> {
+    /// Returns the points whose hull covers the ends that meet.
+    fn hull(&self) -> Vec<Point> {
         let mut points = Vec::new();
         for limb in self.outgoing() {
             let telescope = &self.tree.network.limbs[limb].telescope;
@@ -187,14 +180,11 @@ impl Shape<'_> {
                 points.extend(ring(&on_root(telescope, arc_mm), collar.radius_mm));
             }
         }
-        if points.is_empty() {
-            return None;
-        }
         if let Some(parent) = self.incoming() {
             let radius_mm = parent.shells[parent.shells.len() - 1].body_mm;
             points.extend(ring(&last(parent).1, radius_mm));
         }
-        Some(points)
+        points
     }
 }
 
@@ -208,22 +198,17 @@ fn ring(frame: &Frame, radius_mm: f64) -> Vec<Point> {
 
 /// Returns the union of the hulls of pairs of balls.
 fn joined(pairs: &[[Ball; 2]]) -> Result<Csg, ClipError> {
-    let mut whole: Option<Csg> = None;
-    for pair in pairs {
+    let hull = |pair: &[Ball; 2]| {
         let meshes = pair.map(|one| ball(&one.centre, one.radius_mm, BALL_LEVEL));
-        let points: Vec<Point> = meshes
-            .iter()
-            .flat_map(|mesh| mesh.vertices())
-            .copied()
-            .collect();
-        let hull = Csg::convex_hull(&points)?;
-        whole = Some(match whole {
-            Some(whole) => whole.union(&hull)?,
-            None => hull,
-        });
+        let points = meshes.iter().flat_map(|mesh| mesh.vertices()).copied();
+        Csg::convex_hull(&points.collect::<Vec<Point>>())
+    };
+    let Some((first, others)) = pairs.split_first() else {
+        return Csg::convex_hull(&[]);
+    };
+    let mut whole = hull(first)?;
+    for pair in others {
+        whole = whole.union(&hull(pair)?)?;
     }
-    match whole {
-        Some(whole) => Ok(whole),
-        None => Csg::convex_hull(&[]),
-    }
+    Ok(whole)
 }

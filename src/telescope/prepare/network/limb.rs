@@ -80,9 +80,8 @@ impl Studio<'_> {
             let Some(widest_mm) = tip_mm(chain, &planned, &self.measures) else {
                 continue;
             };
-            for share in TIPS {
-                let tip_mm = widest_mm + share * (self.measures.tip_mm - widest_mm);
-                let order = self.order(&planned, tip_mm, &curve)?;
+            for tip_mm in TIPS.map(|share| widest_mm + share * (self.measures.tip_mm - widest_mm)) {
+                let order = self.order(&planned, tip_mm, &curve);
                 let asked = measure(&order.job, self.shop, &order.loaded)?;
                 match design(&asked, self.watch)? {
                     Verdict::No(refused) => why = refused.reason.to_string(),
@@ -100,16 +99,15 @@ impl Studio<'_> {
         Ok(Verdict::No(why))
     }
 
-    fn order(
-        &self,
-        planned: &Planned,
-        tip_mm: f64,
-        curve: &Curve,
-    ) -> Result<LimbOrder, TelescopeRunError> {
+    fn order(&self, planned: &Planned, tip_mm: f64, curve: &Curve) -> LimbOrder {
         let job = TelescopeJob {
             shells: ShellCount::Given(planned.shells),
             tip_radius: Length::from_mm(tip_mm).ok(),
             root_radius: Length::from_mm(planned.root_mm).ok(),
+            overlap: self
+                .job
+                .overlap
+                .or(Length::from_mm(planned.overlap_mm).ok()),
             goal: Stance::None,
             ..self.job.clone()
         };
@@ -117,7 +115,7 @@ impl Studio<'_> {
             curve: curve.clone(),
             file: None,
         };
-        Ok(LimbOrder { job, loaded })
+        LimbOrder { job, loaded }
     }
 }
 

@@ -12,6 +12,8 @@ const TIP_SHARE: f64 = 0.85;
 const STAGE_RATIO: f64 = 1.6;
 /// The most shells of a limb if nothing else is said: with more there are too many parts to glue.
 const MOST_AUTO: usize = 5;
+/// Share of a stage that stays inside, so that it does not wobble.
+const OVERLAP_SHARE: f64 = 0.3;
 /// Room for walls that grow by misfit, mm.
 const MISFIT_MM: f64 = 0.5;
 /// Places of a root that are tried, from all in to flush, and again as many outwards.
@@ -34,6 +36,8 @@ pub struct Planned {
     pub from_mm: f64,
     /// The most that the root's body radius may be, mm.
     pub root_mm: f64,
+    /// What stays inside of a shell that is all out, mm.
+    pub overlap_mm: f64,
 }
 
 /// The measures by which limbs are planned.
@@ -179,6 +183,7 @@ impl Place<'_> {
             shells: self.shells,
             from_mm,
             root_mm,
+            overlap_mm: self.overlap_mm(from_mm),
         };
         Some((planned, tube))
     }
@@ -193,10 +198,20 @@ impl Place<'_> {
         inwards.chain(outwards).collect()
     }
 
+    /// Returns the visible length of every shell.
+    fn visible_mm(&self, from_mm: f64) -> f64 {
+        (self.chain.end_mm - from_mm) / self.shells as f64
+    }
+
+    fn overlap_mm(&self, from_mm: f64) -> f64 {
+        let least_mm = self.measures.least.overlap_mm();
+        least_mm.max(OVERLAP_SHARE * self.visible_mm(from_mm))
+    }
+
     /// Returns the root from tail to mouth.
     fn tube(&self, from_mm: f64, root_mm: f64) -> Tube {
-        let half_mm = 0.5 * self.measures.least.overlap_mm();
-        let visible_mm = (self.chain.end_mm - from_mm) / self.shells as f64;
+        let half_mm = 0.5 * self.overlap_mm(from_mm);
+        let visible_mm = self.visible_mm(from_mm);
         let span = visible_mm + 2.0 * half_mm;
         let place = |i: usize| {
             at(
