@@ -41,9 +41,9 @@
 //! place stays solid, and the search begins again without it.
 //!
 //! The limbs open one after the other. Shells of one limb are proved free as above. Every body that
-//! a move carries is held against every other, in states so near that no point goes farther than
-//! the gap that all keep. So no collision lies between them. The first sequence that is free is
-//! taken, from the root on. A root and what comes out of it need no look behind its mouth.
+//! a move carries is held against every other one. Two states are so near that no point goes
+//! farther than the gap that all pairs keep. So no collision lies between them. The first sequence
+//! that is free is taken, from the root on. What is behind a root's mouth needs no look.
 //!
 //! # 7. Limits
 //! Three theorems refuse curves ([`crate::telescope::Limit`]). Walls may not fit into the root,

@@ -30,17 +30,19 @@ impl Telescope {
         let [tail_mm, mouth_mm] = self.ends_mm();
         let radius = self.shells[0].body_mm + sizes.glue_mm;
         let start = Frame::identity();
-        let bottom_mm = tail_mm - sizes.glue_mm;
-        let round = Profile::new([[bottom_mm, radius], [mouth_mm, radius]]);
-        let round =
-            body(sweep_profile(&start, helix, &round))?.subtract(&self.flat(sizes.glue_mm)?)?;
+        let round = Profile::new([[tail_mm, radius], [mouth_mm, radius]]);
+        let tail = helix.frame_at(tail_mm);
+        // The bottom is parallel to the cap's, however the root bends.
+        let bottom = Profile::new([[-sizes.glue_mm, radius], [JOINED_MM, radius]]);
+        let bottom = body(sweep_profile(&tail, &Helix::LINE, &bottom))?;
+        let round = body(sweep_profile(&start, helix, &round))?.union(&bottom)?;
+        let round = round.subtract(&self.flat(sizes.glue_mm)?)?;
         let depth = GROOVE_VENTS * sizes.vent_mm;
         let mouth = helix.frame_at(mouth_mm);
         let wide = radius + depth;
         let ahead = Profile::new([[-JOINED_MM, radius], [0.0, wide], [clear_mm, wide]]);
         let ahead = body(sweep_profile(&mouth, &Helix::LINE, &ahead))?;
         let inner = (self.shells[0].body_mm - 2.0 * sizes.wall_mm).max(sizes.vent_mm);
-        let tail = helix.frame_at(tail_mm);
         let recess = Profile::new([[-RECESS_MM, inner], [JOINED_MM, inner]]);
         let recess = body(sweep_profile(&tail, &Helix::LINE, &recess))?;
         let half_rad = 0.5 * sizes.vent_mm / radius;
@@ -62,7 +64,12 @@ impl Telescope {
         let tail = self.shells[0].helix.frame_at(self.ends_mm()[0]);
         let (far, deep) = (radius + BEYOND_MM, radius - self.sizes.wall_mm + wider_mm);
         let low = Point::new(-BEYOND_MM, -far, -far);
-        let high = Point::new(self.sizes.flange_mm - wider_mm, -deep, far);
+        // The cap is cut through, so that no faces coincide; in the socket the root needs room.
+        let top = match wider_mm > 0.0 {
+            true => self.sizes.flange_mm - wider_mm,
+            false => self.sizes.flange_mm + BEYOND_MM,
+        };
+        let high = Point::new(top, -deep, far);
         let block = cuboid(&low, &high);
         Csg::of_mesh(&block.map_vertices(|p| tail.to_model(p)))
     }

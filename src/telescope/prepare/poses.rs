@@ -25,7 +25,7 @@ impl Lies {
             Self::OnMouth => "mouth down",
             Self::OnTail => "tail down",
             Self::Leaning => "leaning by half of its bend, support outside only",
-            Self::Round => "peg up, support below and in its sockets",
+            Self::Round => "on its round side, support below and in its sockets",
         }
     }
 }

@@ -10,7 +10,7 @@ use super::bodies::{body, last};
 use super::tree::Tree;
 use crate::base::verdict::Verdict;
 use crate::base::watch::{Phase, Watch};
-use crate::geom::Vector;
+use crate::geom::{Vector, orthonormal_basis};
 use crate::job::telescope::{JunctureKind, TelescopeJob};
 use crate::mesh::{ClipError, Solid, TriMesh};
 use crate::verify::Pose;
@@ -73,7 +73,7 @@ impl Workshop<'_> {
             watch: self.watch,
         };
         let written = solids.into_par_iter().enumerate().map(|(index, solid)| {
-            let laid: Laid = lay_juncture(solid.mesh(), &self.down(tree, index));
+            let laid = self.lay(solid.mesh(), &self.down(tree, index));
             let id = format!("N{:02}", index + 1);
             let name = format!("{}_{id}", self.job.name());
             let file = printing.write(&name, &laid, &solid)?;
@@ -87,6 +87,22 @@ impl Workshop<'_> {
             })
         });
         written.collect()
+    }
+
+    /// Lays a juncture with this direction down, or with another if it fits into the printer so.
+    fn lay(&self, mesh: &TriMesh, down: &Vector) -> Laid {
+        let (u, v) = orthonormal_basis(down);
+        let fits = |laid: &Laid| {
+            let printed = mesh.map_vertices(|p| laid.pose.to_print(p));
+            self.shop.printer.fits(printed.aabb().size().into()) != Some(false)
+        };
+        let others = [-down, u, -u, v, -v];
+        let usual = lay_juncture(mesh, down);
+        if fits(&usual) {
+            return usual;
+        }
+        let mut laid = others.iter().map(|down| lay_juncture(mesh, down));
+        laid.find(fits).unwrap_or(usual)
     }
 
     /// Returns the direction that points down in print: away from the peg, or the model's down.

@@ -171,6 +171,7 @@ fn search<'a>(studio: &'a Studio<'a>, loaded: &LoadedSkeleton) -> Search<'a> {
         sizes,
         kept: kept.collect(),
         skeleton,
+        ends: Vec::new(),
         known: Vec::new(),
     }
 }

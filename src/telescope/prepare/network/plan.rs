@@ -36,6 +36,8 @@ pub struct Planned {
     pub from_mm: f64,
     /// The most that the root's body radius may be, mm.
     pub root_mm: f64,
+    /// Arc length along the limb at which it ends, mm.
+    pub end_mm: f64,
     /// What stays inside of a shell that is all out, mm.
     pub overlap_mm: f64,
 }
@@ -183,6 +185,7 @@ impl Place<'_> {
             shells: self.shells,
             from_mm,
             root_mm,
+            end_mm: self.chain.end_mm,
             overlap_mm: self.overlap_mm(from_mm),
         };
         Some((planned, tube))

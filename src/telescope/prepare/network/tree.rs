@@ -11,6 +11,9 @@ use crate::telescope::network::{Limb, Network};
 
 /// Walls that are left between two roots in one juncture at least.
 const APART_WALLS: f64 = 0.5;
+/// Share to which a limb is shortened if nothing follows it, and how often.
+const SHORTENED: f64 = 0.8;
+const MOST_SHORTENED: usize = 3;
 /// Points of a root's axis that are looked at.
 const STATIONS: usize = 24;
 
@@ -47,6 +50,8 @@ pub struct Search<'a> {
     pub skeleton: Skeleton,
     /// What was found to stay solid.
     pub kept: Vec<Kept>,
+    /// Limbs that end earlier than their skeleton, each by its nodes and where it ends, mm.
+    pub ends: Vec<(Vec<usize>, f64)>,
     /// Limbs that were designed before, with how they were planned.
     pub known: Vec<(Planned, Designed)>,
 }
@@ -63,10 +68,18 @@ impl Search<'_> {
         self.studio.watch.enter(Phase::Solve);
         loop {
             self.studio.watch.check()?;
-            let limbs = match Limbs::of(&self.skeleton, &self.sizes) {
+            let mut limbs = match Limbs::of(&self.skeleton, &self.sizes) {
                 Ok(limbs) => limbs,
                 Err(rings) => return Ok(Err(rings)),
             };
+            for chain in &mut limbs.chains {
+                let own = self
+                    .ends
+                    .iter()
+                    .rev()
+                    .find(|(nodes, _)| *nodes == chain.nodes);
+                chain.end_mm = own.map_or(chain.end_mm, |(_, end_mm)| *end_mm);
+            }
             if limbs.chains.is_empty() {
                 return Ok(Ok(None));
             }
@@ -109,7 +122,9 @@ impl Search<'_> {
             match self.studio.design(chain, planned)? {
                 Verdict::Found(designed) => self.known.push((planned.clone(), designed)),
                 Verdict::No(why) => {
-                    self.keep(&chain.nodes, why);
+                    if !self.shorten(chain) {
+                        self.keep(&chain.nodes, why);
+                    }
                     return Ok(false);
                 }
             }
@@ -119,6 +134,22 @@ impl Search<'_> {
             return Ok(false);
         }
         Ok(true)
+    }
+
+    /// Lets a limb end earlier; what bends at its end, as a foot does, stays solid. It is false if
+    /// it would be too short.
+    fn shorten(&mut self, chain: &Chain) -> bool {
+        let times = self
+            .ends
+            .iter()
+            .filter(|(nodes, _)| *nodes == chain.nodes)
+            .count();
+        let is_long = times < MOST_SHORTENED;
+        if is_long {
+            let end_mm = chain.start_mm + SHORTENED * chain.free_mm();
+            self.ends.push((chain.nodes.clone(), end_mm));
+        }
+        is_long
     }
 
     fn designed(&self, planned: &Planned) -> Option<&Designed> {
