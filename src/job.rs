@@ -15,6 +15,7 @@ mod reading;
 mod sliced;
 mod slicer;
 pub mod telescope;
+mod telescope_root;
 
 use std::path::{Path, PathBuf};
 

@@ -1,5 +1,5 @@
-//! Curves become kits of telescopes, which two judges find right; what cannot be is told with its
-//! figures, and bad input leaves nothing behind.
+//! Curves and skeletons become kits of telescopes, which two judges find right. What cannot be is
+//! told with its figures, and bad input leaves nothing behind.
 
 #![allow(
     clippy::unwrap_used,
@@ -169,14 +169,13 @@ fn refuse(name: &str, bytes: &[u8], options: &str) -> String {
 
 #[test]
 fn curves_that_are_none_are_refused_with_their_place() {
-    let cases: [(&str, &[u8], &str); 7] = [
+    let cases: [(&str, &[u8], &str); 6] = [
         ("two.csv", b"0,0,0\n1,0,0\n", "2 points"),
         ("nan.csv", b"0,0,0\n1,nan,0\n2,0,0\n", "line 2"),
         ("same.csv", b"0,0,0\n9,0,0\n9,0,0\n20,1,0\n", "points 2 and 3"),
-        ("y.obj", b"v 0 0 0\nv 50 0 0\nv 0 50 0\nv 0 0 50\nl 1 2\nl 1 3\nl 1 4\n", "3 lines meet"),
         ("o.obj", b"v 0 0 0\nv 50 0 0\nv 0 50 0\nl 1 2 3 1\n", "closed"),
         ("two.obj", b"v 0 0 0\nv 50 0 0\nv 0 50 0\nv 9 9 9\nl 1 2\nl 3 4\n", "2 curves"),
-        ("m.stl", b"solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid x\n", "model with faces"),
+        ("m.stl", b"solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid x\n", "is not a solid"),
     ];
     for (name, bytes, expected) in cases {
         let said = refuse(name, bytes, "");
@@ -214,4 +213,153 @@ fn a_name_that_is_no_curve_says_how_one_is_written() {
         let said = printed(&output);
         assert!(said.contains(expected), "{source}: {said}");
     }
+}
+
+/// The shipped skeleton of a trunk with two arms.
+const FIGURE: &str = concat!(
+    env!("CARGO_MANIFEST_DIR"),
+    "/examples/models/figure-skeleton.toml"
+);
+
+#[test]
+fn a_skeleton_becomes_limbs_on_junctures_that_both_judges_pass_and_none_that_can_be_turned() {
+    let folder = tempfile::tempdir().unwrap();
+    let kit = folder.path().join("kit");
+    let order = ["telescope", FIGURE, "--printer", "formlabs-form4"];
+    let output = equipoise(&[&order[..], &["--shells", "3", "--out", path(&kit)]].concat());
+    assert_exit(&output, 0);
+    let sheet = checklist(&kit);
+    assert_eq!(sheet["kind"], "network");
+    // A trunk and two arms; the foot, the cross and two tips.
+    assert_eq!(list(&sheet, "limbs").len(), 3);
+    assert_eq!(list(&sheet, "junctures").len(), 4);
+    let [closed, open] =
+        ["collapsed_mm", "extended_mm"].map(|key| number(&sheet, &format!("/{key}/0")));
+    assert!(closed < 0.8 * open, "{closed} of {open}");
+    for file in [
+        "skeleton.toml",
+        "curves/A.csv",
+        "pictures/names.svg",
+        "collapsed.3mf",
+    ] {
+        assert!(kit.join(file).is_file(), "{file}");
+    }
+    let (code, said) = verify(&kit);
+    assert_eq!(code, Some(0), "{said}");
+    judge_in_python(&kit);
+    replay(folder.path(), &kit);
+    move_a_juncture(&kit);
+}
+
+/// Moves the cross-piece aside in its pose: the judge must find that it does not fit.
+fn move_a_juncture(kit: &Path) {
+    let file = kit.join("checklist.json");
+    let mut sheet: serde_json::Value = serde_json::from_slice(&fs::read(&file).unwrap()).unwrap();
+    let pose = sheet["junctures"][1]["print_from_model"]
+        .as_array_mut()
+        .unwrap();
+    // Half a millimetre aside in print.
+    let row = pose[0].as_array_mut().unwrap();
+    let aside = row[3].as_f64().unwrap() + 0.5;
+    row[3] = aside.into();
+    fs::write(&file, serde_json::to_string(&sheet).unwrap()).unwrap();
+    let (code, said) = verify(kit);
+    assert_eq!(code, Some(1), "{said}");
+    assert!(said.contains("room for glue"), "{said}");
+}
+
+#[test]
+fn lines_that_branch_become_limbs_of_the_radius_that_is_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let lines = folder.path().join("y.obj");
+    let text = "v 0 0 0\nv 0 0 70\nv 60 0 110\nv -60 0 110\nl 1 2\nl 2 3\nl 2 4\n";
+    fs::write(&lines, text).unwrap();
+    let kit = folder.path().join("kit");
+    let order = ["telescope", path(&lines), "--printer", "formlabs-form4"];
+    let more = words("--root-radius 9mm --shells 2 --junctures hull");
+    let output = equipoise(&[&order[..], &more, &["--out", path(&kit)]].concat());
+    assert_exit(&output, 0);
+    let sheet = checklist(&kit);
+    assert_eq!(list(&sheet, "limbs").len(), 3);
+    for limb in list(&sheet, "limbs") {
+        assert!(limb["sheet"]["shells"][0]["body_mm"].as_f64().unwrap() <= 9.0);
+    }
+    let (code, said) = verify(&kit);
+    assert_eq!(code, Some(0), "{said}");
+}
+
+#[test]
+fn a_model_with_rings_cannot_open_and_is_told_the_line_that_cuts_them() {
+    let Some(model) = common::shared_model("fertility.stl") else {
+        return;
+    };
+    let order = [
+        "telescope",
+        path(&model),
+        "--size",
+        "200mm",
+        "--printer",
+        "prusa-mk4",
+    ];
+    let output = equipoise(&order);
+    assert_exit(&output, 1);
+    let said = printed(&output);
+    assert!(
+        said.contains("4 rings") && said.contains("open = [["),
+        "{said}"
+    );
+}
+
+/// Models of others, on printers of the corpus.
+const FIGURES: [(&str, &str); 4] = [
+    ("armadillo.obj", "formlabs-form4"),
+    ("armadillo.obj", "prusa-mk4"),
+    ("elephant.obj", "prusa-mk4"),
+    ("homer.obj", "prusa-mk4"),
+];
+
+#[test]
+#[ignore = "takes minutes; run before a change of junctures"]
+fn figures_of_others_become_kits_that_verify_passes() {
+    for (model, printer) in FIGURES {
+        let Some(model) = common::shared_model(model) else {
+            continue;
+        };
+        let folder = tempfile::tempdir().unwrap();
+        let kit = folder.path().join("kit");
+        let order = [
+            "telescope",
+            path(&model),
+            "--size",
+            "300mm",
+            "--printer",
+            printer,
+        ];
+        let output = equipoise(&[&order[..], &["--out", path(&kit)]].concat());
+        assert_exit(&output, 0);
+        assert!(list(&checklist(&kit), "limbs").len() >= 4);
+        let (code, said) = verify(&kit);
+        assert_eq!(code, Some(0), "{said}");
+    }
+}
+
+#[test]
+fn skeletons_that_cannot_be_used_are_refused_with_place_and_remedy() {
+    let plain = fs::read_to_string(FIGURE).unwrap();
+    for (from, to, expected) in [
+        (
+            "kind = \"skeleton\"",
+            "kind = \"telescope\"",
+            "of kind \"telescope\"",
+        ),
+        ("root = 1", "root = 99", "no node 99"),
+        ("[5, 6, 7, 8]", "[5, 6, 7, 98]", "no node 98"),
+    ] {
+        let said = refuse("s.toml", plain.replace(from, to).as_bytes(), "");
+        assert!(said.contains(expected), "{to}: {said}");
+    }
+    let said = refuse("s.toml", plain.as_bytes(), "--root 77");
+    assert!(said.contains("no node 77"), "{said}");
+    let said = refuse("s.toml", plain.as_bytes(), "--goal stand");
+    assert!(said.contains("--goal=stand"), "{said}");
 }

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 
-use super::args::{Root, SkeletonArgs};
+use super::args::SkeletonArgs;
 use super::exit::Exit;
 use super::new_files::{NewFileError, check_free, write_all};
 use super::show::table;
@@ -18,6 +18,7 @@ use crate::draw::PictureError;
 use crate::geom::Point;
 use crate::goal::find_upright;
 use crate::io::{ReadError, read_bytes, read_model};
+use crate::job::telescope::Root;
 use crate::mesh::{Defects, MeshFacts, Solid, scaled};
 use crate::repair::{NotOneBody, one_body, repair};
 use crate::skeleton::{Chain, Limbs, ShellSizes, Skeleton, SkeletonError};
@@ -54,16 +55,6 @@ pub enum SkeletonCommandError {
     /// The skeleton file cannot be used.
     #[error(transparent)]
     Text(#[from] TextFault),
-    /// The root that was ordered does not exist.
-    #[error(
-        "the skeleton has no node {node}; remedy: give one of 1 to {last}, or a place X,Y,Z in mm"
-    )]
-    NoNode {
-        /// The number that was ordered.
-        node: u32,
-        /// The last number there is.
-        last: u32,
-    },
     /// The picture cannot be drawn.
     #[error(transparent)]
     Picture(#[from] PictureError),
@@ -211,14 +202,7 @@ fn choose_root(skeleton: &mut Skeleton, root: Option<Root>) -> Result<(), Skelet
     match root {
         None => {}
         Some(Root::Near(place)) => skeleton.root = skeleton.nearest(&Point::from(place)),
-        Some(Root::Node(id)) => {
-            let node = skeleton.nodes.iter().position(|node| node.id == id);
-            let last = skeleton.nodes.iter().map(|node| node.id).max();
-            skeleton.root = node.ok_or(SkeletonCommandError::NoNode {
-                node: id,
-                last: last.unwrap_or_default(),
-            })?;
-        }
+        Some(Root::Node(id)) => skeleton.root_at(id)?,
     }
     Ok(())
 }

@@ -4,8 +4,10 @@ use std::path::Path;
 
 use super::wing::Wing;
 use crate::base::numbers::{measured, measured_extent};
+use crate::base::units::format_count;
 use crate::base::watch::Watch;
 use crate::job::telescope::TelescopeJob;
+use crate::sheet::network::{AnyTelescopeSheet, NetworkSheet};
 use crate::sheet::telescope::TelescopeSheet;
 use crate::telescope::{TelescopeRunError, Tried, prepare};
 use crate::verify::{JOB_FILE, find_model};
@@ -16,14 +18,14 @@ pub struct TelescopeWing;
 
 impl Wing for TelescopeWing {
     type Job = TelescopeJob;
-    type Sheet = TelescopeSheet;
+    type Sheet = AnyTelescopeSheet;
     type More = Tried;
     type Error = TelescopeRunError;
 
     fn prepare(
         job: &TelescopeJob,
         watch: &Watch,
-    ) -> Result<Outcome<TelescopeSheet, Tried>, TelescopeRunError> {
+    ) -> Result<Outcome<AnyTelescopeSheet, Tried>, TelescopeRunError> {
         prepare(job, watch)
     }
 
@@ -34,32 +36,74 @@ impl Wing for TelescopeWing {
         })
     }
 
-    fn lines(sheet: &TelescopeSheet) -> String {
-        let stands = sheet.least_angle_deg.map_or_else(String::new, |_| {
-            let foot = sheet.foot.as_ref().map_or(0.0, |foot| foot.radius_mm);
-            format!(
-                "stands     on a foot of {} in radius, until leaned by {}\n",
-                measured(foot, "mm"),
-                measured(sheet.worst_toppling_deg, "°")
-            )
-        });
-        format!(
-            "shells     {}, {} in all, for {}\n\
-             all in     {}\n\
-             all out    {}, {} along the curve\n\
-             deviation  {} at most, {} rms\n\
-             opens      {}, proved free of collisions\n{stands}\
-             tip        plays by {}\n",
-            sheet.shells.len(),
-            measured(sheet.mass_g, "g"),
-            sheet.printer.name,
-            measured_extent(&sheet.collapsed_mm),
-            measured_extent(&sheet.extended_mm),
-            measured(sheet.curve.length_mm, "mm"),
-            measured(sheet.deviation.max_mm, "mm"),
-            measured(sheet.deviation.rms_mm, "mm"),
-            sheet.order_words,
-            measured(sheet.tip_play_mm, "mm"),
-        )
+    fn lines(sheet: &AnyTelescopeSheet) -> String {
+        match sheet {
+            AnyTelescopeSheet::Curve(sheet) => lines(sheet),
+            AnyTelescopeSheet::Network(sheet) => network_lines(sheet),
+        }
     }
+}
+
+/// Returns what came of a curve.
+fn lines(sheet: &TelescopeSheet) -> String {
+    let stands = sheet.least_angle_deg.map_or_else(String::new, |_| {
+        let foot = sheet.foot.as_ref().map_or(0.0, |foot| foot.radius_mm);
+        format!(
+            "stands     on a foot of {} in radius, until leaned by {}\n",
+            measured(foot, "mm"),
+            measured(sheet.worst_toppling_deg, "°")
+        )
+    });
+    format!(
+        "shells     {}, {} in all, for {}\n\
+         all in     {}\n\
+         all out    {}, {} along the curve\n\
+         deviation  {} at most, {} rms\n\
+         opens      {}, proved free of collisions\n{stands}\
+         tip        plays by {}\n",
+        sheet.shells.len(),
+        measured(sheet.mass_g, "g"),
+        sheet.printer.name,
+        measured_extent(&sheet.collapsed_mm),
+        measured_extent(&sheet.extended_mm),
+        measured(sheet.curve.length_mm, "mm"),
+        measured(sheet.deviation.max_mm, "mm"),
+        measured(sheet.deviation.rms_mm, "mm"),
+        sheet.order_words,
+        measured(sheet.tip_play_mm, "mm"),
+    )
+}
+
+/// Returns what came of a skeleton.
+fn network_lines(sheet: &NetworkSheet) -> String {
+    let limbs = sheet.limbs.iter().map(|limb| {
+        let own = &limb.sheet;
+        format!(
+            "limb {:<6}{}, from N{:02} to N{:02}, {} long, {} off at most\n",
+            limb.id,
+            format_count(own.shells.len(), "shell"),
+            limb.from,
+            limb.to,
+            measured(own.curve.length_mm, "mm"),
+            measured(own.deviation.max_mm, "mm")
+        )
+    });
+    let solid = sheet
+        .solid
+        .iter()
+        .map(|words| format!("solid      {words}\n"));
+    format!(
+        "limbs      {}, {} in all, for {}\n{}{}\
+         all in     {}\n\
+         all out    {}\n\
+         opens      limb {}\n",
+        sheet.limbs.len(),
+        measured(sheet.mass_g, "g"),
+        sheet.printer.name,
+        limbs.collect::<String>(),
+        solid.collect::<String>(),
+        measured_extent(&sheet.collapsed_mm),
+        measured_extent(&sheet.extended_mm),
+        sheet.order.join(", then "),
+    )
 }

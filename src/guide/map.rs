@@ -48,6 +48,8 @@
 //! | Who says that a telescope's kit is right? | `judge_telescope` in `verify/telescope/facts.rs`, with its own screws in `verify/telescope/motion.rs` |
 //! | How does a tube slide along its own axis? | `Helix` in `curve/helix.rs`: frames along a helix compose, so it slides in itself |
 //! | Where does a limb of a model begin and end, and how thick is it? | `Skeleton::of` in `skeleton/tree.rs`, by the contraction of `skeleton/flow.rs` and the pruning of `skeleton/tidy.rs` |
+//! | How is a limb held by its juncture? | `Telescope::socket` and `Telescope::peg` in `telescope/mount.rs`, bodies in `telescope/prepare/network/bodies.rs` |
+//! | In which order do the limbs of a figure open? | `Bodies::sequence` in `telescope/prepare/network/sweep.rs` |
 //! | Which limbs become telescopes, and which stay solid? | `mark_solid` in `skeleton/solid.rs` and `Limbs` in `skeleton/limbs.rs` |
 //! | What does a print lay down, and where? | `read_gcode` in `io/gcode/open.rs` unpacks, `Machine` in `io/gcode/machine.rs` follows the nozzle, `Bead` in `mass/bead.rs` is weighed |
 //! | Which part of a large object is its base? | `grow_polyhedron` in `polyhedra/inscribe.rs`; `Growth` in `polyhedra/growth.rs` moves the faces, `drop_cheapest` in `polyhedra/dropping.rs` leaves few |

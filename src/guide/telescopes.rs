@@ -31,7 +31,21 @@
 //! stands at every state. All play is taken up: every joint tilts by 2 g/o of its seat, the same
 //! way, and moves the centre by the sum.
 //!
-//! # 6. Limits
+//! # 6. Figures
+//! A figure is a tree of junctures and limbs ([`crate::telescope::Network`]). Each limb is a
+//! telescope of its own, and everything above holds for it. Its root is glued into a socket: a flat
+//! on its cap and in the socket keeps it one way. A groove beside it lets the air of the vent out.
+//! The last mouth holds the next juncture by a peg, whose slot fits a key in the bore. Roots begin
+//! as deep in their juncture as its balls and the other roots leave room. If none is left they are
+//! pushed outwards along their limbs, up to 40 %, and a collar holds them. A limb without such a
+//! place stays solid, and the search begins again without it.
+//!
+//! The limbs open one after the other. Shells of one limb are proved free as above. Every body that
+//! a move carries is held against every other one. Two states are so near that no point goes
+//! farther than the gap that all pairs keep. So no collision lies between them. The first sequence
+//! that is free is taken, from the root on. What is behind a root's mouth needs no look.
+//!
+//! # 7. Limits
 //! Three theorems refuse curves ([`crate::telescope::Limit`]). Walls may not fit into the root,
 //! strands may be nearer than the tubes are thick, arcs too long for the ball that holds them. A
 //! poor deviation alone is no proof, and is told as the best that was found.

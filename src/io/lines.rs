@@ -46,8 +46,8 @@ pub enum LinesError {
     },
     /// More than two lines meet.
     #[error(
-        "{lines} lines meet in point {point}: that is a skeleton, and curves are read so far; \
-         remedy: leave one path from end to end"
+        "{lines} lines meet in point {point}: that is a skeleton, no curve; remedy: leave one path \
+         from end to end"
     )]
     Branch {
         /// The point.
@@ -66,24 +66,48 @@ pub enum LinesError {
     },
     /// A model in place of a curve.
     #[error(
-        "it is a model with faces, and telescopes are made of curves so far; remedy: give a curve \
-         (text, OBJ lines, PLY edges, arc:R,DEG or helix:R,PITCH,TURNS)"
+        "it is a model with faces, no curve; remedy: give a curve (text, OBJ lines, PLY edges, \
+         arc:R,DEG or helix:R,PITCH,TURNS)"
     )]
     Model,
+}
+
+/// Points, and the links between two of them each.
+pub type Lines = (Vec<Point>, Vec<[usize; 2]>);
+
+/// Reads the lines of an OBJ file or the edges of a PLY file, whether they branch or not.
+///
+/// # Errors
+/// The file holds no lines.
+pub fn decode_lines(bytes: &[u8]) -> Result<Lines, LinesError> {
+    let graph = decode_graph(bytes)?;
+    let graph = graph.ok_or(LinesError::NoLines { points: 0 })?;
+    let links = graph.meets.iter().enumerate();
+    let links = links.flat_map(|(a, ends)| ends.iter().map(move |b| [a, *b]));
+    let links = links.filter(|[a, b]| a < b).collect();
+    Ok((graph.points, links))
 }
 
 /// Reads the points of a curve in their order, in the units of the file. The content decides the
 /// format.
 pub fn decode_curve(bytes: &[u8]) -> Result<Vec<Point>, LinesError> {
+    match decode_graph(bytes)? {
+        Some(graph) => graph.path(),
+        None => Ok(decode_points(bytes)?),
+    }
+}
+
+/// Reads the lines of a file; `None` if it is text with points alone.
+fn decode_graph(bytes: &[u8]) -> Result<Option<Graph>, LinesError> {
     match (sniff(bytes), std::str::from_utf8(bytes)) {
         (Format::Ply, _) => {
             let read = decode_edges(bytes).map_err(|error| LinesError::Ply(Box::new(error)))?;
-            Graph::new(read.0, read.1)?.path()
+            Ok(Some(Graph::new(read.0, read.1)?))
         }
-        (Format::Obj, Ok(text)) => read_obj(text)?.path(),
+        (Format::Obj, Ok(text)) => Ok(Some(read_obj(text)?)),
         (Format::ThreeMf, _) => Err(LinesError::Model),
         (Format::Stl, _) if is_binary_stl(bytes) || is_ascii_stl(bytes) => Err(LinesError::Model),
-        _ => Ok(decode_points(bytes)?),
+        _ => Ok(None),
     }
 }
 

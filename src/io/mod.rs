@@ -32,7 +32,7 @@ mod volume;
 pub use cut_svg::encode_cut_svg;
 pub use drawing::{CutDrawing, CutLayer, DrawnLine, DrawnShape, Rgb};
 pub use dxf::encode_dxf;
-pub use lines::{LinesError, decode_curve};
+pub use lines::{Lines, LinesError, decode_curve, decode_lines};
 pub use obj::ObjError;
 pub use ply::PlyError;
 pub use points::{PointsError, decode_points};

@@ -6,6 +6,7 @@ use std::str::FromStr;
 
 use serde::{Deserialize, Deserializer, Serialize, de::Error as _};
 
+pub use super::telescope_root::{Root, RootError};
 use super::{JobError, PrinterChoice, Scaling};
 use crate::base::toml_text::{self, TextFault};
 use crate::base::units::Length;
@@ -85,6 +86,16 @@ choice! {
     }
 }
 
+choice! {
+    /// The bodies in which the limbs of a skeleton meet.
+    JunctureKind, "kind of juncture" {
+        /// Balls, and rounded links where branches stay solid.
+        Ball = "ball",
+        /// The convex hull of the ends that meet.
+        Hull = "hull",
+    }
+}
+
 /// The number of shells.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(try_from = "String", into = "String")]
@@ -145,6 +156,15 @@ pub struct TelescopeJob {
     pub least_angle_deg: f64,
     /// The radius of its foot if it stands.
     pub foot: FootSize,
+    /// The bodies of junctures; balls if `None`. A curve has none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub junctures: Option<JunctureKind>,
+    /// The radius below which a limb stays solid; the least that can be made if `None`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub keep_solid: Option<Length>,
+    /// The root of the skeleton; its own if `None`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub root: Option<Root>,
     /// The curve.
     pub curve: CurveChoice,
     /// The printer and its material.
@@ -188,6 +208,9 @@ impl TelescopeJob {
             goal: Stance::None,
             least_angle_deg: USUAL_LEAST_ANGLE_DEG,
             foot: FootSize::Auto,
+            junctures: None,
+            keep_solid: None,
+            root: None,
             curve: CurveChoice {
                 source: source.to_owned(),
                 sha256: None,

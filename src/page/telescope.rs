@@ -10,14 +10,14 @@ use super::running::{code, on_screen, style};
 use super::words;
 use crate::base::numbers::{measured, measured_extent, number};
 use crate::base::units::format_count;
-use crate::sheet::Verdict;
-use crate::sheet::telescope::{JointRow, TelescopeSheet};
+use crate::sheet::telescope::{JointRow, TelescopePrinter, TelescopeSheet};
+use crate::sheet::{KindSheet, Verdict};
 
 /// The turn below which a joint does not turn, degrees: it is not seen.
 const WHOLE_TURN_DEG: f64 = 0.5;
 
 /// The names of the steps in their order.
-const STEPS: [&str; 6] = ["Print", "Clean", "Dry fit", "Assemble", "Open", "Test"];
+pub(super) const STEPS: [&str; 6] = ["Print", "Clean", "Dry fit", "Assemble", "Open", "Test"];
 
 /// Everything the pages of a telescope show.
 #[derive(Debug, Clone, Copy)]
@@ -106,12 +106,12 @@ pub(super) fn promise(sheet: &TelescopeSheet) -> String {
     )
 }
 
-fn verdict(sheet: &TelescopeSheet) -> Markup {
-    let (class, word) = match sheet.verdict {
+pub(super) fn verdict(sheet: &impl KindSheet) -> Markup {
+    let (class, word) = match sheet.verdict() {
         Verdict::Pass => ("verdict pass", "✓ all promises kept"),
         Verdict::Fail => ("verdict fail", "✗ do not print: see certificate"),
     };
-    let broken = sheet.checks.iter().filter(|check| !check.pass);
+    let broken = sheet.checks().iter().filter(|check| !check.pass);
     html! {
         p class=(class) { (word) }
         @for check in broken { p class="fail" { (words::broken(check)) } }
@@ -172,7 +172,7 @@ fn print(page: &TelescopePage) -> Markup {
     }
 }
 
-fn clean(_page: &TelescopePage) -> Markup {
+pub(super) fn clean(_page: &TelescopePage) -> Markup {
     html! {
         ul class="ticks" {
             li { "Take off all support. Nothing may be left in a bore, on a flange, or in the gap of a flange." }
@@ -182,7 +182,7 @@ fn clean(_page: &TelescopePage) -> Markup {
     }
 }
 
-fn dry_fit(page: &TelescopePage) -> Markup {
+pub(super) fn dry_fit(page: &TelescopePage) -> Markup {
     let sheet = page.sheet;
     html! {
         ul class="ticks" {
@@ -204,32 +204,45 @@ fn dry_fit(page: &TelescopePage) -> Markup {
     }
 }
 
-fn assemble(page: &TelescopePage) -> Markup {
+pub(super) fn assemble(page: &TelescopePage) -> Markup {
     let sheet = page.sheet;
     let count = sheet.shells.len();
-    let glue = sheet
-        .printer
-        .glue
-        .as_deref()
-        .unwrap_or("a glue for this material");
     html! {
         p { "From the inside out. A cap goes in only after everything that lies in its shell." }
         ul class="ticks" {
             @for shell in (1..=count).rev() {
                 li {
-                    @if shell < count { "Put the pack of S" (format!("{:02}", shell + 1)) " into S" (format!("{shell:02}")) " from behind, mouth first. " }
-                    "Glue C" (format!("{shell:02}")) " into S" (format!("{shell:02}")) ": glue on the spigot alone, none on the flange, slot on the rib."
-                    @if shell == 1 && sheet.foot.is_some() { " C01 is the foot." }
+                    @if shell < count { "Put the pack of " (sheet.shells[shell].id) " into " (sheet.shells[shell - 1].id) " from behind, mouth first. " }
+                    "Glue " (cap_id(sheet, shell)) " into " (sheet.shells[shell - 1].id) ": glue on the spigot alone, none on the flange, slot on the rib."
+                    @if shell == 1 && sheet.foot.is_some() { " " (cap_id(sheet, 1)) " is the foot." }
                 }
             }
         }
+        (glue(&sheet.printer))
+        (figures(page.pictures, Role::Exploded))
+    }
+}
+
+/// Returns the id of the cap of a shell, from 1.
+fn cap_id(sheet: &TelescopeSheet, shell: usize) -> &str {
+    let mut parts = sheet.parts.iter();
+    let own = parts.find(|part| part.shell == shell && !part.is_tube);
+    own.map_or("", |part| part.id.as_str())
+}
+
+/// Names the glue, and how it is used.
+pub(super) fn glue(printer: &TelescopePrinter) -> Markup {
+    let glue = printer
+        .glue
+        .as_deref()
+        .unwrap_or("a glue for this material");
+    html! {
         p {
             "Glue: " (glue) "."
-            @if let Some(hold) = sheet.printer.glue_hold_s { " Hold for " (measured(hold, "s")) "." }
-            @if let Some(cure) = sheet.printer.glue_cure_h { " Whole strength after " (number(cure)) "\u{a0}h." }
+            @if let Some(hold) = printer.glue_hold_s { " Hold for " (measured(hold, "s")) "." }
+            @if let Some(cure) = printer.glue_cure_h { " Whole strength after " (number(cure)) "\u{a0}h." }
         }
-        @if let Some(safety) = &sheet.printer.glue_safety { p class="warn" { strong { "Danger: " } (safety) } }
-        (figures(page.pictures, Role::Exploded))
+        @if let Some(safety) = &printer.glue_safety { p class="warn" { strong { "Danger: " } (safety) } }
     }
 }
 
@@ -255,7 +268,7 @@ fn open(page: &TelescopePage) -> Markup {
     }
 }
 
-fn joint_line(joint: &JointRow) -> Markup {
+pub(super) fn joint_line(joint: &JointRow) -> Markup {
     html! {
         tr {
             th scope="row" { (joint.id) ": " (joint.shells[1]) " out of " (joint.shells[0]) }
@@ -306,7 +319,7 @@ fn test(page: &TelescopePage) -> Markup {
     }
 }
 
-fn sign_off() -> Markup {
+pub(super) fn sign_off() -> Markup {
     html! {
         section class="together" {
             h2 id="sign-off" { "Sign-off" }

@@ -119,17 +119,21 @@ pub fn draw_telescope(view: &TelescopeView) -> Result<Vec<Picture>, PictureError
     drafts.par_iter().map(Draft::draw).collect()
 }
 
-/// Returns the direction to the viewer: from the side on which the open telescope is widest.
 fn viewer(view: &TelescopeView) -> Vector {
-    let frame = Frame::with_axis(Point::origin(), &view.up);
-    let open = view.extended.iter().map(|f| frame.to_local(&f.origin));
+    viewer_of(view.extended.iter().map(|frame| frame.origin), &view.up)
+}
+
+/// Returns the direction to the viewer: from the side on which these points are widest.
+pub(super) fn viewer_of(points: impl Iterator<Item = Point>, up: &Vector) -> Vector {
+    let frame = Frame::with_axis(Point::origin(), up);
+    let open = points.map(|p| frame.to_local(&p));
     let size = Aabb::of_points(&open.collect::<Vec<Point>>()).size();
     let side = if size.x < size.y {
         frame.axes.column(0).into_owned()
     } else {
         -frame.axes.column(1).into_owned()
     };
-    view_direction(&side, &view.up, TURN_AND_LIFT)
+    view_direction(&side, up, TURN_AND_LIFT)
 }
 
 fn place(view: &TelescopeView, frames: &[Frame]) -> Vec<TriMesh> {

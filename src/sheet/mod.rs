@@ -7,6 +7,7 @@ pub mod from_run;
 mod goal;
 mod joints;
 mod kind;
+pub mod network;
 mod parts;
 mod print_time;
 mod printer;

@@ -15,6 +15,25 @@ pub enum SkeletonError {
         /// The number of closed pieces.
         shells: usize,
     },
+    /// Lines that are not one tree or net with an end.
+    #[error(
+        "the lines are {pieces} pieces, or closed without an end; remedy: join them to one piece \
+         that branches or ends somewhere"
+    )]
+    NotOneLine {
+        /// The number of pieces.
+        pieces: usize,
+    },
+    /// The root that was ordered does not exist.
+    #[error(
+        "the skeleton has no node {node}; remedy: give one of 1 to {last}, or a place X,Y,Z in mm"
+    )]
+    NoNode {
+        /// The number that was ordered.
+        node: u32,
+        /// The last number there is.
+        last: u32,
+    },
     /// The caller stopped it.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),

@@ -43,11 +43,18 @@ const MOST_MM: f64 = 1e6;
 /// Numbers of a branch on one line of the file.
 const NUMBERS_A_LINE: usize = 16;
 
+/// What tells the kind of a file.
+#[derive(Deserialize)]
+struct Head {
+    kind: Spanned<String>,
+}
+
 /// The file as it stands.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Text {
-    kind: Spanned<String>,
+    #[serde(rename = "kind")]
+    _kind: String,
     schema: Spanned<u32>,
     root: Spanned<u32>,
     #[serde(default)]
@@ -147,6 +154,7 @@ impl Skeleton {
     /// The text is no such file, or what it says is no skeleton: one piece of nodes and branches
     /// that meet at their ends only. Rings are allowed; [`Skeleton::rings`] finds them.
     pub fn from_toml(file: &str, text: &str) -> Result<Self, TextFault> {
+        check_head(file, text)?;
         let read: Text = toml_text::read(file, text)?;
         parse(&read).map_err(|fault| TextFault {
             place: Place::of_byte(file, text, fault.span.start),
@@ -194,12 +202,23 @@ fn parse(text: &Text) -> Result<Skeleton, Fault> {
     Ok(skeleton)
 }
 
-fn check_kind(text: &Text) -> Result<(), Fault> {
-    let (kind, schema) = (text.kind.get_ref(), *text.schema.get_ref());
-    if kind != KIND {
-        let message = format!("this is a file of kind \"{kind}\"; remedy: give a skeleton");
-        return Err(Fault::at(&text.kind, message));
+/// Refuses a file of another kind by its kind, and not by the keys that it has.
+fn check_head(file: &str, text: &str) -> Result<(), TextFault> {
+    let Ok(Head { kind }) = toml::from_str(text) else {
+        return Ok(());
+    };
+    if kind.get_ref() == KIND {
+        return Ok(());
     }
+    let found = kind.get_ref();
+    Err(TextFault {
+        place: Place::of_byte(file, text, kind.span().start),
+        message: format!("this is a file of kind \"{found}\"; remedy: give a skeleton"),
+    })
+}
+
+fn check_kind(text: &Text) -> Result<(), Fault> {
+    let schema = *text.schema.get_ref();
     if schema != SCHEMA {
         let message = format!(
             "schema {schema} is unknown; remedy: write the skeleton again with this program, which \

@@ -22,6 +22,7 @@ mod file;
 mod flow;
 mod graph;
 mod limbs;
+mod lines;
 mod order;
 mod poles;
 mod remesh;

@@ -189,6 +189,34 @@ impl Skeleton {
             .sum()
     }
 
+    /// Makes the node of this number the root.
+    ///
+    /// # Errors
+    /// There is no such node.
+    pub fn root_at(&mut self, id: u32) -> Result<(), SkeletonError> {
+        let node = self.nodes.iter().position(|node| node.id == id);
+        let last = self.nodes.iter().map(|node| node.id).max();
+        self.root = node.ok_or(SkeletonError::NoNode {
+            node: id,
+            last: last.unwrap_or_default(),
+        })?;
+        Ok(())
+    }
+
+    /// Returns the skeleton made larger by a factor, about the model's origin.
+    #[must_use]
+    pub fn scaled(&self, factor: f64) -> Self {
+        let larger = |node: &Node| Node {
+            at: node.at * factor,
+            radius_mm: node.radius_mm * factor,
+            ..*node
+        };
+        Self {
+            nodes: self.nodes.iter().map(larger).collect(),
+            ..self.clone()
+        }
+    }
+
     /// Returns the index of the node nearest to a place.
     pub fn nearest(&self, at: &Point) -> usize {
         let distance = |node: &usize| (self.nodes[*node].at - at).norm();

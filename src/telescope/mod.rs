@@ -11,6 +11,8 @@
 //! [`Telescope::shell_solid`] and [`Telescope::cap_solid`] make its parts.
 //! [`Telescope::find_opening`] opens it without a collision.
 //!
+//! [`Network`] joins telescopes to a tree of junctures.
+//!
 //! * **Measures:** [`JointSizes`], walls, clearances and lengths of a joint; [`Radii`], what
 //!   follows from them for a body.
 //! * **Fits:** [`axis_excess_mm`], the wall that unlike shapes cost; [`turning_offset_mm`], how far
@@ -23,10 +25,13 @@ mod balance;
 mod clearance;
 mod design;
 mod error;
+mod fastened;
 mod fits;
 mod limits;
 mod motion;
+mod mount;
 mod nest;
+mod network;
 mod parts;
 pub mod prepare;
 mod profile;
@@ -43,10 +48,12 @@ pub use design::{
     Design, DesignError, DesignRow, OrderWish, Wish, choose_design, design, design_table,
 };
 pub use error::TelescopeError;
+pub use fastened::Fastened;
 pub use fits::{axis_excess_mm, lock_slack_mm, turning_offset_mm};
 pub use limits::{Limit, ball_limit, budget_limit, strands_limit};
 pub use motion::{Collision, Key, Opening, Order};
 pub use nest::{Joint, JointState, Shell, Telescope};
+pub use network::{Limb, Network, NetworkFrames};
 pub use prepare::{TelescopeRunError, Tried, prepare};
 pub use profile::Profile;
 pub use sizes::{JointSizes, Radii};

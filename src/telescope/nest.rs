@@ -3,6 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use super::error::TelescopeError;
+use super::fastened::Fastened;
 use super::fits::{axis_excess_mm, turning_offset_mm};
 use super::sizes::{JointSizes, Radii, SEAT_ROOM_MM};
 use crate::curve::{Chain, Helix, roll};
@@ -68,6 +69,8 @@ pub struct Telescope {
     pub joints: Vec<Joint>,
     /// The measures of the joints.
     pub sizes: JointSizes,
+    /// The ends that are fastened to other bodies.
+    pub fastened: Fastened,
 }
 
 impl Telescope {
@@ -96,6 +99,7 @@ impl Telescope {
             shells,
             joints,
             sizes: *sizes,
+            fastened: Fastened::default(),
         })
     }
 

@@ -20,14 +20,14 @@ const ROOT_SHARE: f64 = 0.5;
 const SKIN_SHARE: f64 = 0.01;
 
 /// What lies in a shell: the helix and the frame of its cavity, and the radii of its bore and lip.
-struct Inside {
+pub(super) struct Inside {
     /// The helix of the shell itself.
     outer: Helix,
-    helix: Helix,
-    pivot: Frame,
+    pub helix: Helix,
+    pub pivot: Frame,
     /// The joint of the shell that slides in it; `None` in the innermost.
     joint: Option<Joint>,
-    bore_mm: f64,
+    pub bore_mm: f64,
     lip_mm: f64,
     /// The radius to which ribs reach inwards: the press ring passes them with the whole clearance.
     rib_mm: f64,
@@ -78,6 +78,9 @@ impl Telescope {
             let mut whole = disc.union(&self.spigot(&inside)?)?;
             if let Some(foot) = foot {
                 whole = whole.union(&self.foot(foot)?)?;
+            }
+            if shell == 0 && self.fastened.root {
+                whole = whole.subtract(&self.flat(0.0)?)?;
             }
             whole.subtract(&self.vent(&inside)?)?.to_solid()
         };
@@ -155,7 +158,7 @@ impl Telescope {
         self.joints.get(shell.checked_sub(1)?)
     }
 
-    fn inside(&self, shell: usize) -> Inside {
+    pub(super) fn inside(&self, shell: usize) -> Inside {
         let own = &self.shells[shell];
         let pivot = own.helix.frame_at(self.visible_mm);
         match self.joints.get(shell) {
@@ -195,7 +198,10 @@ impl Telescope {
         let key = inside.rib([inside.back_mm(tail) - BEYOND_MM, tail + sizes.spigot_mm]);
         let cavity = body(bore)?.subtract(&body(key)?)?;
         let Some(joint) = inside.joint else {
-            return Ok(cavity);
+            return match self.fastened.tip {
+                true => cavity.subtract(&self.mouth_key(&inside)?),
+                false => Ok(cavity),
+            };
         };
         // From the lip's cone back over the length of the flange.
         let lip_start = half - sizes.lip_mm + joint.stop_room_mm;
@@ -230,13 +236,7 @@ impl Telescope {
         let to = tail + sizes.spigot_mm;
         let round = Profile::new([[from, radius], [to, radius]]);
         let round = sweep_profile(&inside.pivot, &inside.helix, &round);
-        let play = sizes.glue_mm / inside.lip_mm;
-        let [low, high] = inside.rib_angles();
-        let slot = Sector {
-            radii_mm: [inside.lip_mm - sizes.glue_mm, inside.bore_mm + BEYOND_MM],
-            angles_rad: [low - play, high + play],
-            arcs_mm: [from - BEYOND_MM, to + BEYOND_MM],
-        };
+        let slot = inside.slot(sizes.glue_mm, [from - BEYOND_MM, to + BEYOND_MM]);
         let slot = sweep_sector(&inside.pivot, &inside.helix, &slot);
         let slotted = body(round)?.subtract(&body(slot)?)?;
         // It begins within the disc, whose faces lean against its own.
@@ -296,7 +296,19 @@ impl Inside {
         }
     }
 
-    fn rib(&self, arcs_mm: [f64; 2]) -> Result<TriMesh, MeshError> {
+    /// Returns the slot in which a rib of the bore fits, over arcs from the pivot, mm.
+    pub fn slot(&self, glue_mm: f64, arcs_mm: [f64; 2]) -> Sector {
+        let play = glue_mm / self.lip_mm;
+        let [low, high] = self.rib_angles();
+        Sector {
+            radii_mm: [self.lip_mm - glue_mm, self.bore_mm + BEYOND_MM],
+            angles_rad: [low - play, high + play],
+            arcs_mm,
+        }
+    }
+
+    /// Returns a rib on the bore over arcs from the pivot, mm.
+    pub fn rib(&self, arcs_mm: [f64; 2]) -> Result<TriMesh, MeshError> {
         let sector = Sector {
             radii_mm: [self.rib_mm, self.bore_mm + BEYOND_MM],
             angles_rad: self.rib_angles(),
@@ -320,6 +332,6 @@ fn gap_rad(joint: &Joint) -> [f64; 2] {
 }
 
 /// Returns a swept mesh as a body for booleans.
-fn body(mesh: Result<TriMesh, MeshError>) -> Result<Csg, ClipError> {
+pub(super) fn body(mesh: Result<TriMesh, MeshError>) -> Result<Csg, ClipError> {
     Csg::of_mesh(&mesh?)
 }

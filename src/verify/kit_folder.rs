@@ -32,7 +32,7 @@ impl KitKind {
         let bytes = std::fs::read(folder.join(CHECKLIST_FILE)).unwrap_or_default();
         let sheet: Option<Value> = serde_json::from_slice(&bytes).ok();
         match sheet.as_ref().and_then(|sheet| sheet["kind"].as_str()) {
-            Some("telescope") => Self::Telescope,
+            Some("telescope" | "network") => Self::Telescope,
             Some("core") => Self::Core,
             _ => Self::Hollowed,
         }

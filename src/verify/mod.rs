@@ -192,3 +192,8 @@ pub use telescope::{
     TelescopeVerifyError, judge_telescope, telescope_checks, verify_telescope,
 };
 pub use telescope::{CURVE_FILE, MOTION_FILE, asked_points};
+// Several telescopes on junctures.
+pub use telescope::{
+    JuncturePromise, LimbPromise, NetworkEvidence, NetworkFacts, NetworkKey, NetworkMotion,
+    NetworkPromise, judge_network, limb_curve_file, network_checks,
+};

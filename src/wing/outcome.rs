@@ -15,6 +15,19 @@ pub enum Outcome<S, M = NoMore> {
     Impossible(Box<Impossible<M>>),
 }
 
+impl<S, M> Outcome<S, M> {
+    /// Applies a function to the checklist of a kit.
+    pub fn map<T>(self, map: impl FnOnce(S) -> T) -> Outcome<T, M> {
+        match self {
+            Self::Prepared(prepared) => Outcome::Prepared(Box::new(Prepared {
+                kit: prepared.kit,
+                checklist: map(prepared.checklist),
+            })),
+            Self::Impossible(why) => Outcome::Impossible(why),
+        }
+    }
+}
+
 /// A kit in memory.
 #[derive(Debug)]
 pub struct Prepared<S> {

@@ -141,8 +141,8 @@ const ARROWS: &[(&str, &[&str])] = &[
     (
         "telescope",
         &[
-            "base", "curve", "draw", "error", "geom", "io", "job", "kit", "make", "mass", "mesh",
-            "page", "printer", "repair", "sheet", "verify", "wing",
+            "base", "curve", "draw", "error", "geom", "goal", "io", "job", "kit", "make", "mass",
+            "mesh", "page", "printer", "repair", "sheet", "skeleton", "verify", "wing",
         ],
     ),
     // Objects on a base have a line of their own, from a model to a kit. It joins the rooms of

@@ -3,7 +3,8 @@
 
     python3 tests/judge/judge_telescope.py KIT [KIT ...]
 
-Reads the parts (STL), motion.json (helices, joints, keys), curve.csv (the points asked for), and from checklist.json what was promised. Moves
+Reads the parts (STL), motion.json (helices, joints, keys), curve.csv (the points asked for), and from checklist.json what was promised. A kit
+of several telescopes on junctures is judged limb by limb, and then as a whole: pairs of all bodies, mass, centres, boxes. Moves
 the shells by matrix exponentials, tries the stops with solid intersections, and prints promise against measurement. Exit code 0: all agree; 1:
 something does not; 2: no kit.
 """
@@ -57,25 +58,34 @@ def roll(angle):
 
 
 class Kit:
-    def __init__(self, folder):
+    def __init__(self, folder, limb=None):
         self.folder = Path(folder)
         self.sheet = json.loads((self.folder / "checklist.json").read_text())
         self.motion = json.loads((self.folder / "motion.json").read_text())
+        self.curve = "curve.csv"
         self.faults = 0
+        if limb is not None:
+            own = self.sheet["limbs"][limb]
+            self.curve = f"curves/{own['id']}.csv"
+            self.sheet, self.motion = own["sheet"], self.motion["limbs"][limb]
         self.shells = [[] for _ in self.motion["shells"]]
         self.tubes = []
         scale = np.array(self.sheet["printer"].get("print_scale_ratio") or [1.0, 1.0, 1.0])
         for part in self.sheet["parts"]:
-            mesh = trimesh.load(self.folder / part["file"], process=True)
-            # Single precision makes some slivers to lines, which have no area.
-            faces = mesh.faces
-            mesh.update_faces((faces[:, 0] != faces[:, 1]) & (faces[:, 1] != faces[:, 2]) & (faces[:, 2] != faces[:, 0]))
-            mesh.apply_scale(1.0 / scale)
-            self.say(f"{part['id']} closed", mesh.is_watertight and mesh.is_winding_consistent and mesh.body_count == 1)
-            self.say(f"{part['id']} rests", abs(mesh.bounds[0][2]) < 1e-3)
-            mesh.apply_transform(np.linalg.inv(np.array(part["print_from_shell"])))
+            mesh = self.read(part, scale, part["print_from_shell"])
             self.shells[part["shell"] - 1].append(mesh)
         self.solids = [self.solid(meshes) for meshes in self.shells]
+
+    def read(self, part, scale, pose):
+        mesh = trimesh.load(self.folder / part["file"], process=True)
+        # Single precision makes some slivers to lines, which have no area.
+        faces = mesh.faces
+        mesh.update_faces((faces[:, 0] != faces[:, 1]) & (faces[:, 1] != faces[:, 2]) & (faces[:, 2] != faces[:, 0]))
+        mesh.apply_scale(1.0 / scale)
+        self.say(f"{part['id']} closed", mesh.is_watertight and mesh.is_winding_consistent and mesh.body_count == 1)
+        self.say(f"{part['id']} rests", abs(mesh.bounds[0][2]) < 1e-3)
+        mesh.apply_transform(np.linalg.inv(np.array(pose)))
+        return mesh
 
     def say(self, promise, kept, detail=""):
         if not kept:
@@ -174,7 +184,7 @@ def judge_motion(kit):
 
 
 def judge_curve(kit):
-    rows = list(csv.DictReader((kit.folder / "curve.csv").open()))
+    rows = list(csv.DictReader((kit.folder / kit.curve).open()))
     asked = np.array([[float(row[f"asked_{axis}"]) for axis in "xyz"] for row in rows])
     states = kit.motion["keys"][-1]["states"]
     frames = kit.frames(states)
@@ -231,7 +241,109 @@ def judge_boxes(kit):
         kit.say(name, error < BOX_LIMIT_MM, f"{error:.5f} mm off")
 
 
+class Network(Kit):
+    """Several telescopes on junctures. Bodies are those of all limbs, then the junctures."""
+
+    def __init__(self, folder):
+        self.folder = Path(folder)
+        self.sheet = json.loads((self.folder / "checklist.json").read_text())
+        self.motion = json.loads((self.folder / "motion.json").read_text())
+        self.faults = 0
+        self.limbs = [Kit(folder, limb) for limb in range(len(self.sheet["limbs"]))]
+        scale = np.array(self.sheet["printer"].get("print_scale_ratio") or [1.0, 1.0, 1.0])
+        self.junctures = [self.read(part, scale, part["print_from_model"]) for part in self.sheet["junctures"]]
+        self.bodies = [(limb, shell) for limb, kit in enumerate(self.limbs) for shell in range(len(kit.shells))]
+        self.bodies += [(None, juncture) for juncture in range(len(self.junctures))]
+        self.meshes = [self.junctures[i] if limb is None else trimesh.util.concatenate(self.limbs[limb].shells[i]) for limb, i in self.bodies]
+        self.solids = [self.solid([self.junctures[i]]) if limb is None else self.limbs[limb].solids[i] for limb, i in self.bodies]
+
+    def places(self, states):
+        """Returns the motion of every body, those of junctures from where they are when all is out."""
+        junctures = [np.eye(4) for _ in self.junctures]
+        frames = []
+        for own, kit, state in zip(self.sheet["limbs"], self.limbs, states, strict=True):
+            out = [(joint["open_mm"], joint["turn_rad"]) for joint in kit.motion["joints"]]
+            base, now, end = junctures[own["from"] - 1], kit.frames(state), kit.frames(out)
+            junctures[own["to"] - 1] = base @ now[-1] @ np.linalg.inv(end[-1])
+            frames += [base @ frame for frame in now]
+        return frames + junctures
+
+    def is_one(self, a, b):
+        """Shells of one limb, which were judged, and what is glued together."""
+        (p, i), (q, j) = sorted((self.bodies[a], self.bodies[b]), key=lambda body: body[0] is None)
+        if q is None and p is not None:
+            own, last = self.sheet["limbs"][p], len(self.limbs[p].shells) - 1
+            return (own["from"] == j + 1 and i == 0) or (own["to"] == j + 1 and i == last)
+        return p is not None and p == q
+
+
+def boxes_meet(a, b):
+    return bool(np.all(a[0] <= b[1]) and np.all(b[0] <= a[1]))
+
+
+def judge_network(kit):
+    keys = kit.motion["keys"]
+    error = 0.0
+    for key in keys:
+        own = kit.places(key["states"])[-len(kit.junctures) :]
+        error = max(error, max(np.abs(a - np.array(b)).max() for a, b in zip(own, key["junctures"], strict=True)))
+    kit.say("keys place the junctures", error < 1e-6, f"{error:.1e} mm")
+    count = len(kit.bodies)
+    pairs = [(a, b) for a in range(count) for b in range(a + 1, count) if not kit.is_one(a, b)]
+    corners = [trimesh.bounds.corners(mesh.bounds) for mesh in kit.meshes]
+    worst, looked, known = 0.0, 0, {}
+    for before, after in zip(keys, keys[1:]):
+        for share in BETWEEN:
+            states = [np.array(a) + (np.array(b) - np.array(a)) * share for a, b in zip(before["states"], after["states"])]
+            places = kit.places(states)
+            bounds = [np.stack([p.min(axis=0), p.max(axis=0)]) for p in (trimesh.transform_points(c, m) for c, m in zip(corners, places))]
+            for a, b in pairs:
+                placed = np.linalg.inv(places[a]) @ places[b]
+                if (a, b) in known and np.abs(known[a, b] - placed).max() < 1e-9:
+                    continue
+                known[a, b] = placed
+                if boxes_meet(bounds[a], bounds[b]):
+                    looked += 1
+                    worst = max(worst, kit.shared(a, b, placed))
+    kit.say("no two bodies touch on the way", worst < SHARED_MM3, f"shared {worst:.6f} mm³ in {looked} pairs")
+    open_places = kit.places(keys[-1]["states"])
+    for a in range(count):
+        for b in range(a + 1, count):
+            if kit.is_one(a, b) and None in (kit.bodies[a][0], kit.bodies[b][0]):
+                shared = kit.shared(a, b, np.linalg.inv(open_places[a]) @ open_places[b])
+                kit.say(f"glued bodies {a} and {b} have room", shared < SHARED_MM3, f"shared {shared:.6f} mm³")
+    volumes = np.array([mesh.volume for mesh in kit.meshes])
+    mass = volumes.sum() * kit.sheet["material"]["density_g_cm3"] / 1000.0
+    kit.say("mass", abs(mass / kit.sheet["mass_g"] - 1) < MASS_LIMIT_RATIO, f"{mass:.4f} of {kit.sheet['mass_g']:.4f} g")
+    worst = 0.0
+    for key, promised in zip(keys, kit.sheet["centres_mm"], strict=True):
+        centres = [(place @ np.append(mesh.center_mass, 1))[:3] for place, mesh in zip(kit.places(key["states"]), kit.meshes)]
+        worst = max(worst, np.linalg.norm(np.average(centres, axis=0, weights=volumes) - promised))
+    kit.say("centres", worst < CENTRE_LIMIT_MM, f"{worst:.5f} mm off at worst")
+    for key, name in ((keys[0], "collapsed_mm"), (keys[-1], "extended_mm")):
+        points = np.concatenate([trimesh.transform_points(mesh.vertices, place) for place, mesh in zip(kit.places(key["states"]), kit.meshes)])
+        error = np.abs(np.ptp(points, axis=0) - kit.sheet[name]).max()
+        kit.say(name, error < BOX_LIMIT_MM, f"{error:.5f} mm off")
+
+
+def judge_all(folder):
+    kit = Network(folder)
+    judge_files(kit)
+    for limb in kit.limbs:
+        for look in (judge_joints, judge_motion, judge_curve):
+            look(limb)
+        kit.faults += limb.faults
+    judge_network(kit)
+    return kit
+
+
 def judge(folder):
+    sheet = json.loads((Path(folder) / "checklist.json").read_text())
+    if sheet["kind"] == "network":
+        kit = judge_all(folder)
+        kit.say("the kit's own verdict", kit.sheet["verdict"] == "pass")
+        print(f"{folder}: {'agrees' if kit.faults == 0 else f'{kit.faults} faults'}")
+        return kit.faults
     kit = Kit(folder)
     for look in (judge_files, judge_joints, judge_motion, judge_curve, judge_balance, judge_boxes):
         look(kit)

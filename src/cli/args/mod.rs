@@ -44,7 +44,7 @@ pub use quote::quoted;
 pub use read::ReadError;
 pub use scale::ScaleArgs;
 pub use scaling::ScalingArgs;
-pub use skeleton::{Root, RootError, SkeletonArgs};
+pub use skeleton::SkeletonArgs;
 pub use slice::SliceArgs;
 pub use telescope::TelescopeArgs;
 pub use tets::TetsArgs;

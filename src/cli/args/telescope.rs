@@ -12,14 +12,14 @@ use crate::base::units::Length;
 use crate::cli::shop::chosen_printer;
 use crate::cli::wing::Order;
 use crate::job::telescope::{
-    Bends, FootSize, Lock, Opening, ShellCount, Stance, TelescopeJob, Twists,
+    Bends, FootSize, JunctureKind, Lock, Opening, Root, ShellCount, Stance, TelescopeJob, Twists,
 };
 
 /// The arguments of `telescope`.
 #[derive(Debug, Clone, Args)]
 pub struct TelescopeArgs {
     /// The curve: text with one x,y,z a line, OBJ with lines, PLY with edges, arc:R,DEG or
-    /// helix:R,PITCH,TURNS
+    /// helix:R,PITCH,TURNS. Or a skeleton: its file, or OBJ with lines that branch. Or a model
     #[arg(required_unless_present = "job")]
     pub input: Option<String>,
     /// A known printer's id, or a profile file
@@ -34,6 +34,9 @@ pub struct TelescopeArgs {
     /// The shells.
     #[command(flatten)]
     pub shells: ShellArgs,
+    /// The limbs of a skeleton or a model.
+    #[command(flatten)]
+    pub limbs: LimbArgs,
     /// What the open telescope does.
     #[command(flatten)]
     pub stance: StanceArgs,
@@ -92,6 +95,22 @@ pub struct ShellArgs {
     pub order: Option<Opening>,
 }
 
+/// The arguments of skeletons and models.
+#[derive(Debug, Clone, Args)]
+#[command(next_help_heading = "Limbs")]
+pub struct LimbArgs {
+    /// The bodies in which limbs meet: balls, or hulls of the ends that meet [default: ball]
+    #[arg(long, value_parser = words::<JunctureKind>(JunctureKind::WORDS))]
+    pub junctures: Option<JunctureKind>,
+    /// Limbs thinner than this radius stay solid [default: those that carry no two shells]
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
+    pub keep_solid: Option<Length>,
+    /// The node that the limbs grow from: its number, or a place near it in mm [default: that of
+    /// the skeleton]
+    #[arg(long, value_name = "NODE|X,Y,Z", allow_hyphen_values = true)]
+    pub root: Option<Root>,
+}
+
 /// The arguments of standing.
 #[derive(Debug, Clone, Args)]
 #[command(next_help_heading = "Goal")]
@@ -108,7 +127,7 @@ pub struct StanceArgs {
 }
 
 /// The arguments that a replayed job decides.
-const DECIDED_BY_JOB: [&str; 20] = [
+const DECIDED_BY_JOB: [&str; 23] = [
     "printer",
     "material",
     "size",
@@ -126,6 +145,9 @@ const DECIDED_BY_JOB: [&str; 20] = [
     "torsion",
     "lock",
     "order",
+    "junctures",
+    "keep_solid",
+    "root",
     "goal",
     "least_angle",
     "foot",
@@ -171,6 +193,9 @@ impl TelescopeArgs {
             torsion: shells.torsion.unwrap_or(default.torsion),
             lock: shells.lock.unwrap_or(default.lock),
             order: shells.order.unwrap_or(default.order),
+            junctures: self.limbs.junctures,
+            keep_solid: self.limbs.keep_solid,
+            root: self.limbs.root,
             goal: stance.goal.unwrap_or(default.goal),
             least_angle_deg: stance.least_angle.unwrap_or(default.least_angle_deg),
             foot: stance.foot.unwrap_or(default.foot),

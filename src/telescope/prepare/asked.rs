@@ -1,7 +1,8 @@
 //! What is asked of a telescope, in the printer's measures.
 
 use super::error::TelescopeRunError;
-use super::load::{CurveFile, Loaded, Shop};
+use super::load::Loaded;
+use super::load_skeleton::{CurveFile, Shop};
 use crate::base::units::Length;
 use crate::curve::{Curve, Freedom};
 use crate::job::telescope::{Bends, Lock, Opening, ShellCount, Stance, TelescopeJob, Twists};
@@ -61,8 +62,43 @@ pub struct Asked<'a> {
     pub longest_mm: f64,
     /// The deviation that is near enough, mm.
     pub within_mm: f64,
+    /// What the ids of its parts and joints begin with; nothing for a curve alone.
+    pub prefix: String,
     /// Warnings for the shop.
     pub warnings: Vec<String>,
+}
+
+/// The measures that do not depend on a curve.
+pub struct Basics {
+    /// The clearance with which shells slide, and its source.
+    pub slide: Sourced<f64>,
+    /// Measures of the joints with the least overlap.
+    pub least: JointSizes,
+    /// Body radius of the tip, mm.
+    pub tip_mm: f64,
+    /// Warnings for the shop.
+    pub warnings: Vec<String>,
+}
+
+/// Takes the measures of a job that do not depend on a curve. `length_mm` is that of the object.
+pub fn basics(
+    job: &TelescopeJob,
+    shop: &Shop,
+    length_mm: f64,
+) -> Result<Basics, TelescopeRunError> {
+    let mut warnings = Vec::new();
+    let slide = slide(job, shop, &mut warnings);
+    let least = least_sizes(job, shop, slide.value, length_mm)?;
+    least.check()?;
+    if let Some(overlap_mm) = mm(job.overlap) {
+        with_overlap(&least, overlap_mm).check()?;
+    }
+    Ok(Basics {
+        tip_mm: tip_mm(job, shop, &least)?,
+        slide,
+        least,
+        warnings,
+    })
 }
 
 /// Takes the measures of a job and its printer.
@@ -72,14 +108,12 @@ pub fn measure<'a>(
     loaded: &'a Loaded,
 ) -> Result<Asked<'a>, TelescopeRunError> {
     let curve = &loaded.curve;
-    let mut warnings = Vec::new();
-    let slide = slide(job, shop, &mut warnings);
-    let least = least_sizes(job, shop, slide.value, curve.length_mm())?;
-    least.check()?;
-    if let Some(overlap_mm) = mm(job.overlap) {
-        with_overlap(&least, overlap_mm).check()?;
-    }
-    let tip_mm = tip_mm(job, shop, &least)?;
+    let Basics {
+        slide,
+        least,
+        tip_mm,
+        warnings,
+    } = basics(job, shop, curve.length_mm())?;
     let room_mm = shop.printer.usable_volume_mm().map(|[_, _, height]| height);
     let by_room_mm = room_mm.map_or(f64::INFINITY, |height| {
         height - HEADROOM_MM - least.overlap_mm()
@@ -98,6 +132,7 @@ pub fn measure<'a>(
         tip_mm,
         longest_mm,
         within_mm: mm(job.deviation).unwrap_or(usual_mm),
+        prefix: String::new(),
         warnings,
     })
 }

@@ -21,6 +21,7 @@ const GUESS_SAMPLES: usize = 20;
 const GUESS_PRICE: f64 = 1.0;
 
 /// The telescope that was taken.
+#[derive(Clone)]
 pub struct Best {
     pub design: Design,
     /// Every number of shells that was tried.

@@ -2,6 +2,8 @@
 
 use std::path::PathBuf;
 
+use crate::base::setting::Setting;
+use crate::base::toml_text::TextFault;
 use crate::base::watch::Cancelled;
 use crate::curve::{CurveError, NameError};
 use crate::draw::PictureError;
@@ -9,8 +11,10 @@ use crate::error::Error;
 use crate::io::threemf::PackageError;
 use crate::io::{ContentError, LinesError, ReadError, StlError};
 use crate::job::JobError;
-use crate::mesh::ClipError;
+use crate::mesh::{ClipError, Defects};
 use crate::printer::{MaterialError, ProfileError, WallError};
+use crate::repair::NotOneBody;
+use crate::skeleton::SkeletonError;
 use crate::telescope::error::TelescopeError;
 use crate::verify::TelescopeVerifyError;
 use crate::wing::Unwritable;
@@ -30,6 +34,39 @@ pub enum TelescopeRunError {
         /// The fault.
         fault: LinesError,
     },
+    /// The file of a model cannot be read.
+    #[error("{}: {fault}", path.display())]
+    Model {
+        /// The file.
+        path: PathBuf,
+        /// The fault.
+        fault: Box<ContentError>,
+    },
+    /// The model bounds no solid.
+    #[error("{} is not a solid: {fault}", path.display())]
+    NotSolid {
+        /// The file.
+        path: PathBuf,
+        /// The defects.
+        fault: Box<Defects>,
+    },
+    /// The model is not one body.
+    #[error("{} is not one body: {fault}", path.display())]
+    NotOneBody {
+        /// The file.
+        path: PathBuf,
+        /// The shells, or the places where it crosses itself.
+        fault: Box<NotOneBody>,
+    },
+    /// The skeleton file cannot be used.
+    #[error(transparent)]
+    Text(#[from] TextFault),
+    /// There is no such skeleton.
+    #[error(transparent)]
+    Skeleton(#[from] SkeletonError),
+    /// A goal that limbs do not have.
+    #[error("a telescope of several limbs stands on no foot yet; remedy: leave out `{0}`")]
+    NoFoot(Setting),
     /// The points make no curve for a telescope.
     #[error("{name}: {fault}")]
     Curve {

@@ -1,38 +1,30 @@
-//! Load: the printer, and the curve in mm.
+//! Load: the printer, and the curve or the skeleton in mm.
 
-use std::path::PathBuf;
+use std::ffi::OsStr;
+use std::path::{Path, PathBuf};
 
 use super::error::TelescopeRunError;
+use super::load_skeleton::{self as skeleton, CurveFile, LoadedSkeleton, Shop};
 use crate::base::digest::sha256_hex;
 use crate::base::watch::{Phase, Watch};
 use crate::curve::{Curve, NamedCurve};
 use crate::error::Error;
 use crate::geom::{Aabb, Point};
-use crate::io::{decode_curve, read_bytes};
+use crate::io::{LinesError, decode_curve, read_bytes};
 use crate::job::JobError;
 use crate::job::telescope::TelescopeJob;
-use crate::printer::{Material, Printer};
-
-/// The printer and the material of a job.
-pub struct Shop {
-    pub printer: Printer,
-    pub material: Material,
-}
+use crate::printer::Printer;
 
 /// The curve that is asked for, in mm.
+#[derive(Clone)]
 pub struct Loaded {
     pub curve: Curve,
     /// Its file; `None` for measures.
     pub file: Option<CurveFile>,
 }
 
-/// The file of a curve.
-#[derive(Debug, Clone)]
-pub struct CurveFile {
-    pub bytes: Vec<u8>,
-    /// The SHA-256 of these bytes.
-    pub sha256: String,
-}
+/// The ending of a skeleton file.
+const SKELETON_ENDING: &str = "toml";
 
 /// Most points through which a spline is laid. More lie so near that lines between them do.
 const MOST_SPLINE_POINTS: usize = 500;
@@ -48,17 +40,64 @@ pub fn shop(job: &TelescopeJob, watch: &Watch) -> Result<Shop, TelescopeRunError
     Ok(Shop { printer, material })
 }
 
-/// Reads the job's curve, and refuses corners.
+/// What is asked for: a curve, or a skeleton.
+pub enum Input {
+    Curve(Loaded),
+    Skeleton(Box<LoadedSkeleton>),
+}
+
+/// Reads the job's input: what it holds decides what it is.
+pub fn input(job: &TelescopeJob, shop: &Shop, watch: &Watch) -> Result<Input, TelescopeRunError> {
+    let source = &job.curve.source;
+    let Some(path) = job.curve_file() else {
+        let named: NamedCurve = source.parse()?;
+        return Ok(Input::Curve(curve(job, shop, named.points(), None)?));
+    };
+    let bytes = read_bytes(path)?;
+    let sha256 = sha256_hex(&[&bytes]);
+    if let Some(expected) = job.curve.sha256.as_ref().filter(|known| **known != sha256) {
+        return Err(TelescopeRunError::Job(JobError::ModelChanged {
+            path: PathBuf::from(source),
+            found: sha256,
+            expected: expected.clone(),
+        }));
+    }
+    let file = CurveFile { bytes, sha256 };
+    let is_skeleton = Path::new(source).extension() == Some(OsStr::new(SKELETON_ENDING));
+    if is_skeleton {
+        return Ok(Input::Skeleton(Box::new(skeleton::of_text(job, file)?)));
+    }
+    match decode_curve(&file.bytes) {
+        Ok(points) => Ok(Input::Curve(curve(job, shop, points, Some(file))?)),
+        Err(LinesError::Branch { .. }) => {
+            let found = skeleton::of_lines(job, shop, file)?;
+            Ok(Input::Skeleton(Box::new(found)))
+        }
+        Err(fault) if skeleton::is_model(&fault, &file.bytes) => {
+            let found = skeleton::of_model(job, file, watch)?;
+            Ok(Input::Skeleton(Box::new(found)))
+        }
+        Err(fault) => Err(TelescopeRunError::Lines {
+            path: path.to_owned(),
+            fault,
+        }),
+    }
+}
+
+/// Takes the points of a curve, and refuses corners.
 ///
 /// A file's points are the corners of a polyline. Few of them stand for a smooth curve, so a spline
 /// is laid through them.
-pub fn curve(job: &TelescopeJob, shop: &Shop) -> Result<Loaded, TelescopeRunError> {
-    let source = &job.curve.source;
+fn curve(
+    job: &TelescopeJob,
+    shop: &Shop,
+    points: Vec<Point>,
+    file: Option<CurveFile>,
+) -> Result<Loaded, TelescopeRunError> {
     let fault = |fault| TelescopeRunError::Curve {
-        name: source.clone(),
+        name: job.curve.source.clone(),
         fault,
     };
-    let (points, file) = points(job)?;
     let is_dense = points.len() > MOST_SPLINE_POINTS;
     let raw = if is_dense {
         Curve::of_polyline(points)
@@ -74,28 +113,4 @@ pub fn curve(job: &TelescopeJob, shop: &Shop) -> Result<Loaded, TelescopeRunErro
     let checked = shop.printer.check_length(longest_mm);
     checked.map_err(Error::from)?;
     Ok(Loaded { curve, file })
-}
-
-/// Returns the points of the curve as they are given, and their file.
-fn points(job: &TelescopeJob) -> Result<(Vec<Point>, Option<CurveFile>), TelescopeRunError> {
-    let source = &job.curve.source;
-    let Some(path) = job.curve_file() else {
-        let named: NamedCurve = source.parse()?;
-        return Ok((named.points(), None));
-    };
-    let bytes = read_bytes(path)?;
-    let found = sha256_hex(&[&bytes]);
-    if let Some(expected) = job.curve.sha256.as_ref().filter(|sha256| **sha256 != found) {
-        return Err(TelescopeRunError::Job(JobError::ModelChanged {
-            path: PathBuf::from(source),
-            found,
-            expected: expected.clone(),
-        }));
-    }
-    let points = decode_curve(&bytes).map_err(|fault| TelescopeRunError::Lines {
-        path: path.to_owned(),
-        fault,
-    })?;
-    let sha256 = found;
-    Ok((points, Some(CurveFile { bytes, sha256 })))
 }

@@ -6,6 +6,7 @@ use super::asked::Asked;
 use super::balance::choose_foot;
 use super::best::{Best, Reason, Refused};
 use super::error::TelescopeRunError;
+use super::load_skeleton::Shop;
 use super::poses::{Laid, Lies, lay_cap, lay_shell};
 use crate::base::verdict::Verdict;
 use crate::base::watch::{Phase, Watch};
@@ -57,6 +58,8 @@ impl WrittenPart {
 
 /// The parts of a telescope.
 pub struct Made {
+    /// What the ids of its parts and joints begin with.
+    pub prefix: String,
     pub best: Best,
     pub foot: Option<DiscFoot>,
     /// The shells and caps, a shell before its cap, the root first.
@@ -107,6 +110,7 @@ pub fn make(
         mass_of(&whole)
     });
     Ok(Verdict::Found(Made {
+        prefix: asked.prefix.clone(),
         masses: masses.collect(),
         foot,
         parts,
@@ -174,24 +178,59 @@ impl Writer<'_> {
         laid: Laid,
         solid: &Solid,
     ) -> Result<WrittenPart, TelescopeRunError> {
-        self.watch.check()?;
         let letter = match kind {
             PartKind::Shell => 'S',
             PartKind::Cap => 'C',
         };
-        let id = format!("{letter}{:02}", shell + 1);
+        let id = format!("{}{letter}{:02}", self.asked.prefix, shell + 1);
         let name = format!("{}_{id}", self.asked.job.name());
-        let scale = Vector::from(self.asked.shop.printer.print_scale_ratio());
-        let at = |p: &Point| laid.pose.to_print(p).coords.component_mul(&scale).into();
-        let bytes = write_free_of_folds(&solid.mesh().map_vertices(at), &name, self.watch)?;
-        let read_back = stl::decode(&bytes)?;
+        let printing = Printing {
+            shop: self.asked.shop,
+            watch: self.watch,
+        };
+        let written = printing.write(&name, &laid, solid)?;
         Ok(WrittenPart {
-            file: format!("parts/{name}.stl"),
+            file: written.file,
             id,
             kind,
             shell,
             lies: laid.lies,
             pose: laid.pose,
+            bytes: written.bytes,
+            read_back: written.read_back,
+        })
+    }
+}
+
+/// A solid as it was written.
+pub struct WrittenFile {
+    pub file: String,
+    pub bytes: Vec<u8>,
+    /// The triangles read back, in print pose, in the part's own size.
+    pub read_back: TriMesh,
+}
+
+/// What writes parts for a printer.
+pub struct Printing<'a> {
+    pub shop: &'a Shop,
+    pub watch: &'a Watch,
+}
+
+impl Printing<'_> {
+    /// Writes a solid in print pose, in the size that is printed.
+    pub fn write(
+        &self,
+        name: &str,
+        laid: &Laid,
+        solid: &Solid,
+    ) -> Result<WrittenFile, TelescopeRunError> {
+        self.watch.check()?;
+        let scale = Vector::from(self.shop.printer.print_scale_ratio());
+        let at = |p: &Point| laid.pose.to_print(p).coords.component_mul(&scale).into();
+        let bytes = write_free_of_folds(&solid.mesh().map_vertices(at), name, self.watch)?;
+        let read_back = stl::decode(&bytes)?;
+        Ok(WrittenFile {
+            file: format!("parts/{name}.stl"),
             bytes,
             read_back: read_back.map_vertices(|p| p.coords.component_div(&scale).into()),
         })

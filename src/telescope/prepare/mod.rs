@@ -1,4 +1,5 @@
-//! The line from a curve to the kit of a telescope: load, measure, design, make, judge, kit.
+//! The line from a curve to the kit of a telescope: load, measure, design, make, judge, kit. That
+//! from a skeleton is in `network`.
 
 mod advise;
 mod asked;
@@ -8,8 +9,10 @@ mod error;
 mod files;
 mod judge;
 mod load;
+mod load_skeleton;
 mod made;
 mod motion_file;
+mod network;
 mod papers;
 mod poses;
 mod scene;
@@ -18,27 +21,49 @@ mod sheet;
 pub use advise::Tried;
 pub use error::TelescopeRunError;
 
+use self::load::{Input, Loaded};
+use self::load_skeleton::Shop;
 use crate::base::verdict::Verdict;
 use crate::base::watch::Watch;
 use crate::job::telescope::TelescopeJob;
+use crate::sheet::network::AnyTelescopeSheet;
 use crate::sheet::telescope::TelescopeSheet;
 use crate::wing::Outcome;
 
-/// Prepares a telescope to its end: a kit with its checklist, or the reason why there is none.
+/// Prepares a telescope to its end: a kit with its checklist, or the reason why there is none. A
+/// skeleton or a model gets several, on junctures.
 ///
 /// Nothing is written: the kit ([`crate::wing::Prepared`]) is in memory. The same job gives the
 /// same bytes on any number of threads.
 ///
 /// # Errors
-/// An error means that no answer was reached: the curve cannot be read, the job contradicts itself,
+/// An error means that no answer was reached: the input cannot be read, the job contradicts itself,
 /// the caller stopped the run. A curve that no telescope follows is an answer.
 pub fn prepare(
     job: &TelescopeJob,
     watch: &Watch,
-) -> Result<Outcome<TelescopeSheet, Tried>, TelescopeRunError> {
+) -> Result<Outcome<AnyTelescopeSheet, Tried>, TelescopeRunError> {
     let shop = load::shop(job, watch)?;
-    let curve = load::curve(job, &shop)?;
-    let asked = asked::measure(job, &shop, &curve)?;
+    match load::input(job, &shop, watch)? {
+        Input::Curve(curve) => {
+            let outcome = along_curve(job, &shop, &curve, watch)?;
+            Ok(outcome.map(|sheet| AnyTelescopeSheet::Curve(Box::new(sheet))))
+        }
+        Input::Skeleton(loaded) => {
+            let outcome = network::prepare(job, &shop, &loaded, watch)?;
+            Ok(outcome.map(|sheet| AnyTelescopeSheet::Network(Box::new(sheet))))
+        }
+    }
+}
+
+/// Prepares the telescope of a curve.
+fn along_curve(
+    job: &TelescopeJob,
+    shop: &Shop,
+    curve: &Loaded,
+    watch: &Watch,
+) -> Result<Outcome<TelescopeSheet, Tried>, TelescopeRunError> {
+    let asked = asked::measure(job, shop, curve)?;
     let best = match best::design(&asked, watch)? {
         Verdict::Found(best) => best,
         Verdict::No(refused) => {

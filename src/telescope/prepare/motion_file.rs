@@ -7,16 +7,18 @@ use crate::telescope::nest::{JointState, Telescope};
 use crate::verify::{JointMotion, MotionKey, Pose, ShellMotion, TelescopeMotion};
 
 /// The schema of `motion.json`.
-const MOTION_SCHEMA: u32 = 1;
+pub const MOTION_SCHEMA: u32 = 1;
 
-/// Returns the id of a shell, from 0.
-pub fn shell_id(shell: usize) -> String {
-    format!("S{:02}", shell + 1)
-}
+impl Made {
+    /// Returns the id of a shell, from 0.
+    pub fn shell_id(&self, shell: usize) -> String {
+        format!("{}S{:02}", self.prefix, shell + 1)
+    }
 
-/// Returns the id of a joint, from 0.
-pub fn joint_id(joint: usize) -> String {
-    format!("J{:02}", joint + 1)
+    /// Returns the id of a joint, from 0.
+    pub fn joint_id(&self, joint: usize) -> String {
+        format!("{}J{:02}", self.prefix, joint + 1)
+    }
 }
 
 /// Returns the motion as it is written.
@@ -26,13 +28,13 @@ pub fn motion(made: &Made) -> TelescopeMotion {
     let ends_mm = telescope.ends_mm();
     let shells = telescope.shells.iter().enumerate();
     let joints = telescope.joints.iter().enumerate();
-    let ids = |group: &Vec<usize>| group.iter().map(|joint| joint_id(*joint)).collect();
+    let ids = |group: &Vec<usize>| group.iter().map(|joint| made.joint_id(*joint)).collect();
     TelescopeMotion {
         schema: MOTION_SCHEMA,
         root: pose_of(&telescope.start),
         shells: shells
             .map(|(i, shell)| ShellMotion {
-                id: shell_id(i),
+                id: made.shell_id(i),
                 curvature: shell.helix.curvature,
                 torsion: shell.helix.torsion,
                 length_mm: telescope.visible_mm,
@@ -41,7 +43,7 @@ pub fn motion(made: &Made) -> TelescopeMotion {
             .collect(),
         joints: joints
             .map(|(i, joint)| JointMotion {
-                id: joint_id(i),
+                id: made.joint_id(i),
                 closed_mm: telescope.sizes.closed_mm(),
                 open_mm: telescope.visible_mm,
                 turn_rad: joint.turn_rad,
@@ -65,6 +67,6 @@ fn written_key(telescope: &Telescope, key: &Key) -> MotionKey {
 }
 
 /// Returns a frame as the matrix from its coordinates to the model's.
-fn pose_of(frame: &Frame) -> Pose {
+pub fn pose_of(frame: &Frame) -> Pose {
     Pose::new(&frame.axes, &frame.origin.coords)
 }

@@ -14,6 +14,8 @@ pub enum Lies {
     OnTail,
     /// Leaning by half of its bend, with support outside only.
     Leaning,
+    /// On what is round, with support below.
+    Round,
 }
 
 impl Lies {
@@ -23,6 +25,7 @@ impl Lies {
             Self::OnMouth => "mouth down",
             Self::OnTail => "tail down",
             Self::Leaning => "leaning by half of its bend, support outside only",
+            Self::Round => "on its round side, support below and in its sockets",
         }
     }
 }
@@ -66,6 +69,14 @@ pub fn lay_cap(telescope: &Telescope, shell: usize, mesh: &TriMesh) -> Laid {
     Laid {
         pose: lay(mesh, &-ahead),
         lies: Lies::OnTail,
+    }
+}
+
+/// Lays a juncture down, with this direction down.
+pub fn lay_juncture(mesh: &TriMesh, down: &Vector) -> Laid {
+    Laid {
+        pose: lay(mesh, down),
+        lies: Lies::Round,
     }
 }
 

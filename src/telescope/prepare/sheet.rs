@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::asked::Asked;
 use super::balance::{Standing, tilt_rad};
 use super::made::{Made, PartKind, WrittenPart};
-use super::motion_file::{joint_id, motion, shell_id};
+use super::motion_file::motion;
 use super::poses::Lies;
 use crate::base::digest::sha256_hex;
 use crate::base::units::MM3_PER_CM3;
@@ -102,11 +102,11 @@ fn add_parts(sheet: &mut TelescopeSheet, asked: &Asked, made: &Made) {
     let design = &made.best.design;
     let telescope = &design.telescope;
     let parts = || made.parts.iter();
-    sheet.shells = shells(telescope);
+    sheet.shells = shells(made);
     sheet.parts = parts().map(|part| promised_part(telescope, part)).collect();
     sheet.part_rows = parts().map(|part| part_row(asked, part)).collect();
-    sheet.joints = promised_joints(telescope);
-    sheet.joint_rows = joint_rows(asked, telescope);
+    sheet.joints = promised_joints(made);
+    sheet.joint_rows = joint_rows(asked, made);
     sheet.order = motion(made).order;
     sheet.order_words = order_words(&design.opening.order, telescope.joints.len());
 }
@@ -147,7 +147,7 @@ fn add_balance(sheet: &mut TelescopeSheet, made: &Made) {
     sheet.worst_toppling_deg = worst.sagged_rad.to_degrees();
 }
 
-fn material(asked: &Asked) -> TelescopeMaterial {
+pub fn material(asked: &Asked) -> TelescopeMaterial {
     let material = &asked.shop.material;
     TelescopeMaterial {
         id: material.id.clone(),
@@ -183,7 +183,7 @@ fn foot_row(foot: DiscFoot) -> FootRow {
     }
 }
 
-fn printer(asked: &Asked) -> TelescopePrinter {
+pub fn printer(asked: &Asked) -> TelescopePrinter {
     let printer = &asked.shop.printer;
     let scale = printer.print_scale_ratio();
     TelescopePrinter {
@@ -205,7 +205,8 @@ fn printer(asked: &Asked) -> TelescopePrinter {
     }
 }
 
-fn shells(telescope: &Telescope) -> Vec<ShellRow> {
+fn shells(made: &Made) -> Vec<ShellRow> {
+    let telescope = &made.best.design.telescope;
     let bore = |i: usize| {
         let joint = telescope.joints.get(i);
         let own = telescope.shells[i].body_mm - telescope.sizes.wall_mm;
@@ -213,7 +214,7 @@ fn shells(telescope: &Telescope) -> Vec<ShellRow> {
     };
     let shells = telescope.shells.iter().enumerate();
     let row = |(i, shell): (usize, &Shell)| ShellRow {
-        id: shell_id(i),
+        id: made.shell_id(i),
         curvature: shell.helix.curvature,
         torsion: shell.helix.torsion,
         visible_mm: telescope.visible_mm,
@@ -247,11 +248,12 @@ fn part_row(asked: &Asked, part: &WrittenPart) -> TelescopePartRow {
     }
 }
 
-fn promised_joints(telescope: &Telescope) -> Vec<JointPromise> {
+fn promised_joints(made: &Made) -> Vec<JointPromise> {
+    let telescope = &made.best.design.telescope;
     let sizes = &telescope.sizes;
     let joints = telescope.joints.iter().enumerate();
     let promise = |(i, joint): (usize, &Joint)| JointPromise {
-        id: joint_id(i),
+        id: made.joint_id(i),
         stop_mm: telescope.visible_mm + joint.stop_room_mm,
         free_to_mm: telescope.visible_mm
             - sizes.flange_mm.max(sizes.lip_mm)
@@ -263,14 +265,15 @@ fn promised_joints(telescope: &Telescope) -> Vec<JointPromise> {
     joints.map(promise).collect()
 }
 
-fn joint_rows(asked: &Asked, telescope: &Telescope) -> Vec<JointRow> {
+fn joint_rows(asked: &Asked, made: &Made) -> Vec<JointRow> {
+    let telescope = &made.best.design.telescope;
     let printer = &asked.shop.printer;
     // The cones of flange and lip are at 45°: an error of both radii moves the stop by as much.
     let tolerance_mm = printer.tolerance.least_mm.value + printer.layer_mm.value;
     let joints = telescope.joints.iter().enumerate();
     let row = |(i, joint): (usize, &Joint)| JointRow {
-        id: joint_id(i),
-        shells: [shell_id(i), shell_id(i + 1)],
+        id: made.joint_id(i),
+        shells: [made.shell_id(i), made.shell_id(i + 1)],
         stroke_mm: telescope.visible_mm - telescope.sizes.closed_mm(),
         tolerance_mm,
         turn_deg: joint.turn_rad.to_degrees(),
@@ -346,27 +349,36 @@ fn warnings(asked: &Asked, made: &Made) -> Vec<String> {
             deviation.max_mm
         ));
     }
+    warnings.extend(untried(asked, made));
+    warnings.extend(leaning(asked, made));
+    warnings
+}
+
+/// Returns the warning that the clearance was never tried on this machine.
+pub fn untried(asked: &Asked, made: &Made) -> Option<String> {
     let count = made.best.design.telescope.shells.len();
-    if asked.slide.sure != Sure::Measured && count > 1 {
-        warnings.push(format!(
-            "The sliding clearance of {} mm was never tried on this machine. Print S{:02} and S{:02} \
-             with their caps first, and try them before you print the rest.",
+    let is_untried = asked.slide.sure != Sure::Measured && count > 1;
+    is_untried.then(|| {
+        format!(
+            "The sliding clearance of {} mm was never tried on this machine. Print {} and {} with \
+             their caps first, and try them before you print the rest.",
             asked.slide.value,
-            count - 1,
-            count
-        ));
-    }
-    let leaning: Vec<&str> = made
-        .parts
-        .iter()
-        .filter(|part| part.lies == Lies::Leaning)
-        .map(|part| part.id.as_str())
-        .collect();
-    if !leaning.is_empty() && asked.shop.printer.support == Support::Breakaway {
-        warnings.push(format!(
+            made.shell_id(count - 2),
+            made.shell_id(count - 1)
+        )
+    })
+}
+
+/// Returns the warning that shells bend by more than may hang over.
+pub fn leaning(asked: &Asked, made: &Made) -> Option<String> {
+    let parts = made.parts.iter();
+    let leaning = parts.filter(|part| part.lies == Lies::Leaning);
+    let leaning: Vec<&str> = leaning.map(|part| part.id.as_str()).collect();
+    let is_told = !leaning.is_empty() && asked.shop.printer.support == Support::Breakaway;
+    is_told.then(|| {
+        format!(
             "{} bend more than may hang over: support them outside only, never in the bore.",
             leaning.join(", ")
-        ));
-    }
-    warnings
+        )
+    })
 }

@@ -120,6 +120,7 @@ fn bare(chain: &Chain, body_mm: &[f64]) -> Telescope {
             .map(joint)
             .collect(),
         sizes: thin(),
+        fastened: Fastened::default(),
     }
 }
 

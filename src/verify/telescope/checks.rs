@@ -2,6 +2,7 @@
 
 use super::facts::TelescopeFacts;
 use super::promise::TelescopePromise;
+use super::surfaces::Surfaces;
 use crate::verify::{Check, CheckKind, Limit};
 
 /// By how much a gap may be below the clearance, mm: facets of both sides, and the file's rounding.
@@ -13,15 +14,15 @@ const BODY_LIMIT_MM: f64 = 0.01;
 /// By how much a deviation may exceed the one promised, mm: another way of sampling.
 const DEVIATION_LIMIT_MM: f64 = 0.05;
 /// By how much a written placement may differ from the judge's, mm: the digits of a file.
-const PLACEMENT_LIMIT_MM: f64 = 1e-6;
+pub(super) const PLACEMENT_LIMIT_MM: f64 = 1e-6;
 /// By how much a mass may differ from the one promised, as a share: single precision.
-const MASS_LIMIT_RATIO: f64 = 1e-4;
+pub(super) const MASS_LIMIT_RATIO: f64 = 1e-4;
 /// By how much a centre may be off, mm.
-const CENTRE_LIMIT_MM: f64 = 0.01;
+pub(super) const CENTRE_LIMIT_MM: f64 = 0.01;
 /// By how much a toppling angle may differ, degrees: the corners of a round foot.
 const TOPPLING_LIMIT_DEG: f64 = 0.05;
 /// By how much a box may differ, mm.
-const BOX_LIMIT_MM: f64 = 0.02;
+pub(super) const BOX_LIMIT_MM: f64 = 0.02;
 /// By how much a part may be above or below the plate, mm.
 const PLATE_LIMIT_MM: f64 = 1e-3;
 
@@ -36,7 +37,7 @@ pub fn telescope_checks(promise: &TelescopePromise, facts: &TelescopeFacts) -> V
 }
 
 /// Returns a check that a list of faults is empty.
-fn none(kind: CheckKind, promise: &str, faults: &[String]) -> Check {
+pub(super) fn none(kind: CheckKind, promise: &str, faults: &[String]) -> Check {
     let check = Check::new(
         kind,
         promise,
@@ -47,6 +48,17 @@ fn none(kind: CheckKind, promise: &str, faults: &[String]) -> Check {
 }
 
 fn of_surfaces(facts: &TelescopeFacts) -> Vec<Check> {
+    surface_checks(&Surfaces {
+        broken: facts.broken.clone(),
+        crossings: facts.crossings,
+        in_pieces: facts.in_pieces.clone(),
+        above_plate_mm: facts.above_plate_mm,
+        too_large: facts.too_large.clone(),
+    })
+}
+
+/// Holds the surfaces of parts, and how they lie, against what all kits promise.
+pub(super) fn surface_checks(facts: &Surfaces) -> Vec<Check> {
     vec![
         none(
             CheckKind::BrokenSurfaces,

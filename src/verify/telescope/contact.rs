@@ -1,6 +1,6 @@
 //! Gaps and contacts between parts that are moved.
 
-use crate::geom::{Bvh, Frame};
+use crate::geom::{Bvh, Frame, Point};
 use crate::mesh::{MeshDistance, TriMesh};
 
 /// The distance up to which two surfaces touch, mm: rounding of files.
@@ -24,6 +24,18 @@ impl Body {
     /// Returns the tree over its triangles.
     pub fn bvh(&self) -> &Bvh {
         self.distance.bvh()
+    }
+
+    /// Returns the middle of its box.
+    pub fn centre(&self) -> Point {
+        self.mesh.aabb().center()
+    }
+
+    /// Returns the greatest distance of a point from the middle of its box, mm.
+    pub fn radius_mm(&self) -> f64 {
+        let centre = self.centre();
+        let far = self.mesh.vertices().iter().map(|p| (p - centre).norm());
+        far.fold(0.0, f64::max)
     }
 
     /// Returns the least gap to another body that is placed in this one's frame, mm.

@@ -9,21 +9,21 @@ use super::motion::{TelescopeMotion, frame_of};
 use super::shells::{ShellFacts, measure};
 use super::standing::{Stands, stands};
 use super::stops::{JointFacts, Trial};
+use super::surfaces::{LyingPart, Surfaces};
 use crate::base::watch::{Cancelled, Watch};
 use crate::geom::{Aabb, Frame};
 use crate::mass::{Moments, moments_of_mesh};
-use crate::mesh::{Crossings, Defects, TriMesh, bodies};
-use crate::repair::weld;
+use crate::mesh::TriMesh;
 use crate::verify::Pose;
 
 /// States looked at in each move besides its ends.
-const BETWEEN: [f64; 3] = [0.25, 0.5, 0.75];
+pub(super) const BETWEEN: [f64; 3] = [0.25, 0.5, 0.75];
 
 /// Share of the clearance that shells must keep that do not slide in each other.
-const APART_SHARE: f64 = 0.9;
+pub(super) const APART_SHARE: f64 = 0.9;
 
 /// Two placements are the same up to this, mm: rounding.
-const SAME_MM: f64 = 1e-9;
+pub(super) const SAME_MM: f64 = 1e-9;
 
 /// The facts about a telescope.
 #[derive(Debug, Clone, PartialEq)]
@@ -66,9 +66,18 @@ pub fn judge_telescope(
     evidence: &TelescopeEvidence,
     watch: &Watch,
 ) -> Result<TelescopeFacts, Cancelled> {
+    let bodies = shell_bodies(evidence);
+    judge_bodies(evidence, &bodies, watch)
+}
+
+/// Measures a telescope of which every shell with its cap is prepared, in the shell's frame.
+pub(super) fn judge_bodies(
+    evidence: &TelescopeEvidence,
+    bodies: &[Body],
+    watch: &Watch,
+) -> Result<TelescopeFacts, Cancelled> {
     let motion = &evidence.motion;
     let promise = &evidence.promise;
-    let bodies = shell_bodies(evidence);
     let tubes: Vec<Body> = evidence
         .tubes()
         .map(|mesh| Body::new(mesh.clone()))
@@ -86,7 +95,7 @@ pub fn judge_telescope(
     });
     let joints = joints.collect::<Result<Vec<_>, Cancelled>>()?;
     let limit_mm = APART_SHARE * promise.clearance_mm;
-    let (too_near, states) = far_pairs(motion, &bodies, limit_mm, watch)?;
+    let (too_near, states) = far_pairs(motion, bodies, limit_mm, watch)?;
     let tube_facts = promise.parts.iter().filter(|part| part.is_tube);
     let shells = tube_facts.zip(&motion.shells).zip(&tubes);
     let shells = shells.map(|((part, shell), tube)| measure(shell, part.body_mm, tube));
@@ -99,7 +108,13 @@ pub fn judge_telescope(
         .keys
         .iter()
         .map(|key| stands(motion, &key.states, &moments, &bodies[0].mesh));
-    let surfaces = Surfaces::of(evidence, watch)?;
+    let parts = promise.parts.iter().zip(&evidence.parts);
+    let parts = parts.map(|(part, mesh)| LyingPart {
+        id: &part.id,
+        pose: &part.print_from_shell,
+        mesh,
+    });
+    let surfaces = Surfaces::of(parts, promise.printer.build_volume_mm, watch)?;
     let ends = [motion.keys.first(), motion.keys.last()];
     Ok(TelescopeFacts {
         broken: surfaces.broken,
@@ -115,12 +130,12 @@ pub fn judge_telescope(
         deviation: deviation(motion, &evidence.asked),
         mass_g: volume * promise.material.density_g_cm3 / crate::base::units::MM3_PER_CM3,
         balance: balance.collect(),
-        boxes_mm: ends.map(|key| key.map_or([0.0; 3], |key| size_mm(motion, &key.states, &bodies))),
+        boxes_mm: ends.map(|key| key.map_or([0.0; 3], |key| size_mm(motion, &key.states, bodies))),
     })
 }
 
 /// Returns every shell with its cap, in the shell's frame.
-fn shell_bodies(evidence: &TelescopeEvidence) -> Vec<Body> {
+pub(super) fn shell_bodies(evidence: &TelescopeEvidence) -> Vec<Body> {
     let shells = 0..evidence.motion.shells.len();
     let body = |shell: usize| {
         let parts = evidence.promise.parts.iter().zip(&evidence.parts);
@@ -200,7 +215,7 @@ impl Looked {
     }
 }
 
-fn mixed(from: &[[f64; 2]], to: &[[f64; 2]], share: f64) -> Vec<[f64; 2]> {
+pub(super) fn mixed(from: &[[f64; 2]], to: &[[f64; 2]], share: f64) -> Vec<[f64; 2]> {
     let ends = from.iter().zip(to);
     ends.map(|(a, b)| [0, 1].map(|i| a[i] + (b[i] - a[i]) * share))
         .collect()
@@ -235,42 +250,4 @@ fn size_mm(motion: &TelescopeMotion, states: &[[f64; 2]], bodies: &[Body]) -> [f
         .map(|(body, frame)| moved(&body.mesh, &seen_from(root, frame)).aabb());
     let whole = boxes.fold(Aabb::EMPTY, |whole, part| whole.union(&part));
     whole.size().into()
-}
-
-/// The facts about the surfaces of the parts, and how they lie.
-#[derive(Default)]
-struct Surfaces {
-    broken: Vec<String>,
-    crossings: usize,
-    in_pieces: Vec<String>,
-    above_plate_mm: f64,
-    too_large: Vec<String>,
-}
-
-impl Surfaces {
-    fn of(evidence: &TelescopeEvidence, watch: &Watch) -> Result<Self, Cancelled> {
-        let mut found = Self::default();
-        let room = evidence.promise.printer.build_volume_mm;
-        for (part, mesh) in evidence.promise.parts.iter().zip(&evidence.parts) {
-            watch.check()?;
-            let welded = weld(mesh);
-            let defects = Defects::of(&welded);
-            let broken = defects.map(|defects| format!("{}: {defects}", part.id));
-            found.broken.extend(broken);
-            found.crossings += Crossings::of_watched(&welded, watch)?.pairs;
-            let is_one = bodies(&welded).len() == 1;
-            found.in_pieces.extend((!is_one).then(|| part.id.clone()));
-            let printed = mesh
-                .map_vertices(|p| part.print_from_shell.to_print(p))
-                .aabb();
-            found.above_plate_mm = found.above_plate_mm.max(printed.min.z.abs());
-            let size = printed.size();
-            let fits = room.is_none_or(|[x, y, z]| {
-                let lies = |a: f64, b: f64| a <= x && b <= y;
-                size.z <= z && (lies(size.x, size.y) || lies(size.y, size.x))
-            });
-            found.too_large.extend((!fits).then(|| part.id.clone()));
-        }
-        Ok(found)
-    }
 }

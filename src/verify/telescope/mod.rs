@@ -10,18 +10,30 @@ mod deviation;
 mod evidence;
 mod facts;
 mod motion;
+mod network;
+mod network_checks;
+mod network_facts;
+mod network_reading;
+mod network_seats;
 mod packages;
 mod promise;
 mod reading;
 mod shells;
 mod standing;
 mod stops;
+mod surfaces;
 
 pub use checks::telescope_checks;
 pub use evidence::TelescopeEvidence;
 pub use facts::{TelescopeFacts, judge_telescope};
 pub use motion::{JointMotion, MotionKey, ShellMotion, TelescopeMotion};
+pub use network::{
+    JuncturePromise, LimbPromise, NetworkEvidence, NetworkKey, NetworkMotion, NetworkPromise,
+};
+pub use network_checks::network_checks;
+pub use network_facts::{NetworkFacts, judge_network};
+pub use network_reading::{limb_curve_file, verify_telescope};
 pub use promise::{
     BalancePromise, DeviationPromise, JointPromise, TelescopePartPromise, TelescopePromise,
 };
-pub use reading::{CURVE_FILE, MOTION_FILE, TelescopeVerifyError, asked_points, verify_telescope};
+pub use reading::{CURVE_FILE, MOTION_FILE, TelescopeVerifyError, asked_points};

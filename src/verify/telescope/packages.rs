@@ -2,6 +2,7 @@
 
 use super::evidence::TelescopeEvidence;
 use super::motion::MotionKey;
+use super::network::{NetworkEvidence, NetworkKey};
 use crate::geom::Vector;
 use crate::verify::Check;
 use crate::verify::kind_packages::{Named, Packages};
@@ -47,4 +48,52 @@ fn together(evidence: &TelescopeEvidence, key: &MotionKey) -> Vec<Named> {
         }
     });
     placed.collect()
+}
+
+/// Checks all packages that the kit of several telescopes lists.
+pub fn network_packages_check(folder: &KitFolder, evidence: &NetworkEvidence) -> Check {
+    let promise = &evidence.promise;
+    let scale = Vector::from(promise.printer.print_scale_ratio.unwrap_or([1.0; 3]));
+    let limbs = evidence.limbs.iter().flat_map(|limb| {
+        let parts = limb.promise.parts.iter().zip(&limb.parts);
+        parts.map(|(part, mesh)| (&part.id, &part.print_from_shell, mesh))
+    });
+    let junctures = promise.junctures.iter().zip(&evidence.junctures);
+    let junctures = junctures.map(|(own, mesh)| (&own.id, &own.print_from_model, mesh));
+    let printed = limbs.chain(junctures).map(|(id, pose, mesh)| Named {
+        name: id.clone(),
+        body: mesh.map_vertices(|p| pose.to_print(p).coords.component_mul(&scale).into()),
+    });
+    let keys = &evidence.motion.keys;
+    let ends = [
+        ("collapsed.3mf", keys.first()),
+        ("extended.3mf", keys.last()),
+    ];
+    let placed = ends
+        .into_iter()
+        .filter_map(|(file, key)| Some((file, all_together(evidence, key?))));
+    let packages = Packages {
+        folder: folder.path,
+        placed: placed.collect(),
+        printed: printed.collect(),
+    };
+    packages.check(promise.files.keys())
+}
+
+/// Returns the parts of several telescopes in their places at a key.
+fn all_together(evidence: &NetworkEvidence, key: &NetworkKey) -> Vec<Named> {
+    let places = evidence.places(&key.states);
+    let limbs = evidence.limbs.iter().zip(&places.shells);
+    let shells = limbs.flat_map(|(limb, frames)| {
+        let parts = limb.promise.parts.iter().zip(&limb.parts);
+        parts.map(|(part, mesh)| (&part.id, &frames[part.shell - 1], mesh))
+    });
+    let junctures = evidence.promise.junctures.iter().zip(&evidence.junctures);
+    let junctures = junctures.zip(&places.junctures);
+    let junctures = junctures.map(|((own, mesh), frame)| (&own.id, frame, mesh));
+    let all = shells.chain(junctures).map(|(id, frame, mesh)| Named {
+        name: id.clone(),
+        body: mesh.map_vertices(|p| frame.to_model(p)),
+    });
+    all.collect()
 }

@@ -1,6 +1,6 @@
 //! Reading a telescope's kit from its folder, and the judgement of it.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use super::checks::telescope_checks;
 use super::evidence::TelescopeEvidence;
@@ -44,17 +44,16 @@ pub enum TelescopeVerifyError {
 ///
 /// # Errors
 /// There is no such kit in the folder, a file of it cannot be read, or the watch was stopped.
-pub fn verify_telescope(
-    folder: &Path,
+pub(super) fn verify_curve(
+    folder: &KitFolder,
     watch: &Watch,
 ) -> Result<KindJudgement, TelescopeVerifyError> {
-    let folder = KitFolder { path: folder };
-    let evidence = read(&folder)?;
+    let evidence = read(folder)?;
     let facts = judge_telescope(&evidence, watch)?;
     let checks = telescope_checks(&evidence.promise, &facts);
     let papers = [CHECKLIST_FILE, SHEET_FILE, CERTIFICATE_FILE];
     let mut judgement = folder.judgement(checks, &evidence.promise.files, &papers)?;
-    judgement.checks.push(packages_check(&folder, &evidence));
+    judgement.checks.push(packages_check(folder, &evidence));
     Ok(judgement)
 }
 
@@ -66,15 +65,7 @@ fn read(folder: &KitFolder) -> Result<TelescopeEvidence, TelescopeVerifyError> {
     }
     let named = promise.parts.iter().map(|part| &part.file);
     all_inside_kit(named.chain(promise.files.keys()))?;
-    let scale = promise.printer.print_scale_ratio.map(Vector::from);
-    let part = |part: &TelescopePartPromise| {
-        let mesh = read_model(&folder.path.join(&part.file))?;
-        let nominal = scale.map_or(mesh.clone(), |scale| {
-            mesh.map_vertices(|p| p.coords.component_div(&scale).into())
-        });
-        Ok(nominal.map_vertices(|p| part.print_from_shell.to_model(p)))
-    };
-    let parts: Result<Vec<TriMesh>, KitFolderError> = promise.parts.iter().map(part).collect();
+    let parts = read_parts(folder, &promise);
     let asked = asked_points(&folder.bytes(CURVE_FILE)?);
     let asked = asked.map_err(|fault| TelescopeVerifyError::Points {
         path: folder.path.join(CURVE_FILE),
@@ -88,6 +79,32 @@ fn read(folder: &KitFolder) -> Result<TelescopeEvidence, TelescopeVerifyError> {
     })
 }
 
+/// Reads the parts of a telescope, each in its shell's frame and its own size.
+pub(super) fn read_parts(
+    folder: &KitFolder,
+    promise: &TelescopePromise,
+) -> Result<Vec<TriMesh>, KitFolderError> {
+    let scale = promise.printer.print_scale_ratio.map(Vector::from);
+    let part = |part: &TelescopePartPromise| {
+        let nominal = read_nominal(folder, &part.file, scale)?;
+        Ok(nominal.map_vertices(|p| part.print_from_shell.to_model(p)))
+    };
+    promise.parts.iter().map(part).collect()
+}
+
+/// Reads a part as it is printed, without the scale of the print.
+pub(super) fn read_nominal(
+    folder: &KitFolder,
+    file: &str,
+    scale: Option<Vector>,
+) -> Result<TriMesh, KitFolderError> {
+    let mesh = read_model(&folder.path.join(file))?;
+    Ok(match scale {
+        Some(scale) => mesh.map_vertices(|p| p.coords.component_div(&scale).into()),
+        None => mesh,
+    })
+}
+
 /// Returns the points that were asked for: the first three columns of `curve.csv`.
 pub fn asked_points(bytes: &[u8]) -> Result<Vec<Point>, PointsError> {
     let text = String::from_utf8_lossy(bytes);
@@ -97,7 +114,10 @@ pub fn asked_points(bytes: &[u8]) -> Result<Vec<Point>, PointsError> {
 }
 
 /// Returns the reason why a motion is not that of the promises.
-fn mismatch(promise: &TelescopePromise, motion: &TelescopeMotion) -> Option<&'static str> {
+pub(super) fn mismatch(
+    promise: &TelescopePromise,
+    motion: &TelescopeMotion,
+) -> Option<&'static str> {
     let shells = motion.shells.len();
     let joints = motion.joints.len();
     let states = |key: &MotionKey| key.states.len() == joints;

@@ -1,0 +1,259 @@
+//! The job sheet of several telescopes on junctures, in the order in which the shop works.
+
+use maud::{Markup, html};
+
+use super::document::styled_document;
+use super::fields::{blank, file_name, sentence};
+use super::figure::{Picture, Role, figures};
+use super::job_id::JobId;
+use super::running::{code, on_screen, style};
+use super::telescope::{
+    STEPS, TelescopePage, assemble, clean, dry_fit, glue, joint_line, sign_off, verdict,
+};
+use crate::base::numbers::{measured, measured_extent, number};
+use crate::base::units::format_count;
+use crate::sheet::network::{LimbRow, NetworkSheet};
+use crate::sheet::telescope::JointRow;
+
+/// Everything the pages of several telescopes show.
+#[derive(Debug, Clone, Copy)]
+pub struct NetworkPage<'a> {
+    /// The checklist.
+    pub sheet: &'a NetworkSheet,
+    /// SHA-256 of `checklist.json`, hexadecimal.
+    pub sha256: &'a str,
+    /// The pictures.
+    pub pictures: &'a [Picture],
+}
+
+impl<'a> NetworkPage<'a> {
+    pub(super) fn job_id(&self) -> JobId<'a> {
+        JobId {
+            name: &self.sheet.job,
+            sha256: self.sha256,
+        }
+    }
+
+    fn limb(&self, limb: &'a LimbRow) -> TelescopePage<'a> {
+        TelescopePage {
+            sheet: &limb.sheet,
+            sha256: self.sha256,
+            pictures: &[],
+        }
+    }
+}
+
+/// Returns the job sheet as a self-contained HTML page with its pictures.
+pub fn network_job(page: &NetworkPage) -> String {
+    let job = page.job_id();
+    let steps = [print, wash, try_dry, put_together, open, test];
+    let body = html! {
+        (cover(page, &job))
+        main {
+            @for (index, (name, step)) in STEPS.into_iter().zip(steps).enumerate() {
+                section class="step" {
+                    h2 id=(format!("step-{}", index + 1)) { (index + 1) ". " (name) }
+                    (step(page))
+                }
+            }
+            (sign_off())
+        }
+    };
+    let title = format!("Job sheet: {}", page.sheet.job);
+    styled_document(&title, &body, &style(&job))
+}
+
+/// Words what the figure does, in one sentence.
+pub(super) fn promise(sheet: &NetworkSheet) -> String {
+    let shells: usize = sheet.limbs.iter().map(|limb| limb.sheet.shells.len()).sum();
+    format!(
+        "{} of {} on {}, which open from {} to {}.",
+        format_count(sheet.limbs.len(), "limb"),
+        format_count(shells, "shell"),
+        format_count(sheet.junctures.len(), "juncture"),
+        measured_extent(&sheet.collapsed_mm),
+        measured_extent(&sheet.extended_mm),
+    )
+}
+
+/// Returns the id of a juncture, from 1.
+pub(super) fn juncture(sheet: &NetworkSheet, number: usize) -> &str {
+    let own = sheet.junctures.get(number.saturating_sub(1));
+    own.map_or("", |own| own.id.as_str())
+}
+
+fn cover(page: &NetworkPage, job: &JobId) -> Markup {
+    let sheet = page.sheet;
+    html! {
+        header class="cover" {
+            (on_screen(job))
+            div class="title" {
+                p class="small" { "Job sheet" }
+                h1 { (sheet.job) }
+                p { "Job id " strong { (job.short()) } }
+                p class="promise" { (promise(sheet)) }
+                (verdict(sheet))
+            }
+            div class="code" { (code(job)) }
+        }
+        section aria-label="Overview" {
+            p class="fields" {
+                @for field in ["Order", "Quantity", "Due", "Machine", "Material lot"] {
+                    span class="field" { (field) " " (blank()) } " "
+                }
+            }
+            @for warning in &sheet.warnings { p class="warn" { strong { "Warning: " } (sentence(warning)) } }
+            (figures(page.pictures, Role::State))
+            (facts(sheet))
+            (figures(page.pictures, Role::Exploded))
+        }
+    }
+}
+
+fn facts(sheet: &NetworkSheet) -> Markup {
+    let parts: usize = sheet.limbs.iter().map(|limb| limb.sheet.parts.len()).sum();
+    let parts = parts + sheet.junctures.len();
+    let rows: [(&str, String); 7] = [
+        ("All in", measured_extent(&sheet.collapsed_mm)),
+        ("All out", measured_extent(&sheet.extended_mm)),
+        ("Printer", sheet.printer.name.clone()),
+        ("Material", sheet.material.name.clone()),
+        ("Mass", measured(sheet.mass_g, "g")),
+        ("Kit", format_count(parts, "part")),
+        ("Opens", format!("limb {}", sheet.order.join(", then "))),
+    ];
+    html! {
+        table class="facts" {
+            @for (name, words) in rows { tr { th scope="row" { (name) } td { (words) } } }
+        }
+        @if !sheet.solid.is_empty() { p class="small" { "Stays solid: " (sheet.solid.join("; ")) "." } }
+    }
+}
+
+fn print(page: &NetworkPage) -> Markup {
+    let sheet = page.sheet;
+    html! {
+        p {
+            "Layers of " (number(sheet.printer.layer_mm)) "\u{a0}mm, never scaled."
+            @if sheet.printer.is_filament { " Solid shells and caps (100 % infill); junctures as you like." }
+            " The parts lie in their files as they are printed; the plates hold all of them."
+        }
+        table class="stack" {
+            thead {
+                tr {
+                    th scope="col" { "Part" } th scope="col" { "Lies" } th scope="col" { "Support" }
+                    th scope="col" class="n" { "Size" } th scope="col" class="n" { "Mass" }
+                }
+            }
+            tbody {
+                @for (part, row) in sheet.junctures.iter().zip(&sheet.juncture_rows) {
+                    tr {
+                        th scope="row" { "☐ " (row.id) " " (file_name(&part.file)) }
+                        td data-head="Lies" { (row.lies) }
+                        td data-head="Support" { @if row.is_free_of_support { "none" } @else { "as the slicer finds" } }
+                        td class="n" data-head="Size" { (measured_extent(&row.size_mm)) }
+                        td class="n" data-head="Mass" { (measured(row.mass_g, "g")) }
+                    }
+                }
+                @for limb in &sheet.limbs {
+                    @for (part, row) in limb.sheet.parts.iter().zip(&limb.sheet.part_rows) {
+                        tr {
+                            th scope="row" { "☐ " (row.id) " " (file_name(&part.file)) }
+                            td data-head="Lies" { (row.lies) }
+                            td data-head="Support" { @if row.is_free_of_support { "none" } @else { "outside only" } }
+                            td class="n" data-head="Size" { (measured_extent(&row.size_mm)) }
+                            td class="n" data-head="Mass" { (measured(row.mass_g, "g")) }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn wash(page: &NetworkPage) -> Markup {
+    let first = page.sheet.limbs.first();
+    html! {
+        @if let Some(limb) = first { (clean(&page.limb(limb))) }
+        ul class="ticks" {
+            li { "Clear the sockets of the junctures and the grooves beside them: the air leaves through them." }
+        }
+    }
+}
+
+fn try_dry(page: &NetworkPage) -> Markup {
+    html! {
+        @for limb in &page.sheet.limbs {
+            h3 { "Limb " (limb.id) }
+            (dry_fit(&page.limb(limb)))
+        }
+        ul class="ticks" {
+            li { "Try every root in its socket and every peg in its mouth: flat on flat, slot on key, one way only." }
+        }
+    }
+}
+
+fn put_together(page: &NetworkPage) -> Markup {
+    let sheet = page.sheet;
+    html! {
+        p { "Limb by limb, those farthest from " (juncture(sheet, 1)) " first. Every limb is closed before it goes into its socket." }
+        @for limb in sheet.limbs.iter().rev() {
+            h3 { "Limb " (limb.id) }
+            (assemble(&page.limb(limb)))
+            ul class="ticks" {
+                @if let Some(last) = limb.sheet.shells.last() {
+                    li { "Glue the peg of " (juncture(sheet, limb.to)) " into the mouth of " (last.id) ", slot on key." }
+                }
+                @if let Some(root) = limb.sheet.shells.first() {
+                    li { "Glue " (root.id) " into its socket in " (juncture(sheet, limb.from)) ", cap first, flat on flat. No glue in the groove, none near the mouth." }
+                }
+            }
+        }
+        (glue(&sheet.printer))
+    }
+}
+
+fn open(page: &NetworkPage) -> Markup {
+    let sheet = page.sheet;
+    let limbs = sheet
+        .order
+        .iter()
+        .filter_map(|id| sheet.limbs.iter().find(|limb| limb.id == *id));
+    html! {
+        p { "Open one limb after the other in this order, and each joint by joint as listed: other orders were not proved free. Close them the other way round." }
+        @for limb in limbs {
+            h3 { "Limb " (limb.id) }
+            table class="stack" {
+                thead {
+                    tr {
+                        th scope="col" { "Joint" } th scope="col" class="n" { "Comes out" }
+                        th scope="col" { "Then turns" } th scope="col" { "Slides" }
+                        th scope="col" { "Stops" } th scope="col" { "Holds" }
+                    }
+                }
+                tbody { @for joint in joints(limb) { (joint_line(joint)) } }
+            }
+        }
+    }
+}
+
+/// Returns the joints of a limb in the order in which they open.
+fn joints(limb: &LimbRow) -> Vec<&JointRow> {
+    let order = limb.sheet.order.iter().flatten();
+    let row = |id: &String| limb.sheet.joint_rows.iter().find(|joint| joint.id == *id);
+    order.filter_map(row).collect()
+}
+
+fn test(page: &NetworkPage) -> Markup {
+    html! {
+        ul class="ticks" {
+            li { "Open and close it three times. No joint may jam, come apart, or need a tool." }
+            @for limb in &page.sheet.limbs {
+                li {
+                    "All out, the tip of limb " (limb.id) " may be moved by "
+                    (measured(limb.sheet.tip_play_mm, "mm")) " at most, by hand and without force."
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,130 @@
+//! The checklist of several telescopes on junctures, for people and for machines.
+
+use std::collections::BTreeMap;
+
+use serde::Serialize;
+
+use super::kind::kind_sheet;
+use super::telescope::{CurveRow, TelescopeMaterial, TelescopePrinter, TelescopeSheet};
+use super::{KindSheet, Verdict};
+use crate::verify::{Check, JuncturePromise};
+
+/// The version of the keys.
+pub const NETWORK_SHEET_SCHEMA: u32 = 1;
+
+/// Everything the sheets of several telescopes say: `checklist.json`.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct NetworkSheet {
+    /// The version of the keys.
+    pub schema: u32,
+    /// Always `network`.
+    pub kind: &'static str,
+    /// The name of the job.
+    pub job: String,
+    /// The version of the program.
+    pub version: &'static str,
+    /// The verdict over all checks.
+    pub verdict: Verdict,
+    /// The printer.
+    pub printer: TelescopePrinter,
+    /// The material.
+    pub material: TelescopeMaterial,
+    /// The skeleton or the model; its length is the longest side.
+    pub input: CurveRow,
+    /// Clearance of glued joints, mm.
+    pub glue_mm: f64,
+    /// The telescopes, each after the one that carries it.
+    pub limbs: Vec<LimbRow>,
+    /// The junctures. The first stands still.
+    pub junctures: Vec<JuncturePromise>,
+    /// What the shop needs to know of each juncture, in the same order.
+    pub juncture_rows: Vec<JunctureRow>,
+    /// The names of the limbs in the order in which they open.
+    pub order: Vec<String>,
+    /// The limbs that stay solid, in words.
+    pub solid: Vec<String>,
+    /// The mass of all parts, g.
+    pub mass_g: f64,
+    /// The centre of mass at every key of the motion, mm, in the model's frame.
+    pub centres_mm: Vec<[f64; 3]>,
+    /// The box when all in, along the model's axes, mm.
+    pub collapsed_mm: [f64; 3],
+    /// The box when all out, along the model's axes, mm.
+    pub extended_mm: [f64; 3],
+    /// Warnings.
+    pub warnings: Vec<String>,
+    /// Every promise with its verdict: of each kind the worst of all limbs.
+    pub checks: Vec<Check>,
+    /// The SHA-256 of every other file of the kit.
+    pub files: BTreeMap<String, String>,
+}
+
+kind_sheet!(NetworkSheet);
+
+/// A telescope between two junctures.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct LimbRow {
+    /// Its name, such as `A`.
+    pub id: String,
+    /// The juncture that holds its root, from 1.
+    pub from: usize,
+    /// The juncture that its last shell carries, from 1.
+    pub to: usize,
+    /// Its own checklist.
+    pub sheet: TelescopeSheet,
+}
+
+/// A juncture as the shop handles it.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct JunctureRow {
+    /// The name on the sheet.
+    pub id: String,
+    /// How it lies on the plate.
+    pub lies: String,
+    /// Extent in print pose, mm.
+    pub size_mm: [f64; 3],
+    /// Mass, g.
+    pub mass_g: f64,
+    /// True if it prints without support.
+    pub is_free_of_support: bool,
+}
+
+/// The checklist of one telescope, or of several on junctures.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(untagged)]
+pub enum AnyTelescopeSheet {
+    /// One along a curve.
+    Curve(Box<TelescopeSheet>),
+    /// Several along a skeleton.
+    Network(Box<NetworkSheet>),
+}
+
+impl AnyTelescopeSheet {
+    fn inner(&self) -> &dyn KindSheet {
+        match self {
+            Self::Curve(sheet) => &**sheet,
+            Self::Network(sheet) => &**sheet,
+        }
+    }
+}
+
+impl KindSheet for AnyTelescopeSheet {
+    fn verdict(&self) -> Verdict {
+        self.inner().verdict()
+    }
+
+    fn checks(&self) -> &[Check] {
+        self.inner().checks()
+    }
+
+    fn warnings(&self) -> &[String] {
+        self.inner().warnings()
+    }
+
+    fn list_files(&mut self, files: BTreeMap<String, String>) {
+        match self {
+            Self::Curve(sheet) => sheet.list_files(files),
+            Self::Network(sheet) => sheet.list_files(files),
+        }
+    }
+}

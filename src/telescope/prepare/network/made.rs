@@ -1,0 +1,127 @@
+//! The parts of a network as files: those of every limb, and the junctures.
+
+use rayon::prelude::*;
+
+use super::super::error::TelescopeRunError;
+use super::super::load_skeleton::{LoadedSkeleton, Shop};
+use super::super::made::{Made, Printing, make};
+use super::super::poses::{Laid, Lies, lay_juncture};
+use super::bodies::{body, last};
+use super::tree::Tree;
+use crate::base::verdict::Verdict;
+use crate::base::watch::{Phase, Watch};
+use crate::geom::{Vector, orthonormal_basis};
+use crate::job::telescope::{JunctureKind, TelescopeJob};
+use crate::mesh::{ClipError, Solid, TriMesh};
+use crate::verify::Pose;
+
+/// A juncture as it was written.
+pub struct WrittenJuncture {
+    pub id: String,
+    pub lies: Lies,
+    /// Model frame, with all out, to print frame.
+    pub pose: Pose,
+    pub file: String,
+    pub bytes: Vec<u8>,
+    /// The triangles read back, in print pose, in the part's own size.
+    pub read_back: TriMesh,
+}
+
+impl WrittenJuncture {
+    /// Returns the mesh where it is when all is out, as the file holds it.
+    pub fn in_model(&self) -> TriMesh {
+        self.read_back.map_vertices(|p| self.pose.to_model(p))
+    }
+}
+
+/// Where a network is made.
+pub struct Workshop<'a> {
+    pub job: &'a TelescopeJob,
+    pub shop: &'a Shop,
+    pub loaded: &'a LoadedSkeleton,
+    pub watch: &'a Watch,
+}
+
+impl Workshop<'_> {
+    /// Makes the parts of every limb; the answer may be that a limb cannot be printed.
+    pub fn limbs(&self, tree: &Tree) -> Result<Verdict<Vec<Made>, Refused>, TelescopeRunError> {
+        let mut all = Vec::new();
+        for (index, (limb, designed)) in tree.network.limbs.iter().zip(&tree.limbs).enumerate() {
+            let asked = designed.order.asked(self.shop, &prefix(&limb.id))?;
+            match make(&asked, designed.best.clone(), self.watch)? {
+                Verdict::Found(made) => all.push(made),
+                Verdict::No(refused) => {
+                    let why = refused.reason.to_string();
+                    return Ok(Verdict::No(Refused { limb: index, why }));
+                }
+            }
+        }
+        Ok(Verdict::Found(all))
+    }
+
+    /// Makes the junctures.
+    pub fn junctures(&self, tree: &Tree) -> Result<Vec<WrittenJuncture>, TelescopeRunError> {
+        self.watch.enter(Phase::Parts);
+        let kind = self.job.junctures.unwrap_or(JunctureKind::Ball);
+        let count = 0..tree.network.junctures;
+        let solids: Vec<Solid> = count
+            .into_par_iter()
+            .map(|juncture| body(tree, juncture, kind))
+            .collect::<Result<_, ClipError>>()?;
+        let printing = Printing {
+            shop: self.shop,
+            watch: self.watch,
+        };
+        let written = solids.into_par_iter().enumerate().map(|(index, solid)| {
+            let laid = self.lay(solid.mesh(), &self.down(tree, index));
+            let id = format!("N{:02}", index + 1);
+            let name = format!("{}_{id}", self.job.name());
+            let file = printing.write(&name, &laid, &solid)?;
+            Ok(WrittenJuncture {
+                id,
+                lies: laid.lies,
+                pose: laid.pose,
+                file: file.file,
+                bytes: file.bytes,
+                read_back: file.read_back,
+            })
+        });
+        written.collect()
+    }
+
+    /// Lays a juncture with this direction down, or with another if it fits into the printer so.
+    fn lay(&self, mesh: &TriMesh, down: &Vector) -> Laid {
+        let (u, v) = orthonormal_basis(down);
+        let fits = |laid: &Laid| {
+            let printed = mesh.map_vertices(|p| laid.pose.to_print(p));
+            self.shop.printer.fits(printed.aabb().size().into()) != Some(false)
+        };
+        let others = [-down, u, -u, v, -v];
+        let usual = lay_juncture(mesh, down);
+        if fits(&usual) {
+            return usual;
+        }
+        let mut laid = others.iter().map(|down| lay_juncture(mesh, down));
+        laid.find(fits).unwrap_or(usual)
+    }
+
+    /// Returns the direction that points down in print: away from the peg, or the model's down.
+    fn down(&self, tree: &Tree, juncture: usize) -> Vector {
+        let mut limbs = tree.network.limbs.iter();
+        let carrier = limbs.find(|limb| limb.to == juncture);
+        carrier.map_or(-self.loaded.up, |limb| {
+            last(&limb.telescope).1.axes.column(0).into()
+        })
+    }
+}
+
+/// A limb that cannot be printed, from 0, and why.
+pub struct Refused {
+    pub limb: usize,
+    pub why: String,
+}
+
+/// Returns what the ids of a limb's parts begin with.
+pub fn prefix(limb: &str) -> String {
+    format!("{limb}-")
+}

@@ -1,0 +1,199 @@
+//! The line from a skeleton to the kit of several telescopes: plan, design, make, sweep, judge.
+//!
+//! Every limb is a telescope of its own, as along a curve. Its root is glued into the socket of the
+//! juncture it grows from, and its last shell carries the next juncture on a peg. A limb that
+//! cannot be made stays solid, and the search begins again without it.
+
+mod bodies;
+mod draft;
+mod limb;
+mod made;
+mod papers;
+mod plan;
+mod sweep;
+mod tree;
+
+use self::draft::{MadeNetwork, draft};
+use self::limb::Studio;
+use self::made::Workshop;
+use self::plan::Measures;
+use self::sweep::{Bodies, Hit, Item};
+use self::tree::{Kept, Search, Tree};
+use super::advise::Tried;
+use super::asked::basics;
+use super::error::TelescopeRunError;
+use super::load_skeleton::{LoadedSkeleton, Shop};
+use crate::base::setting::{Key, Setting};
+use crate::base::units::Length;
+use crate::base::verdict::Verdict;
+use crate::base::watch::Watch;
+use crate::job::telescope::{ShellCount, Stance, TelescopeJob};
+use crate::mesh::TriMesh;
+use crate::sheet::network::NetworkSheet;
+use crate::skeleton::ShellSizes;
+use crate::wing::{Impossible, Outcome};
+
+/// Prepares the telescopes of a skeleton to their end: a kit, or the reason why there is none.
+pub fn prepare(
+    job: &TelescopeJob,
+    shop: &Shop,
+    loaded: &LoadedSkeleton,
+    watch: &Watch,
+) -> Result<Outcome<NetworkSheet, Tried>, TelescopeRunError> {
+    if job.goal == Stance::Stand {
+        let setting = Setting::new(Key::Goal, Stance::Stand);
+        return Err(TelescopeRunError::NoFoot(setting));
+    }
+    let studio = studio(job, shop, loaded, watch)?;
+    let workshop = Workshop {
+        job,
+        shop,
+        loaded,
+        watch,
+    };
+    let mut search = search(&studio, loaded);
+    loop {
+        let round = match search.find()? {
+            Err(rings) => return Ok(no_tree(&rings)),
+            Ok(None) => return Ok(no_limb(&search.kept)),
+            Ok(Some(round)) => round,
+        };
+        let skeleton = search.skeleton.clone();
+        let Some(tree) = search.tree(&round, &skeleton) else {
+            return Ok(no_limb(&search.kept));
+        };
+        match attempt(&workshop, tree, &search.kept)? {
+            Verdict::Found(made) => {
+                let draft = draft(&workshop, &made)?;
+                let prepared = papers::finish(&workshop, &made, draft)?;
+                return Ok(Outcome::Prepared(Box::new(prepared)));
+            }
+            Verdict::No((limb, why)) => search.keep(Search::nodes_of(&round, limb), why),
+        }
+    }
+}
+
+/// Makes the parts of a network and finds a sequence that is free; else names the limb to keep
+/// solid, and why.
+fn attempt<'a>(
+    workshop: &Workshop,
+    tree: Tree<'a>,
+    kept: &[Kept],
+) -> Result<Verdict<MadeNetwork<'a>, (usize, String)>, TelescopeRunError> {
+    let limbs = match workshop.limbs(&tree)? {
+        Verdict::Found(limbs) => limbs,
+        Verdict::No(refused) => return Ok(Verdict::No((refused.limb, refused.why))),
+    };
+    let junctures = workshop.junctures(&tree)?;
+    let meshes: Vec<TriMesh> = junctures.iter().map(|own| own.in_model()).collect();
+    let refs: Vec<_> = limbs.iter().collect();
+    let bodies = Bodies::new(&tree.network, &refs, meshes);
+    let found = bodies.sequence(workshop.watch)?;
+    drop(bodies);
+    match found {
+        Ok(sequence) => Ok(Verdict::Found(MadeNetwork {
+            solid: kept.iter().map(words).collect(),
+            tree,
+            limbs,
+            junctures,
+            sequence,
+        })),
+        Err(hit) => {
+            let why = hit_words(&tree, &hit);
+            Ok(Verdict::No((hit.limb, why)))
+        }
+    }
+}
+
+fn words(kept: &Kept) -> String {
+    let [from, to] = kept.ends;
+    format!("nodes {from} to {to}: {}", kept.why)
+}
+
+fn hit_words(tree: &Tree, hit: &Hit) -> String {
+    let limb = |limb: usize| &tree.network.limbs[limb].id;
+    let word = |item: &Item| match item {
+        Item::Shell { limb: own, shell } => format!("{}-S{:02}", limb(*own), shell + 1),
+        Item::Juncture(index) => format!("N{:02}", index + 1),
+    };
+    let [a, b] = [word(&hit.items[0]), word(&hit.items[1])];
+    format!(
+        "{a} and {b} run into each other when limb {} opens",
+        limb(hit.limb)
+    )
+}
+
+/// Returns the measures for the limbs of a skeleton.
+fn studio<'a>(
+    job: &'a TelescopeJob,
+    shop: &'a Shop,
+    loaded: &LoadedSkeleton,
+    watch: &'a Watch,
+) -> Result<Studio<'a>, TelescopeRunError> {
+    let basics = basics(job, shop, loaded.longest_mm)?;
+    let measures = Measures {
+        least: basics.least,
+        tip_mm: basics.tip_mm,
+        shells: match job.shells {
+            ShellCount::Auto => None,
+            ShellCount::Given(count) => Some(count),
+        },
+        root_mm: job.root_radius.map_or(f64::INFINITY, Length::mm),
+        solid_mm: job.keep_solid.map_or(0.0, Length::mm),
+    };
+    Ok(Studio {
+        job,
+        shop,
+        measures,
+        watch,
+    })
+}
+
+/// Begins the search, with the branches marked that carry no two shells.
+fn search<'a>(studio: &'a Studio<'a>, loaded: &LoadedSkeleton) -> Search<'a> {
+    let sizes = ShellSizes {
+        least_radius_mm: studio.measures.tip_mm,
+        pitch_mm: studio.measures.least.pitch_mm(),
+    };
+    let mut skeleton = loaded.skeleton.clone();
+    if let Some(solid) = &loaded.solid {
+        skeleton.mark_solid(solid, &sizes);
+    }
+    let marked = skeleton.branches.iter();
+    let kept = marked.filter_map(|branch| {
+        let ends = [branch.nodes[0], branch.nodes[branch.nodes.len() - 1]];
+        let why = branch.solid?.to_string();
+        let ends = ends.map(|node| skeleton.nodes[node].id);
+        Some(Kept { ends, why })
+    });
+    Search {
+        studio,
+        sizes,
+        kept: kept.collect(),
+        skeleton,
+        ends: Vec::new(),
+        known: Vec::new(),
+    }
+}
+
+/// Returns the answer that rings cannot open.
+fn no_tree(rings: &crate::skeleton::NotATree) -> Outcome<NetworkSheet, Tried> {
+    Outcome::Impossible(Box::new(Impossible {
+        is_proved: true,
+        ..Impossible::new(rings.to_string())
+    }))
+}
+
+/// Returns the answer that no limb carries two shells.
+fn no_limb(kept: &[Kept]) -> Outcome<NetworkSheet, Tried> {
+    let why: Vec<String> = kept.iter().map(words).collect();
+    let why = match why.is_empty() {
+        true => String::new(),
+        false => format!(": {}", why.join("; ")),
+    };
+    let hints = vec!["make it larger, its walls thinner, or take a finer printer".to_owned()];
+    Outcome::Impossible(Box::new(Impossible {
+        hints,
+        ..Impossible::new(format!("no limb carries two shells{why}"))
+    }))
+}

@@ -1,0 +1,136 @@
+//! What the judge of several telescopes on junctures sees.
+
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+
+use super::evidence::TelescopeEvidence;
+use super::motion::{TelescopeMotion, frame_of};
+use super::promise::TelescopePromise;
+use crate::geom::Frame;
+use crate::mesh::TriMesh;
+use crate::verify::{Density, Pose, PrinterLimits};
+
+/// The promises of a kit of several telescopes.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+pub struct NetworkPromise {
+    /// The version of the keys.
+    pub schema: u32,
+    /// The limits of the printer.
+    pub printer: PrinterLimits,
+    /// The material of the parts.
+    pub material: Density,
+    /// The clearance of glued joints, mm.
+    pub glue_mm: f64,
+    /// The telescopes, each after the one that carries it.
+    pub limbs: Vec<LimbPromise>,
+    /// The junctures. The first stands still.
+    pub junctures: Vec<JuncturePromise>,
+    /// The mass of all parts, g.
+    pub mass_g: f64,
+    /// The centre of mass at every key of the motion, mm.
+    pub centres_mm: Vec<[f64; 3]>,
+    /// The box of all parts when all in, along the model's axes, mm.
+    pub collapsed_mm: [f64; 3],
+    /// The same when all out, mm.
+    pub extended_mm: [f64; 3],
+    /// The SHA-256 of every other file of the kit.
+    #[serde(default)]
+    pub files: BTreeMap<String, String>,
+}
+
+/// A telescope between two junctures.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+pub struct LimbPromise {
+    /// Its name on the sheet, such as `A`.
+    pub id: String,
+    /// The juncture that holds its root, from 1.
+    pub from: usize,
+    /// The juncture that its last shell carries, from 1.
+    pub to: usize,
+    /// Its own promises.
+    pub sheet: TelescopePromise,
+}
+
+/// A juncture as the kit names it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct JuncturePromise {
+    /// The name on the sheet, such as `N01`.
+    pub id: String,
+    /// Its file, relative to the kit.
+    pub file: String,
+    /// The SHA-256 of that file, in hex.
+    pub sha256: String,
+    /// Coordinates of the model, with all out, to print coordinates.
+    pub print_from_model: Pose,
+}
+
+/// The motion of several telescopes: their `motion.json`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct NetworkMotion {
+    /// The version of the keys.
+    pub schema: u32,
+    /// The motion of each telescope alone, in the model's frame with all out.
+    pub limbs: Vec<TelescopeMotion>,
+    /// The ids of the telescopes in the order in which they open.
+    pub order: Vec<String>,
+    /// The states between moves, from all in to all out.
+    pub keys: Vec<NetworkKey>,
+}
+
+/// A state of all joints.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct NetworkKey {
+    /// Slide (mm) and turn (rad) of the joints of every telescope.
+    pub states: Vec<Vec<[f64; 2]>>,
+    /// The motion of every juncture from where it is when all is out, by rows.
+    pub junctures: Vec<Pose>,
+}
+
+/// Everything that the judge sees.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NetworkEvidence {
+    /// The promises.
+    pub promise: NetworkPromise,
+    /// The motion.
+    pub motion: NetworkMotion,
+    /// The evidence of every telescope.
+    pub limbs: Vec<TelescopeEvidence>,
+    /// The junctures where they are when all is out.
+    pub junctures: Vec<TriMesh>,
+}
+
+/// The places of all bodies in a state.
+pub(super) struct Places {
+    pub junctures: Vec<Frame>,
+    pub shells: Vec<Vec<Frame>>,
+}
+
+impl NetworkEvidence {
+    /// Returns the places of all bodies in a state, by the judge's own screws.
+    pub(super) fn places(&self, states: &[Vec<[f64; 2]>]) -> Places {
+        let count = self.promise.junctures.len();
+        let mut places = Places {
+            junctures: vec![Frame::identity(); count],
+            shells: Vec::new(),
+        };
+        let limbs = self.promise.limbs.iter().zip(&self.motion.limbs);
+        for ((limb, motion), state) in limbs.zip(states) {
+            let base = places.junctures[limb.from - 1];
+            let own = motion.frames(state);
+            let open: Vec<[f64; 2]> = motion
+                .joints
+                .iter()
+                .map(|joint| [joint.open_mm, joint.turn_rad])
+                .collect();
+            let root = frame_of(&motion.root);
+            let [now, out] = [own.clone(), motion.frames(&open)]
+                .map(|frames| frames.last().copied().unwrap_or(root));
+            let carried = now.frame_to_model(&out.inverse());
+            places.junctures[limb.to - 1] = base.frame_to_model(&carried);
+            let placed = own.iter().map(|frame| base.frame_to_model(frame));
+            places.shells.push(placed.collect());
+        }
+        places
+    }
+}

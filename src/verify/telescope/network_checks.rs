@@ -1,0 +1,140 @@
+//! The checks of several telescopes on junctures: of every kind the worst of all telescopes.
+
+use super::checks::{
+    BOX_LIMIT_MM, CENTRE_LIMIT_MM, MASS_LIMIT_RATIO, PLACEMENT_LIMIT_MM, none, surface_checks,
+    telescope_checks,
+};
+use super::network::NetworkPromise;
+use super::network_facts::NetworkFacts;
+use super::surfaces::Surfaces;
+use crate::geom::Point;
+use crate::verify::{Check, CheckKind, Limit};
+
+/// The checks that are made of the whole, and not of each telescope.
+const OF_THE_WHOLE: [CheckKind; 5] = [
+    CheckKind::Mass,
+    CheckKind::Centres,
+    CheckKind::Toppling,
+    CheckKind::Standing,
+    CheckKind::Sizes,
+];
+
+/// Holds the facts against the promises.
+pub fn network_checks(promise: &NetworkPromise, facts: &NetworkFacts) -> Vec<Check> {
+    let limbs = promise.limbs.iter().zip(&facts.limbs);
+    let limbs = limbs.flat_map(|(limb, facts)| {
+        let checks = telescope_checks(&limb.sheet, facts).into_iter();
+        let own = checks.filter(|check| !OF_THE_WHOLE.contains(&check.kind));
+        own.map(|check| named(check, &limb.id)).collect::<Vec<_>>()
+    });
+    let junctures = surface_checks(&Surfaces {
+        broken: facts.broken.clone(),
+        crossings: facts.crossings,
+        in_pieces: facts.in_pieces.clone(),
+        above_plate_mm: facts.above_plate_mm,
+        too_large: facts.too_large.clone(),
+    });
+    let whole = whole(promise, facts);
+    worst(limbs.chain(junctures).chain(whole))
+}
+
+/// Returns a check of a telescope with its name before the place.
+fn named(check: Check, id: &str) -> Check {
+    let place = match &check.detail {
+        Some(detail) => format!("limb {id}: {detail}"),
+        None => format!("limb {id}"),
+    };
+    check.at(Some(place))
+}
+
+/// Returns of every kind the check that is broken, else the one nearest to its limit.
+fn worst(checks: impl Iterator<Item = Check>) -> Vec<Check> {
+    let mut kept: Vec<Check> = Vec::new();
+    for check in checks {
+        let known = kept.iter_mut().find(|known| known.kind == check.kind);
+        match known {
+            None => kept.push(check),
+            Some(known) if is_worse(&check, known) => *known = check,
+            Some(_) => {}
+        }
+    }
+    kept
+}
+
+fn is_worse(check: &Check, known: &Check) -> bool {
+    let room = |check: &Check| check.value.map_or(0.0, |value| (check.limit - value).abs());
+    match (check.pass, known.pass) {
+        (false, true) => true,
+        (true, false) => false,
+        (false, false) => room(check) > room(known),
+        (true, true) => room(check) < room(known),
+    }
+}
+
+fn whole(promise: &NetworkPromise, facts: &NetworkFacts) -> Vec<Check> {
+    let centres = promise.centres_mm.iter().zip(&facts.centres);
+    let off = centres.map(|(stated, found)| (Point::from(*stated) - found).norm());
+    let off_mm = off.fold(0.0, f64::max);
+    let is_whole = promise.centres_mm.len() == facts.centres.len();
+    let boxes = [promise.collapsed_mm, promise.extended_mm];
+    let sides = boxes.iter().flatten().zip(facts.boxes_mm.iter().flatten());
+    let box_mm = sides.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    vec![
+        none(
+            CheckKind::Motion,
+            "no two bodies touch while it opens",
+            &facts.too_near,
+        ),
+        none(
+            CheckKind::Glue,
+            "every root fits its socket and every peg its mouth, one way only, with room for glue",
+            &facts.seat_faults,
+        ),
+        Check::new(
+            CheckKind::Placements,
+            "the keys of the motion place every shell where its joints do",
+            Some(facts.placement_error_mm),
+            Limit::at_most(PLACEMENT_LIMIT_MM, "mm"),
+        ),
+        Check::new(
+            CheckKind::Mass,
+            "it weighs what is stated",
+            Some((facts.mass_g / promise.mass_g - 1.0).abs()),
+            Limit::at_most(MASS_LIMIT_RATIO, ""),
+        ),
+        Check::new(
+            CheckKind::Centres,
+            "its centre of mass is where it is stated at every key",
+            is_whole.then_some(off_mm),
+            Limit::at_most(CENTRE_LIMIT_MM, "mm"),
+        ),
+        Check::new(
+            CheckKind::Sizes,
+            "its boxes, all in and all out, are as stated",
+            Some(box_mm),
+            Limit::at_most(BOX_LIMIT_MM, "mm"),
+        ),
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn of_a_kind_the_broken_check_is_told_else_the_one_nearest_to_its_limit() {
+        let check = |value: f64, place: &str| {
+            let limit = Limit::at_most(1.0, "mm");
+            Check::new(CheckKind::Wall, "thin", Some(value), limit).at(Some(place.to_owned()))
+        };
+        let of = |checks: Vec<Check>| worst(checks.into_iter()).remove(0).detail.unwrap();
+        assert_eq!(
+            of(vec![check(0.2, "a"), check(0.9, "b"), check(0.5, "c")]),
+            "b"
+        );
+        assert_eq!(
+            of(vec![check(1.2, "a"), check(0.99, "b"), check(1.5, "c")]),
+            "c"
+        );
+    }
+}

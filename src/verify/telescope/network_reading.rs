@@ -1,0 +1,150 @@
+//! Reading the kit of several telescopes from its folder, and the judgement of either kind of kit.
+
+use std::path::Path;
+
+use serde::Deserialize;
+
+use super::evidence::TelescopeEvidence;
+use super::network::{
+    JuncturePromise, LimbPromise, NetworkEvidence, NetworkMotion, NetworkPromise,
+};
+use super::network_checks::network_checks;
+use super::network_facts::judge_network;
+use super::packages::network_packages_check;
+use super::reading::{
+    MOTION_FILE, TelescopeVerifyError, asked_points, mismatch, read_nominal, read_parts,
+    verify_curve,
+};
+use crate::base::watch::Watch;
+use crate::geom::Vector;
+use crate::mesh::TriMesh;
+use crate::verify::kit_folder::{KitFolder, all_inside_kit};
+use crate::verify::{CERTIFICATE_FILE, CHECKLIST_FILE, KindJudgement, KitFolderError, SHEET_FILE};
+
+/// The word of a kit of several telescopes.
+const NETWORK: &str = "network";
+
+/// Returns the file of a limb's curve, asked and made, in the kit of several telescopes.
+pub fn limb_curve_file(limb: &str) -> String {
+    format!("curves/{limb}.csv")
+}
+
+/// What tells one telescope from several.
+#[derive(Deserialize)]
+struct Head {
+    kind: String,
+    schema: u32,
+}
+
+/// Reads every file of the kit of a telescope, or of several on junctures, and judges it.
+///
+/// # Errors
+/// There is no such kit in the folder, a file of it cannot be read, or the watch was stopped.
+pub fn verify_telescope(
+    folder: &Path,
+    watch: &Watch,
+) -> Result<KindJudgement, TelescopeVerifyError> {
+    let folder = KitFolder { path: folder };
+    let head = folder.list(CHECKLIST_FILE, |head: &Head| head.schema)?;
+    if head.kind != NETWORK {
+        return verify_curve(&folder, watch);
+    }
+    let evidence = read(&folder)?;
+    let facts = judge_network(&evidence, watch)?;
+    let checks = network_checks(&evidence.promise, &facts);
+    let papers = [CHECKLIST_FILE, SHEET_FILE, CERTIFICATE_FILE];
+    let mut judgement = folder.judgement(checks, &evidence.promise.files, &papers)?;
+    judgement
+        .checks
+        .push(network_packages_check(&folder, &evidence));
+    Ok(judgement)
+}
+
+fn read(folder: &KitFolder) -> Result<NetworkEvidence, TelescopeVerifyError> {
+    let promise = folder.list(CHECKLIST_FILE, |list: &NetworkPromise| list.schema)?;
+    let motion = folder.list(MOTION_FILE, |list: &NetworkMotion| list.schema)?;
+    if let Some(why) = network_mismatch(&promise, &motion) {
+        return Err(folder.mismatch(MOTION_FILE, why).into());
+    }
+    let of_limbs = promise.limbs.iter().flat_map(|limb| &limb.sheet.parts);
+    let parts = of_limbs.map(|part| &part.file);
+    let junctures = promise.junctures.iter().map(|juncture| &juncture.file);
+    all_inside_kit(parts.chain(junctures).chain(promise.files.keys()))?;
+    let limbs = promise.limbs.iter().zip(&motion.limbs);
+    let limbs = limbs.map(|(limb, motion)| {
+        let file = limb_curve_file(&limb.id);
+        let asked = asked_points(&folder.bytes(&file)?);
+        let asked = asked.map_err(|fault| TelescopeVerifyError::Points {
+            path: folder.path.join(&file),
+            fault,
+        })?;
+        Ok(TelescopeEvidence {
+            promise: limb.sheet.clone(),
+            motion: motion.clone(),
+            parts: read_parts(folder, &limb.sheet)?,
+            asked,
+        })
+    });
+    let limbs = limbs.collect::<Result<Vec<_>, TelescopeVerifyError>>()?;
+    let scale = promise.printer.print_scale_ratio.map(Vector::from);
+    let juncture = |own: &JuncturePromise| {
+        let nominal = read_nominal(folder, &own.file, scale)?;
+        Ok(nominal.map_vertices(|p| own.print_from_model.to_model(p)))
+    };
+    let junctures: Result<Vec<TriMesh>, KitFolderError> =
+        promise.junctures.iter().map(juncture).collect();
+    Ok(NetworkEvidence {
+        junctures: junctures?,
+        limbs,
+        promise,
+        motion,
+    })
+}
+
+/// Returns the reason why a motion is not that of the promises.
+fn network_mismatch(promise: &NetworkPromise, motion: &NetworkMotion) -> Option<&'static str> {
+    let count = promise.junctures.len();
+    if promise.limbs.is_empty() || promise.limbs.len() != motion.limbs.len() {
+        return Some("it has another number of limbs");
+    }
+    let limbs = promise.limbs.iter().zip(&motion.limbs);
+    let mut whys = limbs.map(|(limb, motion)| mismatch(&limb.sheet, motion));
+    if let Some(why) = whys.find_map(|why| why) {
+        return Some(why);
+    }
+    if !is_tree(&promise.limbs, count) {
+        return Some("its limbs and junctures are no tree");
+    }
+    let fits = |states: &Vec<Vec<[f64; 2]>>| {
+        let joints = motion.limbs.iter().map(|limb| limb.joints.len());
+        states.iter().map(Vec::len).eq(joints)
+    };
+    let is_keyed = !motion.keys.is_empty() && motion.keys.iter().all(|key| fits(&key.states));
+    (!is_keyed).then_some("its keys do not fit its joints")
+}
+
+/// Returns true if every juncture but the first is carried by one limb.
+///
+/// That limb grows from a juncture that is reached before.
+fn is_tree(limbs: &[LimbPromise], count: usize) -> bool {
+    let mut is_reached = vec![false; count];
+    if let Some(first) = is_reached.first_mut() {
+        *first = true;
+    }
+    let steps = limbs.iter().all(|limb| {
+        let from = limb
+            .from
+            .checked_sub(1)
+            .and_then(|from| is_reached.get(from));
+        let is_known = from.copied().unwrap_or(false);
+        let to = limb.to.checked_sub(1).and_then(|to| is_reached.get_mut(to));
+        match to {
+            Some(to) if is_known && !*to => {
+                *to = true;
+                true
+            }
+            _ => false,
+        }
+    });
+    steps && is_reached.iter().all(|reached| *reached)
+}
