@@ -361,7 +361,7 @@ fn without_a_field_toolpaths_follow_the_density_that_their_kit_states() {
         let (found, sheet) = follow(name, options);
         let field = sheet["infill"][key].as_str().unwrap();
         assert!(field.starts_with(start), "{field}");
-        // Levels are scaled by what they differ from the density without steps: a few steps at most.
+        // Levels are scaled by what they differ from the density without steps.
         let factors = ["/scaled/written/factors/0", "/scaled/written/factors/1"];
         let [least, most] = factors.map(|key| number(&found, key));
         assert!(least < 0.95 && most > 1.05, "{name}: {least} {most}");

@@ -220,8 +220,9 @@ impl OfField<'_> {
         told.or(self.plate.stated_ratio)
     }
 
-    /// Returns whether solid infill at a place of the model stays as it is: in a wall, and where
-    /// the slicer lays solid layers over the infill that the kit orders.
+    /// Returns whether solid infill at a place of the model stays as it is.
+    ///
+    /// It does in a wall, and where the slicer lays solid layers over infill that the kit orders.
     fn stays_solid(&self, at: &Point) -> bool {
         let wall = self.wall.as_ref();
         wall.is_some_and(|(surface, wall_mm)| {

@@ -86,8 +86,9 @@ impl LocatedPlate {
         outermost.is_some_and(|region| region.surface.signed(at) > -BESIDE_MM)
     }
 
-    /// Returns the innermost region that holds a place of the model, or the nearest one: lines
-    /// reach a little out of their region, to be anchored.
+    /// Returns the innermost region that holds a place of the model, or the nearest one.
+    ///
+    /// Lines reach a little out of their region, to be anchored.
     fn region(&self, at: &Point) -> Option<&LaidRegion> {
         let depth_mm = |region: &LaidRegion| region.surface.signed(at);
         let deepest_mm = self
