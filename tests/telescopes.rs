@@ -248,6 +248,7 @@ fn a_skeleton_becomes_limbs_on_junctures_that_both_judges_pass_and_none_that_can
     assert_eq!(code, Some(0), "{said}");
     judge_in_python(&kit);
     replay(folder.path(), &kit);
+    lie_about_the_motion(&kit);
     move_a_juncture(&kit);
 }
 
@@ -263,9 +264,44 @@ fn move_a_juncture(kit: &Path) {
     let aside = row[3].as_f64().unwrap() + 0.5;
     row[3] = aside.into();
     fs::write(&file, serde_json::to_string(&sheet).unwrap()).unwrap();
-    let (code, said) = verify(kit);
-    assert_eq!(code, Some(1), "{said}");
-    assert!(said.contains("room for glue"), "{said}");
+    let output = equipoise(&["--json", "verify", path(kit)]);
+    assert_exit(&output, 1);
+    let found = json(&output);
+    let failed = list(&found, "checks").iter();
+    let failed: Vec<String> = failed
+        .filter(|check| check["pass"] == false)
+        .map(ToString::to_string)
+        .collect();
+    assert!(
+        failed.iter().any(|check| check.contains("room for glue")),
+        "{failed:?}"
+    );
+}
+
+/// Lets the motion open nothing, or in another order than the sheet: the judge must refuse it.
+fn lie_about_the_motion(kit: &Path) {
+    let file = kit.join("motion.json");
+    let right = fs::read(&file).unwrap();
+    let lies: [(&str, fn(&mut serde_json::Value)); 2] = [
+        ("all in to all out|order of the sheet", |motion| {
+            motion["keys"].as_array_mut().unwrap().truncate(1);
+        }),
+        ("order of the sheet", |motion| {
+            motion["order"].as_array_mut().unwrap().reverse();
+        }),
+    ];
+    for (words, lie) in lies {
+        let mut motion: serde_json::Value = serde_json::from_slice(&right).unwrap();
+        lie(&mut motion);
+        fs::write(&file, serde_json::to_string(&motion).unwrap()).unwrap();
+        let (code, said) = verify(kit);
+        assert_ne!(code, Some(0), "{words}: {said}");
+        assert!(
+            words.split('|').any(|word| said.contains(word)),
+            "{words}: {said}"
+        );
+    }
+    fs::write(&file, right).unwrap();
 }
 
 #[test]

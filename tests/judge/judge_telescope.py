@@ -159,8 +159,16 @@ def judge_joints(kit):
         kit.say(f"{name} is closed behind", back > HOLDS_MM3, f"shared {back:.4f} mm³")
 
 
+def opens(motion, first, last):
+    """Whether states go from all joints in to all out."""
+    closed = [(joint["closed_mm"], 0.0) for joint in motion["joints"]]
+    out = [(joint["open_mm"], joint["turn_rad"]) for joint in motion["joints"]]
+    return all(np.allclose(state, wanted, atol=1e-6) for state, wanted in ((first, closed), (last, out)))
+
+
 def judge_motion(kit):
     keys = kit.motion["keys"]
+    kit.say("keys go from all in to all out", len(keys) > 1 and opens(kit.motion, keys[0]["states"], keys[-1]["states"]), f"{len(keys)} keys")
     error = 0.0
     for key in keys:
         for own, written in zip(kit.frames(key["states"]), key["placements"], strict=True):
@@ -283,6 +291,13 @@ def boxes_meet(a, b):
 
 def judge_network(kit):
     keys = kit.motion["keys"]
+    ends = zip(kit.motion["limbs"], keys[0]["states"], keys[-1]["states"], strict=True)
+    kit.say("keys go from all in to all out", len(keys) > 1 and all(opens(*end) for end in ends), f"{len(keys)} keys")
+    order = []
+    for before, after in zip(keys, keys[1:]):
+        moved = [own["id"] for own, a, b in zip(kit.sheet["limbs"], before["states"], after["states"]) if a != b]
+        order += [name for name in moved if order[-1:] != [name]]
+    kit.say("limbs open in the order of the sheet", order == kit.sheet["order"] == kit.motion["order"], ", ".join(order))
     error = 0.0
     for key in keys:
         own = kit.places(key["states"])[-len(kit.junctures) :]

@@ -40,16 +40,33 @@ pub enum DitherError {
         /// What it does instead.
         reason: &'static str,
     },
-    /// The model is larger than the printer's room, or its layers than memory holds.
+    /// The layers have too many pixels.
     #[error(
-        "the model of {} × {} × {} mm is larger than {printer} prints, or its layers have more than \
-         100 million pixels; remedy: a smaller size", size_mm[0], size_mm[1], size_mm[2]
+        "the layers of the model of {} × {} × {} mm have {pixels_millions} million pixels each on \
+         {printer}, and 100 million are the most; remedy: a smaller size",
+        size_mm[0], size_mm[1], size_mm[2]
+    )]
+    TooManyPixels {
+        /// The name of the printer.
+        printer: String,
+        /// The size of the model, rounded, mm.
+        size_mm: [f64; 3],
+        /// The pixels of a layer, rounded, millions.
+        pixels_millions: f64,
+    },
+    /// The model is larger than the printer's room.
+    #[error(
+        "the model of {} × {} × {} mm is larger than {printer} prints ({} × {} × {} mm); remedy: a \
+         smaller size",
+        size_mm[0], size_mm[1], size_mm[2], room_mm[0], room_mm[1], room_mm[2]
     )]
     TooLarge {
         /// The name of the printer.
         printer: String,
         /// The size of the model, rounded, mm.
         size_mm: [f64; 3],
+        /// The size of the printer's room, mm.
+        room_mm: [f64; 3],
     },
     /// The printer's profile has one material.
     #[error(

@@ -92,16 +92,23 @@ fn json(value: &impl serde::Serialize) -> Result<Vec<u8>, SliceError> {
 fn check_room(order: &DitherOrder) -> Result<(), DitherError> {
     let printer = order.printer;
     let size_mm: [f64; 3] = order.solid.mesh().aabb().size().into();
-    let room = printer.build_volume_mm.as_ref();
-    let is_beyond = room.is_some_and(|room| (0..3).any(|axis| size_mm[axis] > room.value[axis]));
-    let [along, across] = [
-        size_mm[0] / printer.pixel_x_mm.value,
-        size_mm[1] / printer.pixel_y_mm.value,
-    ];
-    if is_beyond || along * across > MOST_PIXELS {
+    let rounded_mm = size_mm.map(f64::round);
+    if let Some(room) = printer.build_volume_mm.as_ref()
+        && (0..3).any(|axis| size_mm[axis] > room.value[axis])
+    {
         return Err(DitherError::TooLarge {
             printer: printer.name.clone(),
-            size_mm: size_mm.map(f64::round),
+            size_mm: rounded_mm,
+            room_mm: room.value,
+        });
+    }
+    let pixel_mm2 = printer.pixel_x_mm.value * printer.pixel_y_mm.value;
+    let pixels = size_mm[0] * size_mm[1] / pixel_mm2;
+    if pixels > MOST_PIXELS {
+        return Err(DitherError::TooManyPixels {
+            printer: printer.name.clone(),
+            size_mm: rounded_mm,
+            pixels_millions: (pixels / 1e6).round(),
         });
     }
     Ok(())

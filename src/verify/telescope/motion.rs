@@ -63,7 +63,24 @@ pub struct MotionKey {
     pub placements: Vec<Pose>,
 }
 
+/// Difference of slides (mm) and turns (rad) in keys that is the rounding of files.
+const KEY_LIMIT: f64 = 1e-6;
+
 impl TelescopeMotion {
+    /// Returns whether states begin with all joints in, and end with all out.
+    pub(super) fn opens(&self, first: &[[f64; 2]], last: &[[f64; 2]]) -> bool {
+        let is_at = |state: &[[f64; 2]], wanted: fn(&JointMotion) -> [f64; 2]| {
+            let wanted = self.joints.iter().map(wanted);
+            let mut off = state
+                .iter()
+                .zip(wanted)
+                .flat_map(|([slide, turn], wanted)| [slide - wanted[0], turn - wanted[1]]);
+            state.len() == self.joints.len() && off.all(|off| off.abs() <= KEY_LIMIT)
+        };
+        is_at(first, |joint| [joint.closed_mm, 0.0])
+            && is_at(last, |joint| [joint.open_mm, joint.turn_rad])
+    }
+
     /// Returns the frames of all shells in a state, by the judge's own screws.
     pub(super) fn frames(&self, states: &[[f64; 2]]) -> Vec<Frame> {
         let mut frame = frame_of(&self.root);

@@ -26,6 +26,8 @@ pub struct NetworkPromise {
     pub limbs: Vec<LimbPromise>,
     /// The junctures. The first stands still.
     pub junctures: Vec<JuncturePromise>,
+    /// The names of the telescopes in the order in which they open.
+    pub order: Vec<String>,
     /// The mass of all parts, g.
     pub mass_g: f64,
     /// The centre of mass at every key of the motion, mm.
@@ -104,6 +106,36 @@ pub struct NetworkEvidence {
 pub(super) struct Places {
     pub junctures: Vec<Frame>,
     pub shells: Vec<Vec<Frame>>,
+}
+
+impl NetworkMotion {
+    /// Returns whether the keys go from all in to all out, one telescope after the other in their
+    /// order. `names` are those of the telescopes.
+    pub(super) fn opens_in_order(&self, names: &[&String]) -> bool {
+        let ends = self.keys.first().zip(self.keys.last());
+        let opens = ends.is_some_and(|(first, last)| {
+            let ends = first.states.iter().zip(&last.states);
+            let mut limbs = self.limbs.iter().zip(ends);
+            limbs.all(|(limb, (first, last))| limb.opens(first, last))
+        });
+        opens && self.found_order(names) == Some(self.order.iter().collect())
+    }
+
+    /// Returns the telescopes in the order in which the keys move them; `None` if two move at
+    /// once, or one moves in two stretches.
+    fn found_order<'a>(&self, names: &[&'a String]) -> Option<Vec<&'a String>> {
+        let mut found: Vec<&String> = Vec::new();
+        for pair in self.keys.windows(2) {
+            let states = pair[0].states.iter().zip(&pair[1].states).zip(names);
+            let mut moved = states.filter(|((a, b), _)| a != b).map(|(_, name)| *name);
+            match (moved.next(), moved.next()) {
+                (Some(one), None) if found.last() == Some(&one) => {}
+                (Some(one), None) if !found.contains(&one) => found.push(one),
+                _ => return None,
+            }
+        }
+        Some(found)
+    }
 }
 
 impl NetworkEvidence {

@@ -69,13 +69,23 @@ fn read(folder: &KitFolder) -> Result<NetworkEvidence, TelescopeVerifyError> {
     let of_limbs = promise.limbs.iter().flat_map(|limb| &limb.sheet.parts);
     let parts = of_limbs.map(|part| &part.file);
     let junctures = promise.junctures.iter().map(|juncture| &juncture.file);
-    all_inside_kit(parts.chain(junctures).chain(promise.files.keys()))?;
-    let limbs = promise.limbs.iter().zip(&motion.limbs);
-    let limbs = limbs.map(|(limb, motion)| {
-        let file = limb_curve_file(&limb.id);
-        let asked = asked_points(&folder.bytes(&file)?);
+    let limbs = promise.limbs.iter();
+    let curves: Vec<String> = limbs.map(|limb| limb_curve_file(&limb.id)).collect();
+    all_inside_kit(
+        parts
+            .chain(junctures)
+            .chain(promise.files.keys())
+            .chain(&curves),
+    )?;
+    if !curves.iter().all(|curve| promise.files.contains_key(curve)) {
+        let why = "it does not list the curve of every limb";
+        return Err(folder.mismatch(CHECKLIST_FILE, why).into());
+    }
+    let limbs = promise.limbs.iter().zip(&motion.limbs).zip(&curves);
+    let limbs = limbs.map(|((limb, motion), file)| {
+        let asked = asked_points(&folder.bytes(file)?);
         let asked = asked.map_err(|fault| TelescopeVerifyError::Points {
-            path: folder.path.join(&file),
+            path: folder.path.join(file),
             fault,
         })?;
         Ok(TelescopeEvidence {
@@ -120,7 +130,12 @@ fn network_mismatch(promise: &NetworkPromise, motion: &NetworkMotion) -> Option<
         states.iter().map(Vec::len).eq(joints)
     };
     let is_keyed = !motion.keys.is_empty() && motion.keys.iter().all(|key| fits(&key.states));
-    (!is_keyed).then_some("its keys do not fit its joints")
+    if !is_keyed {
+        return Some("its keys do not fit its joints");
+    }
+    let names: Vec<&String> = promise.limbs.iter().map(|limb| &limb.id).collect();
+    let is_told = promise.order == motion.order && motion.opens_in_order(&names);
+    (!is_told).then_some("its keys do not open the limbs in the order of the sheet")
 }
 
 /// Returns true if every juncture but the first is carried by one limb.

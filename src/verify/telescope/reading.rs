@@ -123,6 +123,8 @@ pub(super) fn mismatch(
     let states = |key: &MotionKey| key.states.len() == joints;
     let tubes = promise.parts.iter().filter(|part| part.is_tube).count();
     let is_placed = |part: &TelescopePartPromise| (1..=shells).contains(&part.shell);
+    let ends = motion.keys.first().zip(motion.keys.last());
+    let opens = ends.is_some_and(|(first, last)| motion.opens(&first.states, &last.states));
     let cases = [
         (
             shells == 0 || tubes != shells,
@@ -135,6 +137,10 @@ pub(super) fn mismatch(
         (
             motion.keys.is_empty() || !motion.keys.iter().all(states),
             "its keys do not fit its joints",
+        ),
+        (
+            joints > 0 && (motion.keys.len() < 2 || !opens),
+            "its keys do not go from all in to all out",
         ),
         (
             !promise.parts.iter().all(is_placed),

@@ -20,7 +20,7 @@ const CLEAR_MM: f64 = 0.6;
 const STEP_SHARE: f64 = 0.9;
 /// The gap of bodies that are at rest against each other, mm: rounding.
 const TOUCH_MM: f64 = 1e-3;
-/// The most steps of a move: more than any move of a print needs.
+/// The most steps of a move: more than any move of a print needs. A longer one counts as barred.
 const MAX_STEPS: usize = 2_000;
 
 /// A body: a shell of a limb with its cap, or a juncture. All are counted from 0.
@@ -266,6 +266,12 @@ impl Step<'_> {
         };
         let pairs = self.bodies.pairs(moves, |item| !moves(item));
         let steps = self.steps(moves);
+        if steps > MAX_STEPS {
+            // So long a way is not proved free, and none is.
+            return Ok(pairs
+                .first()
+                .map(|pair| pair.map(|body| self.bodies.bodies[body].item)));
+        }
         for i in 0..=steps {
             watch.check()?;
             let frames = self.frames(i as f64 / steps as f64);
@@ -318,6 +324,6 @@ impl Step<'_> {
             slide_mm * (1.0 + bend * reach_mm) + (b.turn_rad - a.turn_rad).abs() * reach_mm
         });
         let way_mm: f64 = ways.sum();
-        ((way_mm / (STEP_SHARE * CLEAR_MM)).ceil() as usize).clamp(1, MAX_STEPS)
+        ((way_mm / (STEP_SHARE * CLEAR_MM)).ceil() as usize).max(1)
     }
 }
