@@ -6,7 +6,6 @@
     clippy::panic,
     reason = "a test whose input cannot be had has failed"
 )]
-#![allow(clippy::print_stderr, reason = "a skipped test says so")]
 
 mod common;
 
@@ -16,9 +15,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use std::sync::OnceLock;
 
-use common::{
-    ELLIPSOID, assert_exit, equipoise, has_slicer, json, list, number, path, printed, words,
-};
+use common::{assert_exit, equipoise, has_slicer, json, list, number, path, printed};
 use equipoise::base::watch::Watch;
 use equipoise::geom::Point;
 use equipoise::io::gcode::{Feature, Options, read_gcode};
@@ -323,79 +320,4 @@ fn a_real_slicers_perimeters_stay_and_its_infill_follows_the_field() {
             "{perimeters}: {center_mm} {expected_mm}"
         );
     }
-}
-
-/// Prepares a kit of the ellipsoid that stands at a tilt which uniform infill does not bear, slices
-/// it and scales its toolpaths. Returns what was said of them, and the sheet.
-fn follow(name: &str, options: &str) -> (Value, Value) {
-    let kit = bench().join(name);
-    let order = format!(
-        "--goal stand --up y --least-angle 3.5 --printer prusa-mk4 --size 40mm --pitch 0.4mm \
-         --interior graded --infill 40% --density 15%..70% --levels 5 --slice {options}"
-    );
-    let usual = ["--json", "prepare", ELLIPSOID, "--out", path(&kit)];
-    let output = equipoise(&[&usual[..], &words(&order)].concat());
-    assert_exit(&output, 0);
-    let sheet = json(&output);
-    let toolpaths = bench().join(format!("{name}-toolpaths"));
-    let output = equipoise(&["slice", path(&kit), "--out", path(&toolpaths)]);
-    assert_exit(&output, 0);
-    let plate = list(&sheet, "plates")[0]["file"].as_str().unwrap();
-    let plate = toolpaths.join(plate.replace(".3mf", ".gcode"));
-    let scaled = toolpaths.join("scaled.gcode");
-    let words = ["--json", "scale-extrusion", path(&plate), path(&kit)];
-    let output = equipoise(&[&words[..], &["-o", path(&scaled)]].concat());
-    assert_exit(&output, 0);
-    (json(&output), sheet)
-}
-
-#[test]
-fn without_a_field_toolpaths_follow_the_density_that_their_kit_states() {
-    if !has_slicer() {
-        return;
-    }
-    for (name, options, key, start) in [
-        ("smooth", "", "smooth", "clamped:"),
-        ("wave", "--field sine", "field", "sine:"),
-    ] {
-        let (found, sheet) = follow(name, options);
-        let field = sheet["infill"][key].as_str().unwrap();
-        assert!(field.starts_with(start), "{field}");
-        // Levels are scaled by what they differ from the density without steps.
-        let factors = ["/scaled/written/factors/0", "/scaled/written/factors/1"];
-        let [least, most] = factors.map(|key| number(&found, key));
-        assert!(least < 0.95 && most > 1.05, "{name}: {least} {most}");
-        assert!(least > 0.4 && most < 2.5, "{name}: {least} {most}");
-        let center = |key: &str| {
-            [0, 1, 2].map(|axis| number(&found, &format!("/together/{key}/center_mm/{axis}")))
-        };
-        let promised = [0, 1, 2].map(|axis| number(&sheet, &format!("/assembly/center_mm/{axis}")));
-        let off = |at: [f64; 3]| {
-            let squares = [0, 1, 2].map(|axis| (at[axis] - promised[axis]).powi(2));
-            squares.iter().sum::<f64>().sqrt()
-        };
-        eprintln!(
-            "{name}: centre {:.4} before, {:.4} mm after",
-            off(center("0")),
-            off(center("1"))
-        );
-        assert!(off(center("1")) < 0.1, "{name}: {} mm", off(center("1")));
-        // The words are those of `inspect`, too.
-        let model = ["--json", "inspect", ELLIPSOID, "--size", "40mm"];
-        let output = equipoise(&[&model[..], &["--field", field]].concat());
-        assert_exit(&output, 0);
-    }
-}
-
-#[test]
-fn a_kit_without_a_field_of_its_own_needs_one() {
-    let (output, target) = scale("own", &program(true, "Solid infill"), &[]);
-    assert_exit(&output, 2);
-    let said = printed(&output);
-    assert!(said.contains("no field of its own"), "{said}");
-    assert!(
-        said.contains("--field=ramp:") && said.contains("--infill=40%"),
-        "{said}"
-    );
-    assert!(!target.exists());
 }

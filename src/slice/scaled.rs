@@ -8,11 +8,11 @@ use serde::Serialize;
 
 use crate::base::setting::{Key, Setting};
 use crate::base::watch::Watch;
-use crate::field::{Density, FileError, NotADensity, Order, WordsError, check, read_file};
+use crate::field::{Density, NotADensity, Order, check};
 use crate::geom::Point;
 use crate::io::gcode::{Feature, Portions, RewriteError, Rewriting, Rewritten, rewrite_text};
-use crate::mesh::{MeshDistance, Solid};
-use crate::verify::{FIELD_FILE, LocatedPart, LocatedPlate, PrintedError, locate_parts};
+use crate::mesh::Solid;
+use crate::verify::{LocatedPart, LocatedPlate, PrintedError, locate_parts};
 
 /// Longest piece of a bead, mm. Longer ones blur the field: a bar with a ramp misses its centre by
 /// a sixth if its lines of 10 mm stay whole.
@@ -32,9 +32,8 @@ pub struct ScaleOrder {
     pub toolpaths: PathBuf,
     /// The folder of the kit whose parts it prints.
     pub kit: PathBuf,
-    /// The density that the parts get, model frame. `None` takes what the kit states for its
-    /// interior; its wall stays solid.
-    pub field: Option<Order>,
+    /// The density that the parts get, model frame.
+    pub field: Order,
     /// The density of sparse infill with which they were sliced, over that of solid print. `None`
     /// takes what the kit or the file says.
     pub infill_ratio: Option<f64>,
@@ -61,20 +60,6 @@ pub enum ScaleError {
     /// The outside of the kit is no solid.
     #[error("the model of this kit is no solid; remedy: check the kit (`equipoise verify`)")]
     NoSolid,
-    /// The kit states no field, and none was ordered.
-    #[error(
-        "the kit has no field of its own; remedy: give one (`{}`), or prepare it near a wished \
-         infill (`{}`)",
-        Setting::new(Key::Field, "ramp:0,0,1@20mm..60mm:0.5..1"),
-        Setting::new(Key::Infill, "40%")
-    )]
-    NoField,
-    /// The field that the kit states cannot be read.
-    #[error("the field in the kit cannot be read: {0}; remedy: check the kit (`equipoise verify`)")]
-    OwnField(#[from] WordsError),
-    /// The file of the kit's field cannot be read.
-    #[error(transparent)]
-    OwnFile(#[from] FileError),
     /// A part is printed as its mirror image.
     #[error("{0} is printed as its mirror image; remedy: slice its plate again")]
     Mirrored(String),
@@ -132,20 +117,14 @@ pub fn scale_toolpaths(
         return Err(ScaleError::Mirrored(part.id.clone()));
     }
     let solid = Solid::new(plate.outside.clone()).map_err(|_| ScaleError::NoSolid)?;
-    let (field, wall) = match (&order.field, &plate.field) {
-        (Some(field), _) => (field.on(&solid), None),
-        (None, Some(words)) => {
-            let own = own_field(&order.kit, words)?;
-            let surface = MeshDistance::new(solid.mesh());
-            (own.on(&solid), Some((surface, plate.wall_mm)))
-        }
-        (None, None) => return Err(ScaleError::NoField),
-    };
+    let field = order.field.on(&solid);
     check(&solid, field.as_ref())?;
     let portions = OfField {
         field: field.as_ref(),
-        wall,
-        sliced_ratio: order.infill_ratio,
+        sparse_ratio: order
+            .infill_ratio
+            .or(plate.laid_ratio)
+            .or(plate.stated_ratio),
         plate: &plate,
     };
     let rewriting = Rewriting {
@@ -170,14 +149,6 @@ pub fn scale_toolpaths(
     })
 }
 
-/// Returns the field that a kit states: words, or the name of its file.
-fn own_field(kit: &Path, words: &str) -> Result<Order, ScaleError> {
-    match words {
-        FIELD_FILE => Ok(read_file(&kit.join(FIELD_FILE))?),
-        words => Ok(words.parse()?),
-    }
-}
-
 /// Opens a program as text.
 fn open(path: &Path) -> Result<BufReader<File>, ScaleError> {
     let fault = |source| ScaleError::Read {
@@ -200,10 +171,8 @@ fn open(path: &Path) -> Result<BufReader<File>, ScaleError> {
 /// How much of a bead a field asks for.
 struct OfField<'a> {
     field: &'a dyn Density,
-    /// The surface of the model, and the thickness of the wall under it that stays solid, mm.
-    wall: Option<(MeshDistance, f64)>,
-    /// The density of sparse infill as sliced, over that of solid print, if it was said.
-    sliced_ratio: Option<f64>,
+    /// The density of sparse infill as sliced, over that of solid print, if it is known.
+    sparse_ratio: Option<f64>,
     plate: &'a LocatedPlate,
 }
 
@@ -211,23 +180,6 @@ impl OfField<'_> {
     /// Returns the part that a place belongs to; `None` beside all parts.
     fn part(&self, at: &Point) -> Option<&LocatedPart> {
         self.plate.parts.iter().find(|part| part.holds(at))
-    }
-
-    /// Returns the density of sparse infill as sliced at a place of the model, over that of solid
-    /// print; `None` if nothing says it.
-    fn sparse_ratio(&self, at: &Point) -> Option<f64> {
-        let told = self.sliced_ratio.or_else(|| self.plate.laid_ratio(at));
-        told.or(self.plate.stated_ratio)
-    }
-
-    /// Returns whether solid infill at a place of the model stays as it is.
-    ///
-    /// It does in a wall, and where the slicer lays solid layers over infill that the kit orders.
-    fn stays_solid(&self, at: &Point) -> bool {
-        let wall = self.wall.as_ref();
-        wall.is_some_and(|(surface, wall_mm)| {
-            surface.signed(at) < *wall_mm || self.plate.is_sparse(at)
-        })
     }
 }
 
@@ -245,9 +197,7 @@ impl Portions for OfField<'_> {
                  remedy: arrange the plate with more room"
             ));
         }
-        let is_told = self.sliced_ratio.is_some() || self.plate.has_infill();
-        let is_told = is_told || self.plate.stated_ratio.is_some();
-        if feature == Feature::Infill && first.is_some() && !is_told {
+        if feature == Feature::Infill && first.is_some() && self.sparse_ratio.is_none() {
             return Err(format!(
                 "the file does not say how dense its infill is; remedy: say it (`{}`)",
                 Setting::new(Key::Infill, "40%")
@@ -257,17 +207,12 @@ impl Portions for OfField<'_> {
     }
 
     fn factor(&self, feature: Feature, at: &Point) -> f64 {
-        // A bead may reach out of its part's box by rounding.
-        let Some(part) = self.part(at) else {
-            return 1.0;
-        };
-        let place = part.to_model(at);
         let laid = match feature {
-            // Sparse lines reach a little into the wall, to be anchored.
-            Feature::Infill => self.sparse_ratio(&place).unwrap_or(1.0),
-            _ if self.stays_solid(&place) => return 1.0,
+            Feature::Infill => self.sparse_ratio.unwrap_or(1.0),
             _ => 1.0,
         };
-        self.field.at(&place) / laid
+        let wanted = self.part(at).map(|part| self.field.at(&part.to_model(at)));
+        // A bead may reach out of its part's box by rounding.
+        wanted.map_or(1.0, |wanted| wanted / laid)
     }
 }

@@ -15,13 +15,12 @@ pub struct ScaleArgs {
     pub toolpaths: PathBuf,
     /// The folder of the kit whose parts it prints
     pub kit: PathBuf,
-    /// The density that the parts get, in words or as a field.toml [default: what the kit states
-    /// for its inside]
+    /// The density that the parts get, in words or as a field.toml
     ///
     /// A ramp is ramp:0,0,1@20mm..60mm:0.5..1. Lengths are those of the kit's model, in the axes of
     /// its file.
     #[arg(long, value_name = "FIELD", allow_hyphen_values = true)]
-    pub field: Option<FieldChoice>,
+    pub field: FieldChoice,
     /// The density of sparse infill with which the plate was sliced [default: what the kit or the
     /// file says]
     #[arg(long, value_name = "PERCENT")]

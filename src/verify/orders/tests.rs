@@ -71,7 +71,6 @@ fn read_in(dialect: Dialect) -> Read {
             beyond: None,
             misses_mm: Vec::new(),
             field: None,
-            smooth: None,
             file: Some("modifiers/region.stl".to_owned()),
             inner: Vec::new(),
         },
