@@ -150,7 +150,7 @@ const LIES: [Lie; 20] = [
         let first = sheet["joins"][0].clone();
         sheet["joins"].as_array_mut().unwrap().push(first);
     }),
-    of_joins(|sheet| add(&mut sheet["joins"][0]["bolts"], 1.0)),
+    of_joins(|sheet| sheet["joins"][0]["bolts"] = 1.into()),
     // A unit of another group meets nothing on its way.
     of_units("units of another polyhedron", |sheet| {
         let told = sheet["units"][0]["polyhedron"].as_u64().unwrap();
