@@ -87,6 +87,7 @@ fn bolts(asked: &Asked, made: &Made) -> Vec<FastenerPromise> {
         let bolt = FastenerPromise {
             kind: FastenerKind::Bolt,
             through: Some(nut.panel),
+            shaft_mm: shaft_mm(&kit.screw),
             ..screw
         };
         let washers = [&head, &nut].map(|place| place.fastener(&kit.washer));
@@ -160,7 +161,20 @@ impl Place<'_> {
             axis: self.axis.into(),
             head_mm,
             through: None,
+            shaft_mm: None,
         }
+    }
+}
+
+/// Returns thread and length of a screw, mm.
+fn shaft_mm(screw: &Fastener) -> Option<[f64; 2]> {
+    match screw.shape {
+        FastenerShape::Screw {
+            thread_mm,
+            length_mm,
+            ..
+        } => Some([thread_mm, length_mm]),
+        _ => None,
     }
 }
 

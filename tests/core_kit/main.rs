@@ -53,8 +53,8 @@ fn core(model: &Path, kit: &Path, options: &str) -> std::process::Output {
     equipoise(&arguments)
 }
 
-/// Lets the Python judge look at a kit, if there is a Python with its packages.
-fn judge_in_python(kit: &Path) {
+/// Lets the Python judge look at a kit; `None` if there is no Python with its packages.
+fn run_judge(kit: &Path) -> Option<std::process::Output> {
     let python = std::env::var_os("EQUIPOISE_JUDGE_PYTHON").unwrap_or_else(|| "python3".into());
     let run = |arguments: &[OsString]| {
         let mut command = Command::new(&python);
@@ -64,10 +64,28 @@ fn judge_in_python(kit: &Path) {
     let import = run(&["-c".into(), format!("import {PACKAGES}").into()]);
     if !import.is_ok_and(|output| output.status.success()) {
         eprintln!("SKIPPED: no Python with {PACKAGES} here; pip install them");
-        return;
+        return None;
     }
-    let output = run(&[JUDGE.into(), kit.into()]).unwrap();
-    assert_exit(&output, 0);
+    Some(run(&[JUDGE.into(), kit.into()]).unwrap())
+}
+
+/// Holds that the Python judge finds a kit right.
+fn judge_in_python(kit: &Path) {
+    if let Some(output) = run_judge(kit) {
+        assert_exit(&output, 0);
+    }
+}
+
+/// Holds that a check of the Python judge is broken.
+fn hold_broken_in_python(kit: &Path, check: &str) {
+    if let Some(output) = run_judge(kit) {
+        assert_exit(&output, 1);
+        let said = String::from_utf8_lossy(&output.stdout).into_owned();
+        assert!(
+            said.contains(&format!("broken: {check}")),
+            "{check}: {said}"
+        );
+    }
 }
 
 #[test]
@@ -185,7 +203,7 @@ struct Lie {
 }
 
 /// Lies, one for each thing that a judge could overlook.
-const LIES: [Lie; 7] = [
+const LIES: [Lie; 8] = [
     Lie {
         file: "checklist.json",
         promise: "the whole weighs",
@@ -210,6 +228,15 @@ const LIES: [Lie; 7] = [
         file: "certificate.json",
         promise: "is parted from the base",
         tell: |certificate| add(&mut certificate["planes"][0][3], 0.01),
+    },
+    // Parts need not keep clear beyond a side, and one polyhedron has none.
+    Lie {
+        file: "certificate.json",
+        promise: "parts every two",
+        tell: |certificate| {
+            let side = vec![0.0, 0.0, 1.0, SIDES_MM[2]];
+            certificate["sides"] = vec![side].into();
+        },
     },
     Lie {
         file: "panels.json",

@@ -11,10 +11,10 @@ use serde_json::Value;
 use super::common::{
     assert_exit, checklist, copy, equipoise, files, json, list, number, path, printed, verify,
 };
-use super::{add, core, hold_broken, judge_in_python};
+use super::{add, core, hold_broken, hold_broken_in_python, judge_in_python};
 
-/// The sides of the long box, mm.
-const LONG_MM: [f64; 3] = [520.0, 180.0, 170.0];
+/// The sides of the long box, mm: as short as hands still reach the bolts within.
+const LONG_MM: [f64; 3] = [340.0, 150.0, 150.0];
 
 fn long_block(folder: &Path) -> PathBuf {
     let mesh = primitives::cuboid(&Point::origin(), &Point::from(LONG_MM));
@@ -79,45 +79,161 @@ fn hold_two(sheet: &Value) {
     }
 }
 
-/// A lie in a file, and words of the promise that it breaks.
-type Lie = (&'static str, &'static str, fn(&mut Value));
+/// A lie about polyhedra or bolts that a judge could overlook.
+struct Lie {
+    file: &'static str,
+    /// Words of the promise that it breaks.
+    promise: &'static str,
+    /// The check of the judge in Python that it breaks.
+    check: &'static str,
+    tell: fn(&mut Value),
+}
 
-/// Lies about polyhedra that a judge could overlook.
-const LIES: [Lie; 5] = [
-    ("checklist.json", "what still stands", |sheet| {
+const fn of_joins(tell: fn(&mut Value)) -> Lie {
+    Lie {
+        file: "checklist.json",
+        promise: "all the way",
+        check: "polyhedra that come together",
+        tell,
+    }
+}
+
+const fn of_units(check: &'static str, tell: fn(&mut Value)) -> Lie {
+    Lie {
+        check,
+        ..of_joins(tell)
+    }
+}
+
+const fn of_bolts(check: &'static str, tell: fn(&mut Value)) -> Lie {
+    Lie {
+        file: "checklist.json",
+        promise: "passes a hole",
+        check,
+        tell,
+    }
+}
+
+const fn of_sides(check: &'static str, tell: fn(&mut Value)) -> Lie {
+    Lie {
+        file: "certificate.json",
+        promise: "parts every two",
+        check,
+        tell,
+    }
+}
+
+const LOOSE: &str = "bolts that hold no panels";
+const STRAY: &str = "sides that lie between no polyhedra";
+
+const LIES: [Lie; 20] = [
+    Lie {
+        file: "checklist.json",
+        promise: "what still stands",
+        check: "shared on the way, mm³",
         // The second polyhedron would leave through the first one.
-        for number in sheet["joins"][0]["way"].as_array_mut().unwrap() {
-            let by = -2.0 * number.as_f64().unwrap();
-            add(number, by);
-        }
+        tell: |sheet| {
+            for number in sheet["joins"][0]["way"].as_array_mut().unwrap() {
+                let by = -2.0 * number.as_f64().unwrap();
+                add(number, by);
+            }
+        },
+    },
+    of_joins(|sheet| sheet["joins"].as_array_mut().unwrap().clear()),
+    // All come to nothing, so that nothing is in the way.
+    of_joins(|sheet| {
+        sheet["joins"][0]["moving"] = vec![1, 2].into();
+        sheet["joins"][0]["standing"] = Value::Array(Vec::new());
     }),
-    ("checklist.json", "all the way", |sheet| {
-        sheet["joins"].as_array_mut().unwrap().clear();
+    of_joins(|sheet| sheet["joins"][0]["standing"] = vec![1, 2].into()),
+    of_joins(|sheet| {
+        let first = sheet["joins"][0].clone();
+        sheet["joins"].as_array_mut().unwrap().push(first);
     }),
-    ("checklist.json", "all the way", |sheet| {
+    of_joins(|sheet| sheet["joins"][0]["bolts"] = 1.into()),
+    // A unit of another group meets nothing on its way.
+    of_units("units of another polyhedron", |sheet| {
+        let told = sheet["units"][0]["polyhedron"].as_u64().unwrap();
+        sheet["units"][0]["polyhedron"] = (3 - told).into();
+    }),
+    of_units("units of another polyhedron", |sheet| {
+        sheet["units"][0]
+            .as_object_mut()
+            .unwrap()
+            .remove("polyhedron");
+    }),
+    of_units("units out of turn", |sheet| {
+        sheet["units"][0]["is_last"] = true.into();
+    }),
+    of_units("length of a way, off 1", |sheet| {
+        sheet["units"][1]["way"] = vec![0.0; 3].into();
+    }),
+    of_units("polyhedra that are bolted", |sheet| {
         let all = sheet["fasteners"].as_array_mut().unwrap();
         all.retain(|one| one["kind"] != "bolt");
     }),
-    ("checklist.json", "passes a hole", |sheet| {
-        let all = sheet["fasteners"].as_array_mut().unwrap();
-        let bolt = all.iter_mut().find(|one| one["kind"] == "bolt").unwrap();
+    of_bolts("screws without a hole", |sheet| {
+        let bolt = first(sheet, "bolt");
         bolt["through"] = bolt["panel"].as_u64().map(|panel| panel + 1).into();
     }),
-    ("certificate.json", "parts every two", |certificate| {
+    of_bolts("nuts and washers", |sheet| {
+        let all = sheet["fasteners"].as_array_mut().unwrap();
+        let nut = all.iter().position(|one| one["kind"] == "nut").unwrap();
+        all.remove(nut);
+    }),
+    // The nut is beside its bolt, or along it where it presses on nothing.
+    of_bolts(LOOSE, |sheet| {
+        move_by(first(sheet, "nut"), |axis| [axis[1], axis[2], axis[0]]);
+    }),
+    of_bolts(LOOSE, |sheet| move_by(first(sheet, "nut"), |axis| axis)),
+    of_bolts("screws without a hole", |sheet| {
+        move_by(first(sheet, "washer"), |axis| axis);
+    }),
+    of_bolts(LOOSE, |sheet| {
+        add(&mut first(sheet, "bolt")["shaft_mm"][1], -8.0)
+    }),
+    of_bolts(LOOSE, |sheet| {
+        add(&mut first(sheet, "bolt")["shaft_mm"][0], 1.0)
+    }),
+    of_sides("polyhedra 1 and 2 apart, mm", |certificate| {
         add(&mut certificate["sides"][0][3], 5.0);
         add(&mut certificate["others"][0]["sides"][0][3], -5.0);
     }),
+    // A side through the middle would free the parts beyond it from their gap.
+    of_sides(STRAY, |certificate| {
+        let middle = LONG_MM[1] / 2.0;
+        let side = vec![0.0, 1.0, 0.0, middle];
+        let sides = certificate["sides"].as_array_mut().unwrap();
+        sides.push(side.into());
+    }),
 ];
 
+/// Returns the first fastener of a kind.
+fn first<'a>(sheet: &'a mut Value, kind: &str) -> &'a mut Value {
+    let all = sheet["fasteners"].as_array_mut().unwrap();
+    all.iter_mut().find(|one| one["kind"] == kind).unwrap()
+}
+
+/// Moves a fastener by a millimetre in a direction that depends on its axis.
+fn move_by(one: &mut Value, way: fn([f64; 3]) -> [f64; 3]) {
+    let axis = [0, 1, 2].map(|k| one["axis"][k].as_f64().unwrap());
+    for key in ["seat_mm", "center_mm"] {
+        for (k, by) in way(axis).into_iter().enumerate() {
+            add(&mut one[key][k], by);
+        }
+    }
+}
+
 fn tell_lies(folder: &Path, kit: &Path) {
-    for (index, (file, promise, tell)) in LIES.iter().enumerate() {
+    for (index, lie) in LIES.iter().enumerate() {
         let copied = folder.join(format!("lie-{index}"));
         copy(kit, &copied);
-        let text = fs::read(copied.join(file)).unwrap();
+        let text = fs::read(copied.join(lie.file)).unwrap();
         let mut value: Value = serde_json::from_slice(&text).unwrap();
-        tell(&mut value);
-        fs::write(copied.join(file), value.to_string()).unwrap();
-        hold_broken(&copied, promise);
+        (lie.tell)(&mut value);
+        fs::write(copied.join(lie.file), value.to_string()).unwrap();
+        hold_broken(&copied, lie.promise);
+        hold_broken_in_python(&copied, lie.check);
     }
 }
 

@@ -43,6 +43,7 @@ TOPPLING_DEG = 0.01
 NEAR_MM = 1e-3
 BAND_RATIO = 0.002
 SAMPLES = 4000
+STRAY_SIDES = "sides that lie between no polyhedra"
 
 
 def solid_of(mesh):
@@ -120,6 +121,18 @@ class Kit:
     def base_of(self, panel):
         return self.bases[panel.get("polyhedron", 1) - 1]
 
+    def polyhedron(self, number):
+        """The polyhedron of a panel."""
+        return self.panels[number - 1].get("polyhedron", 1)
+
+    def group(self, unit):
+        """The polyhedron of a unit by its panel and its parts of the shell, whatever it is told to be; 0 if there are several."""
+        if len(self.bases) == 1:
+            return 1
+        shell = [part for part in self.sheet["parts"] if part["id"] in unit["parts"] and part["kind"] == "shell"]
+        found = {self.polyhedron(number) for number in [unit["panel"], *(part["panel"] for part in shell)] if number}
+        return found.pop() if len(found) == 1 else 0
+
 
 def judge_files(kit):
     listed = kit.sheet["files"]
@@ -177,6 +190,13 @@ def judge_base(kit):
                 above = (all_corners[other] @ side[:3]).min() - side[3]
                 gaps.append(min(below, above))
             kit.check(f"polyhedra {other + 1} and {one + 1} apart, mm", max(gaps), max(gaps) >= 0, 0)
+    # Parts keep no distance beyond sides, so each must be a plane between two polyhedra.
+    stray = 0
+    for one, base in enumerate(kit.bases):
+        for side in base.sides:
+            flipped = any((other.sides == -side).all(axis=1).any() for other in kit.bases if other is not base)
+            stray += not (flipped and (all_corners[one] @ side[:3]).max() <= side[3])
+    kit.check(STRAY_SIDES, stray, stray == 0, 0)
     return solid_of(model)
 
 
@@ -190,15 +210,67 @@ def judge_panels(kit):
         corners = body.to_mesh64().vert_properties[:, :3]
         out = max(out, (corners @ planes[:, :3].T - planes[:, 3]).max())
     kit.check("panels out of the base, mm", out, out <= 1e-6, 1e-6)
-    screws = [one for one in kit.sheet["fasteners"] if one["kind"] != "insert"]
+    screws = [one for one in kit.sheet["fasteners"] if one["kind"] not in ("insert", "nut")]
     loose = 0
-    passed = [(one, one["panel"]) for one in screws] + [(one, one["through"]) for one in screws if one.get("through")]
-    for screw, number in passed:
-        panel = kit.panels[number - 1]
-        local = np.array(panel["axes"]) @ (np.array(screw["center_mm"]) - panel["origin_mm"])
-        loose += not any(math.dist(hole["at_mm"], local[:2]) < NEAR_MM for hole in panel["holes"])
+    for screw in screws:
+        own = passed(kit, screw, screw["panel"])
+        other = passed(kit, screw, screw["through"]) if screw.get("through") else own
+        bears = own and (screw["kind"] == "bolt" or abs(own[0]) < NEAR_MM and own[2] < screw["head_mm"][0])
+        loose += not (bears and other)
     kit.check("screws without a hole", loose, loose == 0, f"0 of {len(screws)}")
+    judge_bolts(kit)
     return bodies
+
+
+def on_axis(one, points):
+    """How far along the axis of a fastener points lie from its seat, and their greatest distance from the axis, mm."""
+    away = np.atleast_2d(points) - one["seat_mm"]
+    along = away @ np.array(one["axis"])
+    return along, np.linalg.norm(away - np.outer(along, one["axis"]), axis=1).max()
+
+
+def passed(kit, one, number):
+    """Where the axis of a fastener enters a hole of a panel and leaves it, mm from its seat, and the hole's diameter. None: no hole."""
+    panel = kit.panels[number - 1]
+    if abs(np.linalg.norm(one["axis"]) - 1) > 1e-9 or on_axis(one, one["center_mm"])[1] > NEAR_MM:
+        return None
+    for hole in panel["holes"]:
+        local = np.array([[*hole["at_mm"], 0.0], [*hole["at_mm"], -kit.thick]])
+        along, off = on_axis(one, local @ np.array(panel["axes"]) + panel["origin_mm"])
+        if off < NEAR_MM and along.min() > -NEAR_MM:
+            return along.min(), along.max(), hole["diameter_mm"]
+    return None
+
+
+def judge_bolts(kit):
+    """Each bolt holds panels of two polyhedra between two washers and a nut, and fits the holes."""
+    all_of = lambda kind: [one for one in kit.sheet["fasteners"] if one["kind"] == kind]
+    loose = 0
+    for bolt in all_of("bolt"):
+        first, second = passed(kit, bolt, bolt["panel"]), passed(kit, bolt, bolt["through"]) if bolt.get("through") else None
+        of = lambda kind, number, turn: [
+            one for one in all_of(kind) if one["panel"] == number and abs(np.dot(one["axis"], bolt["axis"]) - turn) < 1e-9
+            and on_axis(bolt, [one["seat_mm"], one["center_mm"]])[1] < NEAR_MM
+        ]
+        near, far = of("washer", bolt["panel"], 1), of("washer", bolt.get("through"), -1)
+        nuts = of("nut", bolt.get("through"), -1)
+        if not (first and second and bolt.get("shaft_mm") and [len(nuts), len(near), len(far)] == [1, 1, 1]):
+            loose += 1
+            continue
+        thread, length = bolt["shaft_mm"]
+        seat = on_axis(bolt, nuts[0]["seat_mm"])[0][0]
+        holds = (
+            kit.polyhedron(bolt["panel"]) != kit.polyhedron(bolt["through"])
+            and 0 < thread <= min(first[2], second[2])
+            and abs(first[0] - near[0]["head_mm"][1]) < NEAR_MM
+            and abs(seat - second[1] - far[0]["head_mm"][1]) < NEAR_MM
+            and first[1] <= second[0] + NEAR_MM
+            and seat + nuts[0]["head_mm"][1] <= length + NEAR_MM
+        )
+        loose += not holds
+    bolts, nuts, washers = (len(all_of(kind)) for kind in ("bolt", "nut", "washer"))
+    kit.check("bolts that hold no panels", loose, loose == 0, f"0 of {bolts}")
+    kit.check("nuts and washers", nuts + washers, [nuts, washers] == [bolts, 2 * bolts], 3 * bolts)
 
 
 def judge_sheet(kit, index, promised):
@@ -288,15 +360,17 @@ def judge_ways(kit, panels):
             if shared > worst:
                 worst, where = shared, f"{name} at {step} mm"
     kit.check(f"shared on the way, mm³, worst {where}", worst, worst <= WAY_MM3, WAY_MM3)
-    if len(kit.bases) > 1:
-        judge_joins(kit)
+    ways = [thing["way"] for thing in [*units, *kit.sheet.get("joins", [])]]
+    off = max(abs(np.linalg.norm(way) - 1) for way in ways)
+    kit.check("length of a way, off 1", off, off <= 1e-9, 1e-9)
+    judge_joins(kit)
 
 
 def steps(kit, bodies):
     """The steps of putting the object together: units of each polyhedron, the polyhedra, then what comes last."""
     units = kit.sheet["units"]
     last = lambda at: units[at].get("is_last", False)
-    group = lambda at: units[at].get("polyhedron")
+    group = lambda at: kit.group(units[at])
     for at, unit in enumerate(units):
         there = [other for other in range(at) if last(at) or (not last(other) and group(other) == group(at))]
         yield unit["id"], unit["way"], bodies[at], [body for other in there for body in bodies[other]]
@@ -306,21 +380,32 @@ def steps(kit, bodies):
 
 
 def judge_joins(kit):
-    """All polyhedra come together, and bolts hold each."""
-    polyhedron = lambda number: kit.panels[number - 1].get("polyhedron", 1)
-    bolts = [one for one in kit.sheet["fasteners"] if one["kind"] == "bolt"]
-    for name, groups in [
-        ("polyhedra that come together", [join["moving"] + join["standing"] for join in kit.sheet["joins"]]),
-        ("polyhedra that are bolted", [[polyhedron(bolt["panel"]), polyhedron(bolt["through"])] for bolt in bolts]),
-    ]:
-        graph = networkx.Graph()
-        graph.add_nodes_from(range(1, len(kit.bases) + 1))
-        for group in groups:
-            networkx.add_path(graph, group)
-        whole = networkx.is_connected(graph)
-        kit.check(name, len(kit.bases), whole, len(kit.bases))
-    nuts = sum(one["kind"] == "nut" for one in kit.sheet["fasteners"])
-    kit.check("nuts", nuts, nuts == len(bolts), len(bolts))
+    """All polyhedra come together group by group, and bolts hold each."""
+    units, joins, count = kit.sheet["units"], kit.sheet.get("joins", []), len(kit.bases)
+    wrong = sum(kit.group(unit) not in ([unit.get("polyhedron", 1)] if count == 1 else [unit.get("polyhedron")]) for unit in units)
+    wrong += sum(not kit.group(unit) for unit in units)
+    kit.check("units of another polyhedron", wrong, wrong == 0, 0)
+    late = [unit.get("is_last", False) for unit in units]
+    kit.check("units out of turn", sum(late), late == sorted(late) and (count > 1 or not any(late)), "those that come last are last")
+    groups, misfits = [frozenset([number]) for number in range(1, count + 1)], 0
+    bolts = [one for one in kit.sheet["fasteners"] if one["kind"] == "bolt" and one.get("through")]
+    held = [(kit.polyhedron(bolt["panel"]), kit.polyhedron(bolt["through"])) for bolt in bolts]
+    for join in joins:
+        sides = [frozenset(join["moving"]), frozenset(join["standing"])]
+        doubled = len(join["moving"]) + len(join["standing"]) != len(sides[0] | sides[1])
+        if doubled or not all(side in groups for side in sides):
+            misfits += 1
+            continue
+        groups = [group for group in groups if group not in sides] + [sides[0] | sides[1]]
+        across = sum(a in sides[0] and b in sides[1] or b in sides[0] and a in sides[1] for a, b in held)
+        misfits += across != join["bolts"]
+    kit.check("polyhedra that come together", count + 1 - len(groups), misfits == 0 and len(groups) == 1, count)
+    graph = networkx.Graph(held)
+    graph.add_nodes_from(range(1, count + 1))
+    kit.check("polyhedra that are bolted", count, networkx.is_connected(graph), count)
+    last = {unit["panel"] for unit in units if unit.get("is_last") and unit["panel"]}
+    early = sum(bool(last & {bolt["panel"], bolt["through"]}) for bolt in bolts)
+    kit.check("bolts through panels that come last", early, early == 0, 0)
 
 
 def meets(a, b):
@@ -381,11 +466,7 @@ def judge_mass(kit):
     kit.check("topples at, °", lean, lean >= sheet["least_angle_deg"] and abs(lean - sheet["toppling_deg"]) <= TOPPLING_DEG, f"{sheet['toppling_deg']:.4f} told, {sheet['least_angle_deg']} asked")
 
 
-def judge(folder):
-    print(folder)
-    kit = Kit(folder)
-    judge_files(kit)
-    model = judge_base(kit)
+def judge_things(kit, model):
     panels = judge_panels(kit)
     cut = [panel for index, promised in enumerate(kit.sheet["cut_sheets"]) for panel in judge_sheet(kit, index, promised)]
     kit.check("panels that are cut", len(cut), sorted(cut) == list(range(1, len(kit.panels) + 1)), len(kit.panels))
@@ -393,6 +474,16 @@ def judge(folder):
     judge_ways(kit, panels)
     judge_heads(kit, panels)
     judge_mass(kit)
+
+
+def judge(folder):
+    print(folder)
+    kit = Kit(folder)
+    judge_files(kit)
+    model = judge_base(kit)
+    # With a wrong side there is no room that parts must keep clear of, so that nothing else can be held.
+    if STRAY_SIDES not in kit.faults:
+        judge_things(kit, model)
     for fault in kit.faults:
         print(f"  broken: {fault}")
     return not kit.faults

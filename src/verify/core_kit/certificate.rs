@@ -23,8 +23,8 @@ pub struct BaseFacts {
     pub outside_mm3: f64,
     /// The volume of the base grown by the gap, mm³.
     pub grown_mm3: f64,
-    /// The least distance of two polyhedra from the plane between them, mm; infinite for one.
-    /// `None` if there is no such plane between two.
+    /// The least distance of polyhedra from the planes between them, mm; infinite for one. `None`
+    /// if there is no such plane between two, or a side is no such plane.
     pub apart_mm: Option<f64>,
 }
 
@@ -140,19 +140,23 @@ pub fn measure_base(evidence: &CoreEvidence) -> Result<BaseFacts, ClipError> {
     Ok(facts)
 }
 
-/// Returns the least distance of two polyhedra from the plane between them, mm. A plane is between
-/// two if it bounds one, and seen from its other side bounds the other.
+/// Returns the least distance of polyhedra from the planes between them, mm. A plane is between
+/// two if it bounds one, and seen from its other side bounds the other. `None` if two have no such
+/// plane, or one has a side that is not such a plane: parts need not keep clear beyond sides.
 fn apart_mm(bases: &[BaseEvidence], corners: &[Vec<Point>]) -> Option<f64> {
     let mut least_mm = f64::INFINITY;
-    for (at, one) in bases.iter().enumerate() {
-        for (other, two) in bases.iter().enumerate().take(at) {
-            let shared = one
-                .sides
-                .iter()
-                .find(|side| two.sides.contains(&side.flipped()))?;
-            let below = corners[at].iter().map(|p| -shared.distance(p));
-            let above = corners[other].iter().map(|p| shared.distance(p));
-            least_mm = below.chain(above).fold(least_mm, f64::min);
+    for (at, (one, own)) in bases.iter().zip(corners).enumerate() {
+        let shares = |side: &Plane, other: usize| {
+            other != at && bases[other].sides.contains(&side.flipped())
+        };
+        for side in &one.sides {
+            let is_between = (0..bases.len()).any(|other| shares(side, other));
+            let below = own.iter().map(|p| -side.distance(p));
+            least_mm = is_between.then(|| below.fold(least_mm, f64::min))?;
+        }
+        let mut others = (0..bases.len()).filter(|&other| other != at);
+        if !others.all(|other| one.sides.iter().any(|side| shares(side, other))) {
+            return None;
         }
     }
     Some(least_mm)

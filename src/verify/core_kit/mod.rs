@@ -12,6 +12,8 @@ mod error;
 mod evidence;
 mod facts;
 mod flat;
+mod hardware;
+mod joining;
 mod packages;
 mod panels;
 mod promise;

@@ -3,14 +3,10 @@
 use std::f64::consts::FRAC_PI_4;
 
 use super::evidence::CoreEvidence;
-use super::flat::apart;
-use super::promise::FastenerKind;
+use super::hardware::misfits;
 use crate::geom::{Matrix, Point, Vector};
 use crate::mass::{Moments, moments_of_mesh};
 use crate::mesh::{ClipError, Csg, TriMesh, ear_clip};
-
-/// By how much a screw may be beside the middle of its hole, mm.
-const BESIDE_MM: f64 = 1e-3;
 
 /// The facts about panels.
 #[derive(Debug, Clone, PartialEq)]
@@ -22,7 +18,7 @@ pub struct PanelFacts {
     pub out_mm: f64,
     /// The greatest deviation of a panel's frame from a rigid motion.
     pub frame_error: f64,
-    /// Screws without a hole in their panel.
+    /// Screws without a hole in their panel, and bolts that hold nothing, in words.
     pub unscrewed: Vec<String>,
 }
 
@@ -92,7 +88,7 @@ pub fn measure_panels(evidence: &CoreEvidence) -> Result<PanelFacts, ClipError> 
         overlap_mm3,
         out_mm,
         frame_error: frame_error(evidence),
-        unscrewed: unscrewed(evidence),
+        unscrewed: misfits(evidence),
     })
 }
 
@@ -135,29 +131,4 @@ pub fn shared_mm3(a: &TriMesh, b: &TriMesh) -> Result<f64, ClipError> {
     }
     let shared = Csg::of_mesh(a)?.intersect(&Csg::of_mesh(b)?)?;
     Ok(shared.to_mesh()?.signed_volume_mm3().max(0.0))
-}
-
-/// Returns the screws that pass no hole of their panels, in words.
-fn unscrewed(evidence: &CoreEvidence) -> Vec<String> {
-    let screws = evidence.promise.fasteners.iter();
-    let screws = screws.filter(|one| one.kind != FastenerKind::Insert);
-    let passes = |at: [f64; 3], panel: usize| {
-        let panel = panel.wrapping_sub(1);
-        let Some(of) = evidence.panels.panels.get(panel) else {
-            return false;
-        };
-        let local = evidence.frame(panel).to_local(&Point::from(at));
-        of.holes
-            .iter()
-            .any(|hole| apart(hole.at_mm, [local.x, local.y]) <= BESIDE_MM)
-    };
-    let passes = &passes;
-    let loose = screws.flat_map(|screw| {
-        let panels = [Some(screw.panel), screw.through].into_iter().flatten();
-        panels.filter_map(move |panel| {
-            let words = || format!("a screw of {} passes no hole of panel {panel}", screw.part);
-            (!passes(screw.center_mm, panel)).then(words)
-        })
-    });
-    loose.collect()
 }

@@ -176,6 +176,9 @@ pub struct FastenerPromise {
     /// The number of the other panel that a bolt passes, from 1; `None` for all else.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub through: Option<usize>,
+    /// Thread and length of a bolt, mm; `None` for all else.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub shaft_mm: Option<[f64; 2]>,
 }
 
 /// A film of glue, taken as a point of its mass.

@@ -4,8 +4,8 @@ use rayon::prelude::*;
 
 use super::error::CoreVerifyError;
 use super::evidence::CoreEvidence;
+use super::joining::{misjoined, polyhedron_of};
 use super::panels::{panel_body, shared_mm3};
-use super::promise::FastenerKind;
 use crate::base::watch::Watch;
 use crate::geom::{Aabb, Bvh, Point, Vector};
 use crate::mesh::{TriMesh, spread_points};
@@ -35,7 +35,7 @@ pub struct WayFacts {
     pub barred: Vec<String>,
     /// The greatest volume that two things share where they stand, mm³.
     pub standing_mm3: f64,
-    /// Things that belong to no unit, or to several.
+    /// Things that belong to no unit, or to several, and polyhedra that come to no other.
     pub strays: Vec<String>,
 }
 
@@ -44,6 +44,8 @@ struct UnitBodies {
     bodies: Vec<TriMesh>,
     way: Vector,
     id: String,
+    /// The number of its polyhedron, from 1; `None` if it has parts of several.
+    polyhedron: Option<usize>,
 }
 
 /// A step of putting the object together.
@@ -61,7 +63,7 @@ struct Step<'a> {
 /// The boolean engine fails, or the watch is stopped.
 pub fn measure_ways(evidence: &CoreEvidence, watch: &Watch) -> Result<WayFacts, CoreVerifyError> {
     let mut facts = WayFacts {
-        strays: [strays(evidence), unjoined(evidence)].concat(),
+        strays: [strays(evidence), misjoined(evidence)].concat(),
         ..WayFacts::default()
     };
     let units: Vec<UnitBodies> = bodies(evidence);
@@ -100,8 +102,8 @@ fn steps<'a>(evidence: &CoreEvidence, units: &'a [UnitBodies]) -> Vec<Step<'a>> 
     let promise = &evidence.promise;
     let all = || promise.units.iter().zip(units).enumerate();
     let of_units = all().map(|(index, (unit, own))| {
-        let stands = all().take(index).filter(|(_, (other, _))| {
-            unit.is_last || (!other.is_last && other.polyhedron == unit.polyhedron)
+        let stands = all().take(index).filter(|(_, (other, theirs))| {
+            unit.is_last || (!other.is_last && theirs.polyhedron == own.polyhedron)
         });
         Step {
             moving: own.bodies.iter().collect(),
@@ -112,8 +114,8 @@ fn steps<'a>(evidence: &CoreEvidence, units: &'a [UnitBodies]) -> Vec<Step<'a>> 
     });
     let of_joins = promise.joins.iter().map(|join| {
         let within = |numbers: &[usize]| {
-            let own = all().filter(|(_, (unit, _))| {
-                let is_in = unit.polyhedron.is_some_and(|at| numbers.contains(&at));
+            let own = all().filter(|(_, (unit, own))| {
+                let is_in = own.polyhedron.is_some_and(|at| numbers.contains(&at));
                 is_in && !unit.is_last
             });
             own.flat_map(|(_, (_, own))| &own.bodies).collect()
@@ -126,51 +128,6 @@ fn steps<'a>(evidence: &CoreEvidence, units: &'a [UnitBodies]) -> Vec<Step<'a>> 
         }
     });
     of_units.chain(of_joins).collect()
-}
-
-/// Returns the polyhedra that no join brings to the first one, and those that no bolts hold.
-fn unjoined(evidence: &CoreEvidence) -> Vec<String> {
-    let promise = &evidence.promise;
-    let come = promise.joins.iter().map(|join| {
-        let both = join.moving.iter().chain(&join.standing);
-        both.copied().collect::<Vec<usize>>()
-    });
-    let polyhedron = |panel: usize| {
-        let panel = evidence.panels.panels.get(panel.wrapping_sub(1));
-        panel.map_or(0, |panel| panel.polyhedron)
-    };
-    let bolts = promise.fasteners.iter();
-    let bolts = bolts.filter(|one| one.kind == FastenerKind::Bolt);
-    let held = bolts.filter_map(|bolt| Some([bolt.panel, bolt.through?].map(polyhedron).to_vec()));
-    let count = evidence.certificate.bases().count();
-    let words = |groups: Vec<Vec<usize>>, what: &str| -> Vec<String> {
-        let joined = reached(&groups);
-        let apart = (1..=count).filter(|number| !joined.contains(number));
-        apart
-            .map(|number| format!("polyhedron {number} {what}"))
-            .collect()
-    };
-    [
-        words(come.collect(), "comes to no other"),
-        words(held.collect(), "is bolted to no other"),
-    ]
-    .concat()
-}
-
-/// Returns all numbers that groups, which share some, join to 1.
-fn reached(groups: &[Vec<usize>]) -> Vec<usize> {
-    let mut joined = vec![1];
-    // Each pass reaches one more group, or none is left.
-    for _ in groups {
-        for group in groups {
-            if group.iter().any(|number| joined.contains(number)) {
-                joined.extend(group);
-            }
-        }
-        joined.sort_unstable();
-        joined.dedup();
-    }
-    joined
 }
 
 /// Returns the things that belong to no unit, or to several.
@@ -204,6 +161,7 @@ fn bodies(evidence: &CoreEvidence) -> Vec<UnitBodies> {
                 bodies: parts.chain(panel).collect(),
                 way: Vector::from(unit.way),
                 id: unit.id.clone(),
+                polyhedron: polyhedron_of(evidence, unit),
             }
         })
         .collect()
