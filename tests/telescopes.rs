@@ -278,11 +278,14 @@ fn move_a_juncture(kit: &Path) {
     );
 }
 
+/// A change of a file's content.
+type Lie = fn(&mut serde_json::Value);
+
 /// Lets the motion open nothing, or in another order than the sheet: the judge must refuse it.
 fn lie_about_the_motion(kit: &Path) {
     let file = kit.join("motion.json");
     let right = fs::read(&file).unwrap();
-    let lies: [(&str, fn(&mut serde_json::Value)); 2] = [
+    let lies: [(&str, Lie); 2] = [
         ("all in to all out|order of the sheet", |motion| {
             motion["keys"].as_array_mut().unwrap().truncate(1);
         }),
