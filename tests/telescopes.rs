@@ -194,6 +194,9 @@ fn measures_that_contradict_each_other_are_refused() {
             "thicker than the root",
         ),
         ("--wall 0.1mm", "wall"),
+        ("--junctures hull", "has no limbs"),
+        ("--root 3", "has no limbs"),
+        ("--keep-solid 4mm", "has no limbs"),
     ] {
         let said = refuse("curve.csv", curve, options);
         assert!(said.contains(expected), "{options}: {said}");
@@ -394,6 +397,8 @@ fn skeletons_that_cannot_be_used_are_refused_with_place_and_remedy() {
     }
     let said = refuse("s.toml", plain.as_bytes(), "--root 77");
     assert!(said.contains("no node 77"), "{said}");
+    let said = refuse("s.toml", plain.as_bytes(), "--shells 1");
+    assert!(said.contains("--shells=2"), "{said}");
     let said = refuse("s.toml", plain.as_bytes(), "--goal stand");
     assert!(said.contains("--goal=stand"), "{said}");
 }

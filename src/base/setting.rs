@@ -111,6 +111,12 @@ choice! {
         Like = "like",
         /// The number of shells of a telescope.
         Shells = "shells",
+        /// The kind of bodies in which limbs meet.
+        Junctures = "junctures",
+        /// The radius below which limbs stay solid.
+        KeepSolid = "keep_solid",
+        /// The node that limbs grow from.
+        Root = "root",
         /// The radius of a telescope's tip.
         TipRadius = "tip_radius",
         /// The greatest radius of a telescope's root.

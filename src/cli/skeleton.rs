@@ -15,13 +15,12 @@ use crate::base::toml_text::TextFault;
 use crate::base::units::{format_count, show_mm};
 use crate::base::watch::{Cancelled, Watch};
 use crate::draw::PictureError;
-use crate::geom::Point;
 use crate::goal::find_upright;
 use crate::io::{ReadError, read_bytes, read_model};
-use crate::job::telescope::Root;
 use crate::mesh::{Defects, MeshFacts, Solid, scaled};
 use crate::repair::{NotOneBody, one_body, repair};
 use crate::skeleton::{Chain, Limbs, ShellSizes, Skeleton, SkeletonError};
+use crate::telescope::prepare::choose_root;
 
 /// The ending of a skeleton file.
 const SKELETON_ENDING: &str = "toml";
@@ -196,15 +195,6 @@ fn read_solid(args: &SkeletonArgs, watch: &Watch) -> Result<Solid, SkeletonComma
         source: Box::new(source),
     })?;
     Ok(solid)
-}
-
-fn choose_root(skeleton: &mut Skeleton, root: Option<Root>) -> Result<(), SkeletonCommandError> {
-    match root {
-        None => {}
-        Some(Root::Near(place)) => skeleton.root = skeleton.nearest(&Point::from(place)),
-        Some(Root::Node(id)) => skeleton.root_at(id)?,
-    }
-    Ok(())
 }
 
 /// Returns what is in a skeleton, for shells of these sizes.

@@ -1,6 +1,8 @@
 //! The base of an object that is larger than the printer: how many polyhedra, or a person's own.
 
 use std::fmt;
+use std::fs::File;
+use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
@@ -8,6 +10,8 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer, de::Error as _};
 
 /// The word for as many polyhedra as are worth it.
 const AUTO: &str = "auto";
+/// The largest file, bytes: a base of six polyhedra has some ten thousand.
+const MOST_BYTES: u64 = 1 << 20;
 /// The most polyhedra that may be asked for.
 const MOST_POLYHEDRA: usize = 6;
 
@@ -95,7 +99,7 @@ pub struct BaseReadError {
     /// The file.
     pub path: PathBuf,
     /// The system's error.
-    pub source: std::io::Error,
+    pub source: io::Error,
 }
 
 /// A base that a person gives, in place of one that is looked for.
@@ -111,10 +115,18 @@ pub struct BaseChoice {
 impl BaseChoice {
     /// Reads the file at `path`; its text is not looked at.
     pub fn read(path: &Path) -> Result<Self, BaseReadError> {
-        let toml = std::fs::read_to_string(path).map_err(|source| BaseReadError {
+        let refused = |source| BaseReadError {
             path: path.to_owned(),
             source,
-        })?;
+        };
+        let file = File::open(path).map_err(refused)?;
+        let mut toml = String::new();
+        let read = file.take(MOST_BYTES + 1).read_to_string(&mut toml);
+        let read = read.map_err(refused)?;
+        if read as u64 > MOST_BYTES {
+            let fault = "it is far larger than a base";
+            return Err(refused(io::Error::new(io::ErrorKind::FileTooLarge, fault)));
+        }
         Ok(Self {
             file: path.to_string_lossy().into_owned(),
             toml,

@@ -5,18 +5,27 @@ use maud::{Markup, PreEscaped, html};
 
 use super::core_kit_joining as joining;
 use super::document::styled_document;
-use super::fields::{blank, file_name, sentence};
+use super::fields::{blank, file_name};
 use super::figure::{Picture, Role, figures};
 use super::job_id::JobId;
 use super::proof;
-use super::running::{code, on_screen, style};
-use super::words;
+use super::running::style;
+use super::wing_frame::{self as frame, Cover};
 use crate::base::numbers::{measured, measured_extent, number};
 use crate::base::units::format_count;
-use crate::sheet::Verdict;
 use crate::sheet::core_kit::{CoreSheet, CutSheetRow};
 use crate::verify::{CorePartKind, CutSheetPromise, UnitPromise};
 
+/// The lines that the shop fills in.
+const FIELDS: [&str; 7] = [
+    "Order",
+    "Quantity",
+    "Due",
+    "Printer",
+    "Cutter",
+    "Material lot",
+    "Sheet lot",
+];
 /// The names of the steps in their order.
 const STEPS: [&str; 7] = ["Buy", "Cut", "Print", "Screw on", "Join", "Close", "Test"];
 
@@ -51,14 +60,9 @@ pub fn core_job(page: &CorePage) -> String {
     let body = html! {
         (cover(page, &job))
         main {
-            @for (index, (name, step)) in STEPS.into_iter().zip(steps).enumerate() {
-                section class="step" {
-                    h2 id=(format!("step-{}", index + 1)) { (index + 1) ". " (name) }
-                    (step(page))
-                }
-            }
+            (frame::steps(STEPS.into_iter().zip(steps.map(|step| step(page)))))
             (proof::checks(&page.sheet.checks))
-            (files(page))
+            (frame::files(page.sha256, &page.sheet.files))
         }
     };
     styled_document(
@@ -70,29 +74,17 @@ pub fn core_job(page: &CorePage) -> String {
 
 fn cover(page: &CorePage, job: &JobId) -> Markup {
     let sheet = page.sheet;
-    html! {
-        header class="cover" {
-            (on_screen(job))
-            div class="title" {
-                p class="small" { "Job sheet" }
-                h1 { (sheet.job) }
-                p { "Job id " strong { (job.short()) } }
-                p class="promise" { (promise(sheet)) }
-                (verdict(sheet))
-            }
-            div class="code" { (code(job)) }
-        }
-        section aria-label="Overview" {
-            p class="fields" {
-                @for field in ["Order", "Quantity", "Due", "Printer", "Cutter", "Material lot", "Sheet lot"] {
-                    span class="field" { (field) " " (blank()) } " "
-                }
-            }
-            @for warning in &sheet.warnings { p class="warn" { strong { "Warning: " } (sentence(warning)) } }
-            (figures(page.pictures, Role::Cover))
-            (facts(sheet))
-        }
-    }
+    let content = html! {
+        (figures(page.pictures, Role::Cover))
+        (facts(sheet))
+    };
+    let cover = Cover {
+        job,
+        promise: promise(sheet),
+        broken: "✗ do not make: see the checks",
+        fields: &FIELDS,
+    };
+    cover.draw(sheet, &content)
 }
 
 /// Words what the object does, in one sentence.
@@ -114,18 +106,6 @@ fn shell_parts(sheet: &CoreSheet) -> usize {
     parts
         .filter(|part| part.kind == CorePartKind::Shell)
         .count()
-}
-
-fn verdict(sheet: &CoreSheet) -> Markup {
-    let (class, word) = match sheet.verdict {
-        Verdict::Pass => ("verdict pass", "✓ all promises kept"),
-        Verdict::Fail => ("verdict fail", "✗ do not make: see the checks"),
-    };
-    let broken = sheet.checks.iter().filter(|check| !check.pass);
-    html! {
-        p class=(class) { (word) }
-        @for check in broken { p class="fail" { (words::broken(check)) } }
-    }
 }
 
 fn facts(sheet: &CoreSheet) -> Markup {
@@ -347,20 +327,6 @@ fn test(page: &CorePage) -> Markup {
                 }
             }
             li { "Push at every part by hand: none may move." }
-        }
-    }
-}
-
-fn files(page: &CorePage) -> Markup {
-    html! {
-        section {
-            h2 { "Files" }
-            p { "SHA-256 of checklist.json: " code { (page.sha256) } }
-            table class="hashes" {
-                @for (file, sha256) in &page.sheet.files {
-                    tr { th scope="row" { (file) } td { code { (sha256) } } }
-                }
-            }
         }
     }
 }

@@ -57,6 +57,7 @@ mod trials;
 mod view;
 mod viewpoint;
 mod weighing;
+mod wing_frame;
 mod words;
 
 pub use album::{draw_figures, render_pictures};

@@ -3,13 +3,15 @@
 use maud::{Markup, html};
 
 use super::document::styled_document;
-use super::fields::{blank, file_name, sentence};
+use super::fields::file_name;
 use super::figure::{Picture, Role, figures};
 use super::job_id::JobId;
-use super::running::{code, on_screen, style};
+use super::running::style;
 use super::telescope::{
-    STEPS, TelescopePage, assemble, clean, dry_fit, glue, joint_line, sign_off, verdict,
+    DO_NOT_PRINT, FIELDS, STEPS, TelescopePage, assemble, clean, dry_fit, glue, joint_line,
+    sign_off,
 };
+use super::wing_frame::{self as frame, Cover};
 use crate::base::numbers::{measured, measured_extent, number};
 use crate::base::units::format_count;
 use crate::sheet::network::{LimbRow, NetworkSheet};
@@ -50,12 +52,7 @@ pub fn network_job(page: &NetworkPage) -> String {
     let body = html! {
         (cover(page, &job))
         main {
-            @for (index, (name, step)) in STEPS.into_iter().zip(steps).enumerate() {
-                section class="step" {
-                    h2 id=(format!("step-{}", index + 1)) { (index + 1) ". " (name) }
-                    (step(page))
-                }
-            }
+            (frame::steps(STEPS.into_iter().zip(steps.map(|step| step(page)))))
             (sign_off())
         }
     };
@@ -84,30 +81,18 @@ pub(super) fn juncture(sheet: &NetworkSheet, number: usize) -> &str {
 
 fn cover(page: &NetworkPage, job: &JobId) -> Markup {
     let sheet = page.sheet;
-    html! {
-        header class="cover" {
-            (on_screen(job))
-            div class="title" {
-                p class="small" { "Job sheet" }
-                h1 { (sheet.job) }
-                p { "Job id " strong { (job.short()) } }
-                p class="promise" { (promise(sheet)) }
-                (verdict(sheet))
-            }
-            div class="code" { (code(job)) }
-        }
-        section aria-label="Overview" {
-            p class="fields" {
-                @for field in ["Order", "Quantity", "Due", "Machine", "Material lot"] {
-                    span class="field" { (field) " " (blank()) } " "
-                }
-            }
-            @for warning in &sheet.warnings { p class="warn" { strong { "Warning: " } (sentence(warning)) } }
-            (figures(page.pictures, Role::State))
-            (facts(sheet))
-            (figures(page.pictures, Role::Exploded))
-        }
-    }
+    let content = html! {
+        (figures(page.pictures, Role::State))
+        (facts(sheet))
+        (figures(page.pictures, Role::Exploded))
+    };
+    let cover = Cover {
+        job,
+        promise: promise(sheet),
+        broken: DO_NOT_PRINT,
+        fields: &FIELDS,
+    };
+    cover.draw(sheet, &content)
 }
 
 fn facts(sheet: &NetworkSheet) -> Markup {

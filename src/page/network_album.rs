@@ -24,7 +24,7 @@ pub struct ShownBody {
     pub is_named: bool,
 }
 
-/// What the pictures show: the bodies, and their meshes in three states.
+/// The bodies that the pictures show, and their meshes in three states.
 #[derive(Debug)]
 pub struct NetworkView {
     /// The bodies; the junctures last.

@@ -5,7 +5,8 @@ use maud::{Markup, html};
 use super::document::styled_document;
 use super::network::{NetworkPage, juncture, promise};
 use super::proof;
-use super::running::{code, style};
+use super::running::style;
+use super::wing_frame as frame;
 use crate::base::numbers::{extent, number, quantity};
 use crate::sheet::network::{LimbRow, NetworkSheet};
 
@@ -13,29 +14,13 @@ use crate::sheet::network::{LimbRow, NetworkSheet};
 pub fn network_certificate(page: &NetworkPage) -> String {
     let (sheet, job) = (page.sheet, page.job_id());
     let body = html! {
-        header class="cover" {
-            div class="title" {
-                p class="small" { "Certificate" }
-                h1 { (sheet.job) }
-                p { "Job id " strong { (job.short()) } }
-                p class="promise" { (promise(sheet)) }
-            }
-            div class="code" { (code(&job)) }
-        }
+        (frame::certificate_head(&job, &promise(sheet)))
         main {
             (facts(sheet))
             (proof::checks(&sheet.checks))
             (limbs(sheet))
             (centres(sheet))
-            section {
-                h2 { "Files" }
-                p { "SHA-256 of checklist.json: " code { (page.sha256) } }
-                table class="hashes" {
-                    @for (file, sha256) in &sheet.files {
-                        tr { th scope="row" { (file) } td { code { (sha256) } } }
-                    }
-                }
-            }
+            (frame::files(page.sha256, &sheet.files))
         }
     };
     styled_document(&format!("Certificate: {}", sheet.job), &body, &style(&job))

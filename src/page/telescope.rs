@@ -3,19 +3,22 @@
 use maud::{Markup, html};
 
 use super::document::styled_document;
-use super::fields::{blank, file_name, sentence};
+use super::fields::{blank, file_name};
 use super::figure::{Picture, Role, figures};
 use super::job_id::JobId;
-use super::running::{code, on_screen, style};
-use super::words;
+use super::running::style;
+use super::wing_frame::{self as frame, Cover};
 use crate::base::numbers::{measured, measured_extent, number};
 use crate::base::units::format_count;
 use crate::sheet::telescope::{JointRow, TelescopePrinter, TelescopeSheet};
-use crate::sheet::{KindSheet, Verdict};
 
 /// The turn below which a joint does not turn, degrees: it is not seen.
 const WHOLE_TURN_DEG: f64 = 0.5;
 
+/// The word of a broken verdict.
+pub(super) const DO_NOT_PRINT: &str = "✗ do not print: see certificate";
+/// The lines that the shop fills in.
+pub(super) const FIELDS: [&str; 5] = ["Order", "Quantity", "Due", "Machine", "Material lot"];
 /// The names of the steps in their order.
 pub(super) const STEPS: [&str; 6] = ["Print", "Clean", "Dry fit", "Assemble", "Open", "Test"];
 
@@ -46,12 +49,7 @@ pub fn telescope_job(page: &TelescopePage) -> String {
     let body = html! {
         (cover(page, &job))
         main {
-            @for (index, (name, step)) in STEPS.into_iter().zip(steps).enumerate() {
-                section class="step" {
-                    h2 id=(format!("step-{}", index + 1)) { (index + 1) ". " (name) }
-                    (step(page))
-                }
-            }
+            (frame::steps(STEPS.into_iter().zip(steps.map(|step| step(page)))))
             (sign_off())
             (card(page.sheet))
         }
@@ -65,29 +63,17 @@ pub fn telescope_job(page: &TelescopePage) -> String {
 
 fn cover(page: &TelescopePage, job: &JobId) -> Markup {
     let sheet = page.sheet;
-    html! {
-        header class="cover" {
-            (on_screen(job))
-            div class="title" {
-                p class="small" { "Job sheet" }
-                h1 { (sheet.job) }
-                p { "Job id " strong { (job.short()) } }
-                p class="promise" { (promise(sheet)) }
-                (verdict(sheet))
-            }
-            div class="code" { (code(job)) }
-        }
-        section aria-label="Overview" {
-            p class="fields" {
-                @for field in ["Order", "Quantity", "Due", "Machine", "Material lot"] {
-                    span class="field" { (field) " " (blank()) } " "
-                }
-            }
-            @for warning in &sheet.warnings { p class="warn" { strong { "Warning: " } (sentence(warning)) } }
-            (figures(page.pictures, Role::State))
-            (facts(sheet))
-        }
-    }
+    let content = html! {
+        (figures(page.pictures, Role::State))
+        (facts(sheet))
+    };
+    let cover = Cover {
+        job,
+        promise: promise(sheet),
+        broken: DO_NOT_PRINT,
+        fields: &FIELDS,
+    };
+    cover.draw(sheet, &content)
 }
 
 /// Words what the telescope does, in one sentence.
@@ -104,18 +90,6 @@ pub(super) fn promise(sheet: &TelescopeSheet) -> String {
         measured(sheet.collapsed_mm[0], "mm"),
         measured(sheet.curve.length_mm, "mm"),
     )
-}
-
-pub(super) fn verdict(sheet: &impl KindSheet) -> Markup {
-    let (class, word) = match sheet.verdict() {
-        Verdict::Pass => ("verdict pass", "✓ all promises kept"),
-        Verdict::Fail => ("verdict fail", "✗ do not print: see certificate"),
-    };
-    let broken = sheet.checks().iter().filter(|check| !check.pass);
-    html! {
-        p class=(class) { (word) }
-        @for check in broken { p class="fail" { (words::broken(check)) } }
-    }
 }
 
 fn facts(sheet: &TelescopeSheet) -> Markup {

@@ -4,8 +4,9 @@ use maud::{Markup, html};
 
 use super::document::styled_document;
 use super::proof;
-use super::running::{code, style};
+use super::running::style;
 use super::telescope::{TelescopePage, promise};
+use super::wing_frame as frame;
 use crate::base::numbers::{extent, number, quantity, quantity_or_dash};
 use crate::sheet::telescope::TelescopeSheet;
 
@@ -13,22 +14,14 @@ use crate::sheet::telescope::TelescopeSheet;
 pub fn telescope_certificate(page: &TelescopePage) -> String {
     let (sheet, job) = (page.sheet, page.job_id());
     let body = html! {
-        header class="cover" {
-            div class="title" {
-                p class="small" { "Certificate" }
-                h1 { (sheet.job) }
-                p { "Job id " strong { (job.short()) } }
-                p class="promise" { (promise(sheet)) }
-            }
-            div class="code" { (code(&job)) }
-        }
+        (frame::certificate_head(&job, &promise(sheet)))
         main {
             (facts(sheet))
             (proof::checks(&sheet.checks))
             (shells(sheet))
             (balance(sheet))
             (trade(sheet))
-            (files(page))
+            (frame::files(page.sha256, &sheet.files))
         }
     };
     styled_document(&format!("Certificate: {}", sheet.job), &body, &style(&job))
@@ -181,20 +174,6 @@ fn trade(sheet: &TelescopeSheet) -> Markup {
                             td data-head="Why not" { (row.why.as_deref().unwrap_or("–")) }
                         }
                     }
-                }
-            }
-        }
-    }
-}
-
-fn files(page: &TelescopePage) -> Markup {
-    html! {
-        section {
-            h2 { "Files" }
-            p { "SHA-256 of checklist.json: " code { (page.sha256) } }
-            table class="hashes" {
-                @for (file, sha256) in &page.sheet.files {
-                    tr { th scope="row" { (file) } td { code { (sha256) } } }
                 }
             }
         }

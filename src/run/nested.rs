@@ -38,7 +38,7 @@ pub enum Extent {
     Interior,
     /// What of that has a solution's quadric above this value.
     Above(f64),
-    /// What of that lies in the body of the field's region with this index.
+    /// The part of it in the body of the field's region with this index.
     Body(usize),
 }
 

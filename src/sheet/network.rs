@@ -37,7 +37,7 @@ pub struct NetworkSheet {
     pub limbs: Vec<LimbRow>,
     /// The junctures. The first stands still.
     pub junctures: Vec<JuncturePromise>,
-    /// What the shop needs to know of each juncture, in the same order.
+    /// Facts for the shop about each juncture, in the same order.
     pub juncture_rows: Vec<JunctureRow>,
     /// The names of the limbs in the order in which they open.
     pub order: Vec<String>,
@@ -79,7 +79,7 @@ pub struct LimbRow {
 pub struct JunctureRow {
     /// The name on the sheet.
     pub id: String,
-    /// How it lies on the plate.
+    /// The way in which it lies on the plate, in words.
     pub lies: String,
     /// Extent in print pose, mm.
     pub size_mm: [f64; 3],

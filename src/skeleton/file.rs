@@ -43,7 +43,7 @@ const MOST_MM: f64 = 1e6;
 /// Numbers of a branch on one line of the file.
 const NUMBERS_A_LINE: usize = 16;
 
-/// What tells the kind of a file.
+/// The key that tells the kind of a file.
 #[derive(Deserialize)]
 struct Head {
     kind: Spanned<String>,

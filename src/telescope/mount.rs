@@ -1,4 +1,4 @@
-//! What fastens a telescope to other bodies: a socket around its root, a peg in its last mouth.
+//! Fastenings of a telescope to other bodies: a socket around its root, a peg in its last mouth.
 
 use super::nest::Telescope;
 use super::parts::{Inside, body};

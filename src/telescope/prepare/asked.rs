@@ -62,7 +62,7 @@ pub struct Asked<'a> {
     pub longest_mm: f64,
     /// The deviation that is near enough, mm.
     pub within_mm: f64,
-    /// What the ids of its parts and joints begin with; nothing for a curve alone.
+    /// The beginning of the ids of its parts and joints; empty for a curve alone.
     pub prefix: String,
     /// Warnings for the shop.
     pub warnings: Vec<String>,

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use crate::base::setting::Setting;
+use crate::base::setting::{Key, Setting};
 use crate::base::toml_text::TextFault;
 use crate::base::watch::Cancelled;
 use crate::curve::{CurveError, NameError};
@@ -67,6 +67,15 @@ pub enum TelescopeRunError {
     /// A goal that limbs do not have.
     #[error("a telescope of several limbs stands on no foot yet; remedy: leave out `{0}`")]
     NoFoot(Setting),
+    /// An option of skeletons and models, with a curve.
+    #[error("`{0}` is for a skeleton or a model, and a curve has no limbs; remedy: leave it out")]
+    OnlyLimbs(Setting),
+    /// A limb of one shell.
+    #[error(
+        "a limb of one shell slides out of nothing; remedy: `{}`, or more",
+        Setting::new(Key::Shells, 2)
+    )]
+    OneShell,
     /// The points make no curve for a telescope.
     #[error("{name}: {fault}")]
     Curve {

@@ -40,7 +40,7 @@ pub fn shop(job: &TelescopeJob, watch: &Watch) -> Result<Shop, TelescopeRunError
     Ok(Shop { printer, material })
 }
 
-/// What is asked for: a curve, or a skeleton.
+/// The input: a curve, or a skeleton.
 pub enum Input {
     Curve(Loaded),
     Skeleton(Box<LoadedSkeleton>),

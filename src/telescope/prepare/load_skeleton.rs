@@ -12,7 +12,7 @@ use crate::job::telescope::{Root, TelescopeJob};
 use crate::mesh::{Defects, Solid, scaled};
 use crate::printer::{Material, Printer};
 use crate::repair::{one_body, repair};
-use crate::skeleton::Skeleton;
+use crate::skeleton::{Skeleton, SkeletonError};
 
 /// Shells that lines carry which tell of no thickness.
 const SHELLS_OF_LINES: f64 = 4.0;
@@ -108,7 +108,7 @@ pub fn of_model(
     })?;
     watch.enter(Phase::Solve);
     let mut skeleton = Skeleton::of(&solid, watch)?;
-    choose_root(job, &mut skeleton)?;
+    choose_root(&mut skeleton, job.root)?;
     let up = find_upright(&solid, watch)?.first().map(|pose| pose.up);
     Ok(LoadedSkeleton {
         skeleton,
@@ -133,7 +133,7 @@ fn sized(
     let points: Vec<Point> = skeleton.nodes.iter().map(|node| node.at).collect();
     let factor = factor(job, &points);
     let mut skeleton = skeleton.scaled(factor);
-    choose_root(job, &mut skeleton)?;
+    choose_root(&mut skeleton, job.root)?;
     Ok(LoadedSkeleton {
         skeleton,
         solid: None,
@@ -143,8 +143,12 @@ fn sized(
     })
 }
 
-fn choose_root(job: &TelescopeJob, skeleton: &mut Skeleton) -> Result<(), TelescopeRunError> {
-    match job.root {
+/// Lets a skeleton grow from the node that is asked for, if one is.
+///
+/// # Errors
+/// It has no such node.
+pub fn choose_root(skeleton: &mut Skeleton, root: Option<Root>) -> Result<(), SkeletonError> {
+    match root {
         None => {}
         Some(Root::Node(id)) => skeleton.root_at(id)?,
         Some(Root::Near(place)) => skeleton.root = skeleton.nearest(&Point::from(place)),

@@ -58,7 +58,7 @@ impl WrittenPart {
 
 /// The parts of a telescope.
 pub struct Made {
-    /// What the ids of its parts and joints begin with.
+    /// The beginning of the ids of its parts and joints.
     pub prefix: String,
     pub best: Best,
     pub foot: Option<DiscFoot>,
@@ -210,7 +210,7 @@ pub struct WrittenFile {
     pub read_back: TriMesh,
 }
 
-/// What writes parts for a printer.
+/// A writer of parts for a printer.
 pub struct Printing<'a> {
     pub shop: &'a Shop,
     pub watch: &'a Watch,

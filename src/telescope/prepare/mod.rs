@@ -20,9 +20,11 @@ mod sheet;
 
 pub use advise::Tried;
 pub use error::TelescopeRunError;
+pub use load_skeleton::choose_root;
 
 use self::load::{Input, Loaded};
 use self::load_skeleton::Shop;
+use crate::base::setting::{Key, Setting};
 use crate::base::verdict::Verdict;
 use crate::base::watch::Watch;
 use crate::job::telescope::TelescopeJob;
@@ -46,6 +48,7 @@ pub fn prepare(
     let shop = load::shop(job, watch)?;
     match load::input(job, &shop, watch)? {
         Input::Curve(curve) => {
+            refuse_limbs(job)?;
             let outcome = along_curve(job, &shop, &curve, watch)?;
             Ok(outcome.map(|sheet| AnyTelescopeSheet::Curve(Box::new(sheet))))
         }
@@ -53,6 +56,19 @@ pub fn prepare(
             let outcome = network::prepare(job, &shop, &loaded, watch)?;
             Ok(outcome.map(|sheet| AnyTelescopeSheet::Network(Box::new(sheet))))
         }
+    }
+}
+
+/// Refuses options that a curve does not have.
+fn refuse_limbs(job: &TelescopeJob) -> Result<(), TelescopeRunError> {
+    let junctures = job.junctures.map(|kind| Setting::new(Key::Junctures, kind));
+    let solid = job
+        .keep_solid
+        .map(|radius| Setting::new(Key::KeepSolid, radius));
+    let root = job.root.map(|root| Setting::new(Key::Root, root));
+    match junctures.or(solid).or(root) {
+        Some(setting) => Err(TelescopeRunError::OnlyLimbs(setting)),
+        None => Ok(()),
     }
 }
 

@@ -13,7 +13,7 @@ const AXIS_SLACK: f64 = 1e-9;
 /// A hole on the axis of a fastener.
 #[derive(Clone, Copy)]
 struct Passed {
-    /// Where the axis enters it and leaves it, mm from the fastener's seat.
+    /// The places at which the axis enters it and leaves it, mm from the fastener's seat.
     along_mm: [f64; 2],
     diameter_mm: f64,
 }

@@ -1,4 +1,4 @@
-//! What the judge of several telescopes on junctures sees.
+//! The evidence of several telescopes on junctures, as the judge sees it.
 
 use std::collections::BTreeMap;
 

@@ -29,7 +29,7 @@ pub fn limb_curve_file(limb: &str) -> String {
     format!("curves/{limb}.csv")
 }
 
-/// What tells one telescope from several.
+/// The keys that tell one telescope from several.
 #[derive(Deserialize)]
 struct Head {
     kind: String,

@@ -1,4 +1,4 @@
-//! How telescopes fit their junctures: roots in sockets, pegs in mouths, each one way only.
+//! The seats of telescopes in junctures: roots in sockets, pegs in mouths, each one way only.
 
 use nalgebra::Rotation3;
 

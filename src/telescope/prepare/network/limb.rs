@@ -30,7 +30,7 @@ const MOST_TILT_MM: f64 = 0.012;
 /// Radii of the root that are tried: shares of the greatest.
 const ROOTS: [f64; 3] = [1.0, 0.75, 0.55];
 
-/// What is asked of a limb.
+/// The order of a limb.
 #[derive(Clone)]
 pub struct LimbOrder {
     pub job: TelescopeJob,
@@ -59,7 +59,7 @@ impl LimbOrder {
     }
 }
 
-/// Where a limb is designed: its job, its shop and the measures of all limbs.
+/// Everything for the design of limbs: the job, the shop and the measures of all.
 pub struct Studio<'a> {
     pub job: &'a TelescopeJob,
     pub shop: &'a Shop,

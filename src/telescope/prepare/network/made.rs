@@ -34,7 +34,7 @@ impl WrittenJuncture {
     }
 }
 
-/// Where a network is made.
+/// Everything for the making of a network.
 pub struct Workshop<'a> {
     pub job: &'a TelescopeJob,
     pub shop: &'a Shop,

@@ -44,6 +44,9 @@ pub fn prepare(
         let setting = Setting::new(Key::Goal, Stance::Stand);
         return Err(TelescopeRunError::NoFoot(setting));
     }
+    if job.shells == ShellCount::Given(1) {
+        return Err(TelescopeRunError::OneShell);
+    }
     let studio = studio(job, shop, loaded, watch)?;
     let workshop = Workshop {
         job,

@@ -1,4 +1,4 @@
-//! How many shells a limb gets, and how deep its root lies in its juncture.
+//! The plan of a limb: its number of shells, and the depth of its root in its juncture.
 
 use crate::geom::{Point, Vector};
 use crate::skeleton::{Chain, Limbs, Skeleton};
@@ -38,7 +38,7 @@ pub struct Planned {
     pub root_mm: f64,
     /// Arc length along the limb at which it ends, mm.
     pub end_mm: f64,
-    /// What stays inside of a shell that is all out, mm.
+    /// The length that stays inside of a shell that is all out, mm.
     pub overlap_mm: f64,
 }
 

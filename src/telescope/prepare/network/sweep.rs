@@ -142,7 +142,6 @@ impl<'a> Bodies<'a> {
     /// Returns the limb that carries a body; `None` for the first juncture.
     fn mover(&self, item: Item) -> Option<usize> {
         match item {
-            Item::Shell { limb, shell } if shell > 0 => Some(limb),
             Item::Shell { limb, .. } => Some(limb),
             Item::Juncture(index) => self.network.limbs.iter().position(|limb| limb.to == index),
         }

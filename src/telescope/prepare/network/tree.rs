@@ -48,7 +48,7 @@ pub struct Search<'a> {
     pub sizes: ShellSizes,
     /// The skeleton with the branches marked that stay solid.
     pub skeleton: Skeleton,
-    /// What was found to stay solid.
+    /// The branches that were found to stay solid.
     pub kept: Vec<Kept>,
     /// Limbs that end earlier than their skeleton, each by its nodes and where it ends, mm.
     pub ends: Vec<(Vec<usize>, f64)>,
