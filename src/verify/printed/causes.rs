@@ -297,7 +297,8 @@ impl Printed<'_> {
 /// Returns true if a part has another size than its file.
 ///
 /// Edges across the layers are known to a part of a line, those along z to a layer. Slicers leave
-/// out thin tips, which makes edges shorter: then the spread of the material must say the same.
+/// out thin tips, which makes edges shorter: then the spread of the material must say the same. A
+/// thin lid that stood on its rim lost 1.3 % of an edge, and its spreads missed by -1.7 to 2.1 %.
 fn is_scaled(part: &PrintedPart, promise: &Promise) -> bool {
     let layer_mm = part.layer_mm.or(promise.printer.layer_mm).unwrap_or(0.0);
     // A part without lines is made of pixels, and its edges are known to one.
@@ -314,9 +315,14 @@ fn is_scaled(part: &PrintedPart, promise: &Promise) -> bool {
     let is_whole_less = spread_loss.iter().sum::<f64>()
         > WHOLE_SPREAD_SHARE * edge_loss.iter().sum::<f64>()
         && longer.iter().filter(|longer| **longer < -0.5).count() > 1;
+    // Spreads that miss as much along the other edges tell nothing along this one.
+    let strays = |axis: usize, loss: f64| {
+        (0..3).any(|b| b != axis && (spread_loss[b] - edge_loss[b]).abs() > loss)
+    };
     (0..3).any(|axis| {
-        let is_axis_less =
-            edge_loss[axis] > LONE_EDGE_LOSS && spread_loss[axis] > SPREAD_SHARE * edge_loss[axis];
+        let is_axis_less = edge_loss[axis] > LONE_EDGE_LOSS
+            && spread_loss[axis] > SPREAD_SHARE * edge_loss[axis]
+            && !strays(axis, edge_loss[axis]);
         longer[axis] > 1.0 || longer[axis] < -1.0 && (is_axis_less || is_whole_less)
     })
 }
