@@ -15,7 +15,9 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use std::sync::OnceLock;
 
-use common::{assert_exit, equipoise, has_slicer, json, list, number, path, printed};
+use common::{
+    ELLIPSOID, assert_exit, equipoise, has_slicer, json, list, number, path, printed, words,
+};
 use equipoise::base::watch::Watch;
 use equipoise::geom::Point;
 use equipoise::io::gcode::{Feature, Options, read_gcode};
@@ -248,6 +250,19 @@ fn what_cannot_be_scaled_is_refused_and_nothing_is_written() {
     }
 }
 
+/// Slices a part in straight lines, with these options besides.
+fn slice(part: &Path, file: &Path, options: &[&str]) {
+    let usual = "--export-gcode --layer-height 0.2 --first-layer-height 0.2 --skirts 0 \
+                 --extrusion-width 0.45 --fill-pattern rectilinear --gcode-label-objects \
+                 --filament-density 1.24 --center 125,105";
+    let sliced = Command::new("prusa-slicer")
+        .args(words(usual))
+        .args(options)
+        .args(["-o", path(file), path(part)])
+        .output();
+    assert!(sliced.unwrap().status.success());
+}
+
 #[test]
 fn a_real_slicers_perimeters_stay_and_its_infill_follows_the_field() {
     if !has_slicer() {
@@ -259,34 +274,9 @@ fn a_real_slicers_perimeters_stay_and_its_infill_follows_the_field() {
         .join(sheet["parts"][0]["file"].as_str().unwrap());
     for perimeters in ["0", "2"] {
         let file = bench().join(format!("real-{perimeters}.gcode"));
-        let sliced = Command::new("prusa-slicer")
-            .args([
-                "--export-gcode",
-                "--layer-height",
-                "0.2",
-                "--first-layer-height",
-                "0.2",
-            ])
-            .args([
-                "--extrusion-width",
-                "0.45",
-                "--fill-density",
-                "100%",
-                "--skirts",
-                "0",
-            ])
-            .args(["--fill-pattern", "rectilinear", "--perimeters", perimeters])
-            .args(["--top-solid-layers", "0", "--bottom-solid-layers", "0"])
-            .args([
-                "--gcode-label-objects",
-                "--filament-density",
-                "1.24",
-                "--center",
-                "125,105",
-            ])
-            .args(["-o", path(&file), path(&part)])
-            .output();
-        assert!(sliced.unwrap().status.success());
+        let walls = ["--perimeters", perimeters, "--fill-density", "100%"];
+        let ends = ["--top-solid-layers", "0", "--bottom-solid-layers", "0"];
+        slice(&part, &file, &[walls, ends].concat());
         let program = fs::read_to_string(&file).unwrap();
         let (output, _) = scale(&format!("laid-{perimeters}"), &program, &["--field", RAMP]);
         assert_exit(&output, 0);
@@ -320,4 +310,119 @@ fn a_real_slicers_perimeters_stay_and_its_infill_follows_the_field() {
             "{perimeters}: {center_mm} {expected_mm}"
         );
     }
+}
+
+/// Prepares a kit near an infill of 40 %, slices its part at this infill, and scales that.
+/// Returns what was said, and the sheet.
+fn follow(model: &str, order: &str, infill: &str) -> (Value, Value) {
+    let kit = bench().join("own");
+    let usual = ["--json", "prepare", model, "--out", path(&kit), "--force"];
+    let graded = "--printer prusa-mk4 --interior graded --infill 40%";
+    let output = equipoise(&[&usual[..], &words(graded), &words(order)].concat());
+    assert_exit(&output, 0);
+    let sheet = json(&output);
+    let part = kit.join(sheet["parts"][0]["file"].as_str().unwrap());
+    let [plain, scaled] =
+        ["own", "own-scaled"].map(|name| bench().join(name).with_extension("gcode"));
+    let walls = ["--perimeters", "2", "--fill-density", infill];
+    let ends = ["--top-solid-layers", "5", "--bottom-solid-layers", "4"];
+    slice(
+        &part,
+        &plain,
+        &[&walls[..], &ends, &["--support-material"]].concat(),
+    );
+    let usual = ["--json", "scale-extrusion", path(&plain), path(&kit)];
+    let output = ["-o", path(&scaled), "--force", "--infill", infill];
+    let output = equipoise(&[&usual[..], &output].concat());
+    assert_exit(&output, 0);
+    (json(&output), sheet)
+}
+
+/// Returns how far toolpaths have their centre from the promised one, before and after, mm.
+fn off_mm(found: &Value, sheet: &Value) -> [f64; 2] {
+    let off = |key: &str| {
+        let along = |axis: usize| {
+            let promised = number(sheet, &format!("/assembly/center_mm/{axis}"));
+            number(found, &format!("/together/{key}/center_mm/{axis}")) - promised
+        };
+        [0, 1, 2]
+            .map(|axis| along(axis).powi(2))
+            .iter()
+            .sum::<f64>()
+            .sqrt()
+    };
+    ["0", "1"].map(off)
+}
+
+#[test]
+fn without_a_field_toolpaths_follow_the_density_that_their_kit_states() {
+    if !has_slicer() {
+        return;
+    }
+    let stands = "--goal stand --up y --least-angle 3.5 --size 40mm --pitch 0.4mm --levels 5";
+    for (options, key, start) in [
+        ("", "smooth", "clamped:"),
+        ("--field sine", "field", "sine:"),
+    ] {
+        let order = format!("{stands} --density 15%..70% {options}");
+        let (found, sheet) = follow(ELLIPSOID, &order, "40%");
+        let field = sheet["infill"][key].as_str().unwrap();
+        assert!(field.starts_with(start), "{field}");
+        let [before, after] = off_mm(&found, &sheet);
+        assert!(
+            after < 0.05 && after < 0.5 * before,
+            "{key}: {before} {after} mm"
+        );
+        // The words are those of `inspect`, too.
+        let model = ["--json", "inspect", ELLIPSOID, "--size", "40mm"];
+        let output = equipoise(&[&model[..], &["--field", field]].concat());
+        assert_exit(&output, 0);
+    }
+    // The kit's own plate has its densities already.
+    let kit = bench().join("own");
+    let [plain, scaled] =
+        ["own", "own-refused"].map(|name| bench().join(name).with_extension("gcode"));
+    let output = equipoise(&[
+        "scale-extrusion",
+        path(&plain),
+        path(&kit),
+        "-o",
+        path(&scaled),
+    ]);
+    assert_exit(&output, 2);
+    assert!(
+        printed(&output).contains("parts of one infill"),
+        "{}",
+        printed(&output)
+    );
+    assert!(!scaled.exists());
+}
+
+#[test]
+#[ignore = "ten minutes: a rocker arm of 200 mm"]
+fn a_rocker_arm_is_balanced_by_its_optimum_and_by_a_wave() {
+    let model = common::shared_model("rocker-arm.obj");
+    let Some(model) = model.filter(|_| has_slicer()) else {
+        return;
+    };
+    for options in ["", "--field sine"] {
+        let order = format!("--goal balance --size 200mm --levels 6 {options}");
+        let (found, sheet) = follow(path(&model), &order, "40%");
+        let [before, after] = off_mm(&found, &sheet);
+        eprintln!("{options}: {before:.4} mm before, {after:.4} mm after");
+        assert!(after < 0.15 && after < 0.1 * before, "{before} {after}");
+    }
+}
+
+#[test]
+fn a_kit_without_a_field_of_its_own_needs_one() {
+    let (output, target) = scale("own", &program(true, "Solid infill"), &[]);
+    assert_exit(&output, 2);
+    let said = printed(&output);
+    assert!(said.contains("no field of its own"), "{said}");
+    assert!(
+        said.contains("--field=ramp:") && said.contains("--infill=40%"),
+        "{said}"
+    );
+    assert!(!target.exists());
 }

@@ -12,18 +12,25 @@ use std::fs;
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
 use std::thread;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use common::ELLIPSOID;
 
-/// Starts a `prepare` that takes some seconds, and sends it a signal after a time.
-fn stopped(signal: &str, after: Duration, out: &Path) -> Output {
-    let child = Command::new(env!("CARGO_BIN_EXE_equipoise"))
+/// Returns a `prepare` that takes some seconds.
+fn slow(out: &Path) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_equipoise"));
+    command
         .args(["prepare", ELLIPSOID, "--printer", "objet-connex350"])
         .args([
             "--goal", "top", "--up", "z", "--size", "100mm", "--force", "--out",
         ])
-        .arg(out)
+        .arg(out);
+    command
+}
+
+/// Starts a `prepare` that takes some seconds, and sends it a signal after a time.
+fn stopped(signal: &str, after: Duration, out: &Path) -> Output {
+    let child = slow(out)
         .stdout(Stdio::piped())
         .stderr(Stdio::piped())
         .spawn()
@@ -66,4 +73,36 @@ fn a_kit_that_was_to_be_replaced_is_still_there() {
     assert_eq!(output.status.code(), Some(130));
     assert_eq!(names(room.path()), ["kit"]);
     assert_eq!(names(&kit), ["checklist.json"]);
+}
+
+#[test]
+fn a_run_whose_time_is_over_says_so_and_leaves_nothing_behind() {
+    let room = tempfile::tempdir().unwrap();
+    let start = Instant::now();
+    let output = slow(&room.path().join("kit"))
+        .args(["--timeout", "0.3s"])
+        .output()
+        .unwrap();
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(2), "{said}");
+    assert!(
+        said.contains("time that was given is over; nothing was written"),
+        "{said}"
+    );
+    assert!(said.contains("remedy: give it more time"), "{said}");
+    assert!(
+        start.elapsed() < Duration::from_secs(20),
+        "{:?}",
+        start.elapsed()
+    );
+    assert_eq!(names(room.path()), Vec::<String>::new());
+    for wrong in ["0s", "-1s", "soon", "10 parsecs"] {
+        let output = slow(&room.path().join("kit"))
+            .args(["--timeout", wrong])
+            .output()
+            .unwrap();
+        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(2), "{wrong}: {said}");
+        assert!(said.contains("90s, 10min or 2h"), "{wrong}: {said}");
+    }
 }

@@ -55,7 +55,7 @@ use wing::Ends;
 
 use args::{Cli, Command, DEFAULT_PLANS, PrepareArgs};
 use prepare::PrepareError;
-use signals::{Stop, end_process_on_signal};
+use signals::Stop;
 use voice::{Manner, Voice};
 
 /// Runs the command on the number of threads it orders, and prints its result on the standard
@@ -74,27 +74,28 @@ fn dispatch(cli: Cli, manner: Manner) -> Result<Exit, Box<dyn Error + Send + Syn
         json: cli.global.json,
     };
     let out = &mut std::io::stdout();
+    let stop = || Stop::within(cli.global.timeout);
     match cli.command {
         Command::Prepare(args) => match args.plans {
-            Some(count) => show_plans(*args, count, voice),
-            None => Ok(prepare::prepare(*args, voice, &Stop::on_signals(), out)?),
+            Some(count) => show_plans(*args, count, voice, &stop()),
+            None => Ok(prepare::prepare(*args, voice, &stop(), out)?),
         },
         Command::Cuts(mut args) => {
             let count = *args.plans.get_or_insert(DEFAULT_PLANS);
-            show_plans(*args, count, voice)
+            show_plans(*args, count, voice, &stop())
         }
         Command::Telescope(args) => {
-            let stop = &Stop::on_signals();
+            let stop = &stop();
             let ends = Ends { voice, stop, out };
             Ok(wing::run::<TelescopeWing>(args.order(), ends)?)
         }
         Command::Core(args) => {
-            let stop = &Stop::on_signals();
+            let stop = &stop();
             let ends = Ends { voice, stop, out };
             Ok(wing::run::<CoreWing>(args.order(), ends)?)
         }
         Command::Inspect(args) => {
-            end_process_on_signal();
+            stop().end_process();
             Ok(inspect::inspect(&args, voice, out)?)
         }
         Command::Printers(args) => {
@@ -105,18 +106,18 @@ fn dispatch(cli: Cli, manner: Manner) -> Result<Exit, Box<dyn Error + Send + Syn
             cutters::run(args.action, voice.json, out)?;
             Ok(Exit::Kept)
         }
-        Command::Coupon(args) => Ok(coupon::coupon(&args, voice, &Stop::on_signals(), out)?),
+        Command::Coupon(args) => Ok(coupon::coupon(&args, voice, &stop(), out)?),
         Command::Skeleton(args) => {
-            end_process_on_signal();
+            stop().end_process();
             Ok(skeleton::skeleton(&args, voice, out)?)
         }
-        Command::Slice(args) => Ok(slice::slice(&args, voice, &Stop::on_signals(), out)?),
+        Command::Slice(args) => Ok(slice::slice(&args, voice, &stop(), out)?),
         Command::ScaleExtrusion(args) => {
-            end_process_on_signal();
+            stop().end_process();
             Ok(scale::scale_extrusion(&args, voice, out)?)
         }
         Command::Verify(args) => {
-            end_process_on_signal();
+            stop().end_process();
             Ok(verify::verify(&args, voice, out)?)
         }
         Command::Completions(args) => {
@@ -135,8 +136,9 @@ fn show_plans(
     args: PrepareArgs,
     count: u8,
     voice: Voice,
+    stop: &Stop,
 ) -> Result<Exit, Box<dyn Error + Send + Sync>> {
     let request = args.request().map_err(PrepareError::from)?;
     let count = usize::from(count);
-    Ok(cuts::cuts(&request, count, voice, &Stop::on_signals())?)
+    Ok(cuts::cuts(&request, count, voice, stop)?)
 }

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 
-use super::args::ScaleArgs;
+use super::args::{FieldChoice, ScaleArgs};
 use super::exit::Exit;
 use super::new_files::{NewFileError, check_free, draft};
 use super::show::table;
@@ -74,7 +74,7 @@ pub fn scale_extrusion(
     let order = ScaleOrder {
         toolpaths: args.toolpaths.clone(),
         kit: args.kit.clone(),
-        field: args.field.order()?,
+        field: args.field.as_ref().map(FieldChoice::order).transpose()?,
         infill_ratio: args.infill.map(InfillDensity::ratio),
         most_flow_mm3_s: args.most_flow,
     };

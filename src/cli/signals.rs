@@ -1,4 +1,5 @@
-//! Ctrl-C and requests to end: the first stops the command, a second ends the process at once.
+//! Ctrl-C and requests to end: the first stops the command, a second ends the process at once. A
+//! time that is over stops it too.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -13,15 +14,20 @@ use super::show::say;
 
 /// The line on the standard error when a command was stopped.
 const STOPPED: &str = "stopped; nothing was written";
+/// The line on the standard error when the time of a command was over.
+const TIMED_OUT: &str = "error: the time that was given is over; nothing was written\n  remedy: give it \
+     more time, or a coarser pitch";
 /// The time between two looks at a stop button. A person takes less for at once.
 const LOOK: Duration = Duration::from_millis(50);
 
-/// A stop button for a command, pressed by the first SIGINT or SIGTERM.
+/// A stop button for a command, pressed by the first SIGINT or SIGTERM, or once its time is over.
 #[derive(Debug, Clone, Default)]
 pub struct Stop {
     is_pressed: Arc<AtomicBool>,
     /// The number of the signal that pressed it; 0 before.
     signal: Arc<AtomicUsize>,
+    /// True if it was pressed because the time was over.
+    is_over: Arc<AtomicBool>,
 }
 
 impl Stop {
@@ -36,6 +42,27 @@ impl Stop {
             let _ = stop.listen(signal);
         }
         stop
+    }
+
+    /// Returns a button that signals press from now on, and that is pressed after this time.
+    pub fn within(timeout: Option<Duration>) -> Self {
+        let stop = Self::on_signals();
+        if let Some(timeout) = timeout {
+            let timed = stop.clone();
+            thread::spawn(move || {
+                thread::sleep(timeout);
+                timed.end_time();
+            });
+        }
+        stop
+    }
+
+    /// Presses the button because the time is over, unless a signal did before.
+    fn end_time(&self) {
+        if !self.is_pressed.load(Ordering::SeqCst) {
+            self.is_over.store(true, Ordering::SeqCst);
+            self.is_pressed.store(true, Ordering::SeqCst);
+        }
     }
 
     fn listen(&self, signal: i32) -> io::Result<()> {
@@ -64,6 +91,10 @@ impl Stop {
         if !self.is_pressed.load(Ordering::SeqCst) {
             return None;
         }
+        if self.is_over.load(Ordering::SeqCst) {
+            say(TIMED_OUT);
+            return Some(Exit::CouldNotRun);
+        }
         say(STOPPED);
         let is_request = self.signal.load(Ordering::SeqCst) == SIGTERM as usize;
         Some(if is_request {
@@ -72,21 +103,20 @@ impl Stop {
             Exit::Interrupted
         })
     }
-}
 
-/// Lets the first signal end the process, with the usual words and code.
-///
-/// It is for commands that write no files and cannot be stopped in between.
-pub fn end_process_on_signal() {
-    let stop = Stop::on_signals();
-    thread::spawn(move || {
-        loop {
-            thread::sleep(LOOK);
-            if let Some(exit) = stop.end() {
-                process::exit(exit.code().into());
+    /// Lets the button end the process once it is pressed, with the usual words and code.
+    ///
+    /// It is for commands that write no files and cannot be stopped in between.
+    pub fn end_process(self) {
+        thread::spawn(move || {
+            loop {
+                thread::sleep(LOOK);
+                if let Some(exit) = self.end() {
+                    process::exit(exit.code().into());
+                }
             }
-        }
-    });
+        });
+    }
 }
 
 #[cfg(test)]
@@ -106,5 +136,16 @@ mod tests {
             assert_eq!(stop.end(), Some(exit));
             assert_eq!(exit.code(), code);
         }
+    }
+
+    #[test]
+    fn a_time_that_is_over_presses_the_button_unless_a_signal_did() {
+        let stop = Stop::default();
+        stop.end_time();
+        assert_eq!(stop.end(), Some(Exit::CouldNotRun));
+        let stop = Stop::default();
+        stop.flag().store(true, Ordering::SeqCst);
+        stop.end_time();
+        assert_eq!(stop.end(), Some(Exit::Interrupted));
     }
 }

@@ -1,9 +1,11 @@
 //! A quadratic density, clamped to a range: the least change of a uniform one.
 
+use std::fmt;
+
 use super::density::{AlongRays, Density, Form, powers_between, stretches};
 use super::levels::on_ray;
 use super::range::DensityRange;
-use crate::geom::{Aabb, Point, Quadric, Vector};
+use crate::geom::{Aabb, Frame, Point, Quadric, Vector};
 use crate::mass::gauss_jacobi;
 
 /// Points of the Gauss rule over a stretch: t⁴ times a quadratic is of degree 6.
@@ -29,8 +31,27 @@ impl Clamped {
         }
     }
 
+    /// Returns the density in another frame; this one is in the model's.
+    #[must_use]
+    pub fn in_frame(&self, frame: &Frame) -> Self {
+        Self {
+            quadric: self.quadric.in_frame(frame),
+            ..self.clone()
+        }
+    }
+
     fn of_value(&self, value: f64) -> f64 {
         (self.wished - value).clamp(self.range.low(), self.range.high())
+    }
+}
+
+/// The words that can be typed: `clamped:` with the quadric's ten numbers, the wished density and
+/// the range.
+impl fmt::Display for Clamped {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let numbers = self.quadric.0.map(|number| number.to_string()).join(",");
+        let [low, high] = [self.range.low(), self.range.high()];
+        write!(f, "clamped:{numbers}@{}:{low}..{high}", self.wished)
     }
 }
 

@@ -1,5 +1,6 @@
 //! A density as it is ordered, before the solid is known.
 
+use super::clamped::Clamped;
 use super::density::Density;
 use super::levels::Levels;
 use super::linear::Linear;
@@ -29,6 +30,8 @@ pub enum Order {
     Skin(SkinOrder),
     /// Constant between nested quadrics.
     Levels(Levels),
+    /// A quadratic between two densities.
+    Clamped(Clamped),
     /// The sum of others.
     Sum(Vec<Order>),
     /// The product of others.
@@ -74,6 +77,7 @@ impl Order {
             Self::Ramp(ramp) => Box::new(*ramp),
             Self::Sine(sine) => Box::new(*sine),
             Self::Levels(levels) => Box::new(levels.clone()),
+            Self::Clamped(clamped) => Box::new(clamped.clone()),
             Self::Skin(SkinOrder {
                 depth_mm,
                 profile,

@@ -2,6 +2,7 @@
 
 use std::str::FromStr;
 
+use super::clamped::Clamped;
 use super::order::{Order, SkinOrder};
 use super::ramp::Ramp;
 use super::range::{DensityRange, RangeError};
@@ -10,7 +11,7 @@ use super::skin::Profile;
 use super::uniform::Uniform;
 use crate::base::toml_text::nearest_name;
 use crate::base::units::{Length, LengthError};
-use crate::geom::{Point, Vector};
+use crate::geom::{Point, Quadric, Vector};
 
 /// The names of the fields.
 const NAMES: [&str; 4] = ["uniform", "ramp", "sine", "skin"];
@@ -76,6 +77,7 @@ impl FromStr for Order {
             "ramp" => ramp(text, rest),
             "sine" => sine(text, rest),
             "skin" => skin(text, rest),
+            "clamped" => clamped(text, rest),
             name => Err(WordsError::Name {
                 name: name.to_owned(),
                 nearest: nearest_name(name, NAMES),
@@ -133,6 +135,17 @@ fn skin(text: &str, rest: &str) -> Result<Order, WordsError> {
     }))
 }
 
+/// Reads `Q,Q,Q,Q,Q,Q,Q,Q,Q,Q@WISHED:LOW..HIGH`: as kits state their smooth field.
+fn clamped(text: &str, rest: &str) -> Result<Order, WordsError> {
+    let shape = || shape("clamped", text, "clamped:0,0,0,0.01,0,0,0,0,0,0@0.4:0.2..1");
+    let (quadric, rest) = rest.split_once('@').ok_or_else(shape)?;
+    let (wished, densities) = rest.split_once(':').ok_or_else(shape)?;
+    let quadric = numbers(quadric).ok_or_else(shape)?;
+    let wished = density(wished)?;
+    let field = Clamped::new(Quadric(quadric), wished, range(densities)?);
+    Ok(Order::Clamped(field))
+}
+
 fn shape(name: &'static str, text: &str, example: &'static str) -> WordsError {
     WordsError::Shape {
         name,
@@ -172,7 +185,11 @@ fn range(text: &str) -> Result<DensityRange, WordsError> {
 
 /// Reads three numbers.
 fn triple(text: &str) -> Result<[f64; 3], WordsError> {
-    let refuse = || WordsError::Triple(text.to_owned());
+    numbers(text).ok_or_else(|| WordsError::Triple(text.to_owned()))
+}
+
+/// Reads a list of so many finite numbers.
+fn numbers<const N: usize>(text: &str) -> Option<[f64; N]> {
     let number = |part: &str| {
         part.trim()
             .parse()
@@ -180,9 +197,7 @@ fn triple(text: &str) -> Result<[f64; 3], WordsError> {
             .filter(|value: &f64| value.is_finite())
     };
     let numbers: Option<Vec<f64>> = text.split(',').map(number).collect();
-    numbers
-        .and_then(|numbers| numbers.try_into().ok())
-        .ok_or_else(refuse)
+    numbers?.try_into().ok()
 }
 
 /// Reads a place along a direction, mm: a length, its negative, or zero.
@@ -213,6 +228,7 @@ mod tests {
             "sine:10,-5.5,0@40mm:0.1..1",
             "skin:4mm:gauss:0.2..1",
             "skin:4mm:linear:0.2..1",
+            "clamped:1e-2,0,0,-0.5,0,0,0,0,0,3@0.4:0.142..1",
         ] {
             assert!(
                 text.parse::<Order>().is_ok(),
@@ -247,6 +263,9 @@ mod tests {
             ("sine:nan,0,0@40mm:0.1..1", "three numbers"),
             ("sine:0,0,0@0mm:0.1..1", "above zero"),
             ("sine:0,0,0@40mm:0.1", "such as 0.2..1"),
+            ("clamped:1,2,3@0.4:0.2..1", "write it like clamped:"),
+            ("clamped:0,0,0,0,0,0,0,0,0,nan@0.4:0.2..1", "write it like"),
+            ("clamped:0,0,0,0,0,0,0,0,0,1@4:0.2..1", "write 4% or 0.04"),
             ("skin:4mm:cubic:0.2..1", "write gauss or linear"),
             ("skin:4parsec:gauss:0.2..1", "unit of length"),
         ] {

@@ -60,6 +60,7 @@ pub fn make<'a>(
         height_proof: resolver.height_proof(),
         proof: resolver.solved().proof.clone(),
         course: resolver.course().clone(),
+        smooth: resolver.solved().smooth(placed),
         solution,
         hollowed,
         inner,

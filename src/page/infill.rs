@@ -120,6 +120,7 @@ mod tests {
             beyond: None,
             misses_mm: Vec::new(),
             field: None,
+            smooth: None,
             file: Some("modifiers/bunny_15percent.stl".to_owned()),
             inner: Vec::new(),
         };

@@ -3,6 +3,7 @@
 use super::{BossRound, CleaningRound, HeightProof, Level, Remark};
 use crate::ballast::Load;
 use crate::cut::{CutPlan, Hollowed, Jig, JointId, Part};
+use crate::field::Clamped;
 use crate::hollow::{Proof, Solution, TopCourse};
 use crate::mass::Moments;
 use crate::mesh::TriMesh;
@@ -24,6 +25,9 @@ pub struct Made {
     pub course: TopCourse,
     /// The uncut body.
     pub hollowed: Hollowed,
+    /// The density without steps that does what its regions do, goal frame; `None` unless they
+    /// are near a wished infill.
+    pub smooth: Option<Clamped>,
     /// The regions of infill inside of its voids, as [`Voids::inner`](super::Voids::inner).
     pub inner: Vec<TriMesh>,
     /// Volume of voids that stay solid for cleaning or for pins, mm³.

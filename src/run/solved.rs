@@ -3,6 +3,7 @@
 use super::Placed;
 use crate::ballast::Load;
 use crate::base::watch::Watch;
+use crate::field::Clamped;
 use crate::hollow::{Problem, Proof, Solution, TopCourse};
 use crate::interior::Columns;
 use crate::mass::Moments;
@@ -82,5 +83,18 @@ impl Solved {
     /// Solves again on the same columns, with other moments of the solid without any void.
     pub fn solve_again(&self, placed: &Placed, fixed: Moments, watch: &Watch) -> Solution {
         placed.solve(&self.columns, fixed, Some(&self.solution), watch)
+    }
+
+    /// Returns the density without steps that does what the regions of the solution do, goal frame;
+    /// `None` unless they are near a wished infill.
+    pub fn smooth(&self, placed: &Placed) -> Option<Clamped> {
+        let sparse = placed.sparse.as_ref();
+        let sparse = sparse.filter(|nested| nested.field.is_none())?;
+        let problem = Problem {
+            goal: placed.goal(),
+            fixed: self.fixed,
+            columns: &self.columns,
+        };
+        sparse.near.as_ref()?.smooth(&problem, &self.solution)
     }
 }

@@ -8,10 +8,10 @@ use serde::Serialize;
 
 use crate::base::setting::{Key, Setting};
 use crate::base::watch::Watch;
-use crate::field::{Density, NotADensity, Order, check};
+use crate::field::{Density, NotADensity, Order, WordsError, check};
 use crate::geom::Point;
 use crate::io::gcode::{Feature, Portions, RewriteError, Rewriting, Rewritten, rewrite_text};
-use crate::mesh::Solid;
+use crate::mesh::{MeshDistance, Solid};
 use crate::verify::{LocatedPart, LocatedPlate, PrintedError, locate_parts};
 
 /// Longest piece of a bead, mm. Longer ones blur the field: a bar with a ramp misses its centre by
@@ -32,10 +32,11 @@ pub struct ScaleOrder {
     pub toolpaths: PathBuf,
     /// The folder of the kit whose parts it prints.
     pub kit: PathBuf,
-    /// The density that the parts get, model frame.
-    pub field: Order,
+    /// The density that the parts get, model frame. `None` takes what the kit states for its
+    /// interior; its wall stays solid.
+    pub field: Option<Order>,
     /// The density of sparse infill with which they were sliced, over that of solid print. `None`
-    /// takes what the kit or the file says.
+    /// takes what the kit or the file says; with the kit's own field, sparse infill is refused.
     pub infill_ratio: Option<f64>,
     /// Most that the hot end melts, mm³/s.
     pub most_flow_mm3_s: f64,
@@ -60,6 +61,17 @@ pub enum ScaleError {
     /// The outside of the kit is no solid.
     #[error("the model of this kit is no solid; remedy: check the kit (`equipoise verify`)")]
     NoSolid,
+    /// The kit states no field, and none was ordered.
+    #[error(
+        "the kit has no field of its own; remedy: give one (`{}`), or prepare it near a wished \
+         infill (`{}`)",
+        Setting::new(Key::Field, "ramp:0,0,1@20mm..60mm:0.5..1"),
+        Setting::new(Key::Infill, "40%")
+    )]
+    NoField,
+    /// The field that the kit states cannot be read.
+    #[error("the kit states a field that is none: {0}; remedy: check the kit (`equipoise verify`)")]
+    OwnField(#[from] WordsError),
     /// A part is printed as its mirror image.
     #[error("{0} is printed as its mirror image; remedy: slice its plate again")]
     Mirrored(String),
@@ -117,14 +129,23 @@ pub fn scale_toolpaths(
         return Err(ScaleError::Mirrored(part.id.clone()));
     }
     let solid = Solid::new(plate.outside.clone()).map_err(|_| ScaleError::NoSolid)?;
-    let field = order.field.on(&solid);
+    let (field, wall) = match (&order.field, &plate.field) {
+        (Some(field), _) => (field.on(&solid), None),
+        (None, Some(words)) => {
+            let own: Order = words.parse()?;
+            let surface = MeshDistance::new(solid.mesh());
+            (own.on(&solid), Some((surface, plate.wall_mm)))
+        }
+        (None, None) => return Err(ScaleError::NoField),
+    };
     check(&solid, field.as_ref())?;
     let portions = OfField {
         field: field.as_ref(),
-        sparse_ratio: order
-            .infill_ratio
-            .or(plate.laid_ratio)
-            .or(plate.stated_ratio),
+        wall,
+        sparse_ratio: match (order.infill_ratio, &order.field) {
+            (None, Some(_)) => plate.laid_ratio.or(plate.stated_ratio),
+            (said, _) => said,
+        },
         plate: &plate,
     };
     let rewriting = Rewriting {
@@ -171,6 +192,8 @@ fn open(path: &Path) -> Result<BufReader<File>, ScaleError> {
 /// How much of a bead a field asks for.
 struct OfField<'a> {
     field: &'a dyn Density,
+    /// The surface of the model, and the thickness of the wall under it that stays solid, mm.
+    wall: Option<(MeshDistance, f64)>,
     /// The density of sparse infill as sliced, over that of solid print, if it is known.
     sparse_ratio: Option<f64>,
     plate: &'a LocatedPlate,
@@ -180,6 +203,29 @@ impl OfField<'_> {
     /// Returns the part that a place belongs to; `None` beside all parts.
     fn part(&self, at: &Point) -> Option<&LocatedPart> {
         self.plate.parts.iter().find(|part| part.holds(at))
+    }
+
+    /// Refuses sparse infill that cannot be scaled.
+    fn check_sparse(&self) -> Result<(), String> {
+        if self.sparse_ratio.is_some() {
+            return Ok(());
+        }
+        let said = Setting::new(Key::Infill, "40%");
+        Err(if self.wall.is_some() {
+            // A plate of the kit has its densities already, and no file says where they end.
+            format!(
+                "a kit's own field needs parts of one infill; remedy: slice the files of its \
+                 parts, not its plate, and say with which infill (`{said}`)"
+            )
+        } else {
+            format!("the file does not say how dense its infill is; remedy: say it (`{said}`)")
+        })
+    }
+
+    /// Returns true if a place of the model lies in a wall that stays solid.
+    fn is_wall(&self, at: &Point) -> bool {
+        let wall = self.wall.as_ref();
+        wall.is_some_and(|(surface, wall_mm)| surface.signed(at) < *wall_mm)
     }
 }
 
@@ -197,22 +243,23 @@ impl Portions for OfField<'_> {
                  remedy: arrange the plate with more room"
             ));
         }
-        if feature == Feature::Infill && first.is_some() && self.sparse_ratio.is_none() {
-            return Err(format!(
-                "the file does not say how dense its infill is; remedy: say it (`{}`)",
-                Setting::new(Key::Infill, "40%")
-            ));
+        if feature == Feature::Infill && first.is_some() {
+            self.check_sparse()?;
         }
         Ok(first.is_some())
     }
 
     fn factor(&self, feature: Feature, at: &Point) -> f64 {
+        // A bead may reach out of its part's box by rounding.
+        let Some(part) = self.part(at) else {
+            return 1.0;
+        };
+        let place = part.to_model(at);
         let laid = match feature {
             Feature::Infill => self.sparse_ratio.unwrap_or(1.0),
+            _ if self.is_wall(&place) => return 1.0,
             _ => 1.0,
         };
-        let wanted = self.part(at).map(|part| self.field.at(&part.to_model(at)));
-        // A bead may reach out of its part's box by rounding.
-        wanted.map_or(1.0, |wanted| wanted / laid)
+        self.field.at(&place) / laid
     }
 }

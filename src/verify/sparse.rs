@@ -38,6 +38,10 @@ pub struct InfillOrder {
     /// they are the best for the goal.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub field: Option<String>,
+    /// The density without steps that does what the regions do, in the same words; `None` if they
+    /// are not near a wished infill.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub smooth: Option<String>,
     /// The regions in them, each in the one before.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub inner: Vec<InfillLevel>,
@@ -195,6 +199,7 @@ mod tests {
             beyond: None,
             misses_mm: Vec::new(),
             field: None,
+            smooth: None,
             file: None,
             inner: Vec::new(),
         };
@@ -225,6 +230,7 @@ mod tests {
             beyond: None,
             misses_mm: Vec::new(),
             field: None,
+            smooth: None,
             file: None,
             inner: vec![level],
         };

@@ -221,8 +221,8 @@ const ARROWS: &[(&str, &[&str])] = &[
     (
         "run",
         &[
-            "advice", "ballast", "base", "cut", "geom", "goal", "hardware", "hollow", "interior",
-            "job", "mass", "mesh", "printer", "repair", "thin", "verify",
+            "advice", "ballast", "base", "cut", "field", "geom", "goal", "hardware", "hollow",
+            "interior", "job", "mass", "mesh", "printer", "repair", "thin", "verify",
         ],
     ),
     (

@@ -28,6 +28,7 @@ mod values;
 mod weighed;
 
 use std::path::PathBuf;
+use std::time::Duration;
 
 use clap::{Args, Parser, Subcommand};
 use clap_complete::Shell;
@@ -54,7 +55,7 @@ pub use values::NumberError;
 use crate::base::units::Length;
 use crate::io::DataChoice;
 use crate::repair::RepairOrder;
-use values::{ALSO, EXAMPLES, EXIT_CODES};
+use values::{ALSO, EXAMPLES, EXIT_CODES, time};
 
 /// Make kits of printed parts that spin, stand, float, run true or slide open
 #[derive(Debug, Parser)]
@@ -101,6 +102,9 @@ pub struct GlobalArgs {
         value_parser = clap::value_parser!(u16).range(1..=MAX_THREADS)
     )]
     pub threads: Option<u16>,
+    /// Stop after this time, such as 90s, 10min or 2h, and write nothing [default: never]
+    #[arg(long, global = true, value_name = "TIME", value_parser = time)]
+    pub timeout: Option<Duration>,
     /// Print the result as JSON on the standard output
     #[arg(long, global = true)]
     pub json: bool,

@@ -15,14 +15,15 @@ pub struct ScaleArgs {
     pub toolpaths: PathBuf,
     /// The folder of the kit whose parts it prints
     pub kit: PathBuf,
-    /// The density that the parts get, in words or as a field.toml
+    /// The density that the parts get, in words or as a field.toml [default: what the kit states
+    /// for its inside]
     ///
     /// A ramp is ramp:0,0,1@20mm..60mm:0.5..1. Lengths are those of the kit's model, in the axes of
     /// its file.
     #[arg(long, value_name = "FIELD", allow_hyphen_values = true)]
-    pub field: FieldChoice,
-    /// The density of sparse infill with which the plate was sliced [default: what the kit or the
-    /// file says]
+    pub field: Option<FieldChoice>,
+    /// The density of sparse infill with which it was sliced [default: with a field, what the kit
+    /// or the file says]
     #[arg(long, value_name = "PERCENT")]
     pub infill: Option<InfillDensity>,
     /// Most that the hot end melts, mm³/s; pieces that need more are laid more slowly

@@ -2,6 +2,7 @@
 
 use std::ffi::OsStr;
 use std::str::FromStr;
+use std::time::Duration;
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::error::ErrorKind;
@@ -140,6 +141,19 @@ pub(super) fn mass(text: &str) -> Result<f64, NumberError> {
         least: None,
     };
     mass.read(text)
+}
+
+/// Reads a time.
+pub(super) fn time(text: &str) -> Result<Duration, NumberError> {
+    let seconds = Number {
+        what: "a time above zero",
+        such_as: "one such as 90s, 10min or 2h",
+        units: &[("min", 60.0), ("h", 3600.0), ("s", 1.0)],
+        least: None,
+    };
+    // A clock that cannot count so far never strikes.
+    let time = |seconds| Duration::try_from_secs_f64(seconds).unwrap_or(Duration::MAX);
+    seconds.read(text).map(time)
 }
 
 /// Reads finite numbers between commas.

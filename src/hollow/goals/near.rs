@@ -8,8 +8,10 @@ use super::kept::{Kept, KeptChange, keeps_figure};
 use super::matching;
 use crate::base::verdict::Verdict;
 use crate::base::watch::Watch;
+use crate::field::Clamped;
 use crate::geom::Quadric;
 use crate::goal::{Goal, GoalKind, Objective};
+use crate::hollow::change::least_change;
 use crate::hollow::dual::units::index::{X, XZ, Y, YZ, Z};
 use crate::hollow::graded::{Graded, Row, Sense, Separation};
 use crate::hollow::levels::{PrintLevels, least_level_change};
@@ -117,6 +119,24 @@ impl NearWished {
             return Verdict::No(Box::new(best));
         }
         Verdict::Found(Some(Kept::of(problem.goal, &best.moments, self.keep)))
+    }
+
+    /// Returns the density that meets what a solution of levels meets, with the least change of all
+    /// densities; in the goal's frame. `None` if the rows leave no density.
+    ///
+    /// Figures that are kept count by the rows that touch their limits at the solution.
+    pub fn smooth(&self, problem: &Problem, known: &Solution) -> Option<Clamped> {
+        let kept = known.warm.kept.as_ref();
+        let angle_rad = kept.map_or(0.0, Kept::angle_rad);
+        let mut rows = rows(problem.goal, self.least_angle_rad.max(angle_rad));
+        rows.extend(kept.map_or_else(Vec::new, |kept| kept.touching(&known.moments)));
+        let graded = Graded {
+            shell: problem.fixed - problem.columns.moments(),
+            columns: problem.columns,
+            rows: &rows,
+        };
+        let least = least_change(&graded, self.levels.range(), self.wished).found();
+        least.map(|change| change.field())
     }
 
     /// Returns the values of minus the quadric between the levels, ascending.

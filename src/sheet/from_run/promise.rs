@@ -188,6 +188,10 @@ pub fn infill_order(placed: &Placed, made: &Made) -> Option<InfillOrder> {
             .field
             .as_ref()
             .map(|field| field.words(&made.solution, &placed.goal().frame)),
+        smooth: made.smooth.as_ref().map(|smooth| {
+            let frame = placed.goal().frame.inverse();
+            smooth.in_frame(&frame).to_string()
+        }),
         inner: inner.to_vec(),
     })
 }

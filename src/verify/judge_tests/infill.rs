@@ -28,6 +28,7 @@ fn one_piece() -> Evidence {
         beyond: None,
         misses_mm: Vec::new(),
         field: None,
+        smooth: None,
         file: Some("modifiers/region.stl".to_owned()),
         inner: Vec::new(),
     });

@@ -71,6 +71,7 @@ fn read_in(dialect: Dialect) -> Read {
             beyond: None,
             misses_mm: Vec::new(),
             field: None,
+            smooth: None,
             file: Some("modifiers/region.stl".to_owned()),
             inner: Vec::new(),
         },

@@ -270,7 +270,12 @@ impl Whole<'_> {
                 let inertia_ratio = INERTIA_RATIO * (c + b) / (c - b);
                 0.5 * (PRINTED_CENTER_LIMIT_MM / height_mm + inertia_ratio) * value
             }
-            FigureName::BalanceGradeMmS | FigureName::InfillChangeRatio => 0.0,
+            // Written parts are truer than any print: what counts is the grade that was asked.
+            FigureName::BalanceGradeMmS => {
+                let asked = self.aim.rotor.map(|order| order.grade_mm_s - value);
+                asked.map_or(0.0, |coarser| coarser.max(0.0))
+            }
+            FigureName::InfillChangeRatio => 0.0,
         }
     }
 }

@@ -34,6 +34,11 @@ pub struct LocatedPlate {
     /// The density that is laid where the kit orders sparse infill, over that of solid print.
     /// `None` in kits that are solid.
     pub laid_ratio: Option<f64>,
+    /// The density that the kit states for its interior, in words of fields; `None` if it states
+    /// none.
+    pub field: Option<String>,
+    /// The wall around the interior, mm: it is solid.
+    pub wall_mm: f64,
     /// The density of sparse infill that the file states, over that of solid print.
     pub stated_ratio: Option<f64>,
     /// The diameter of the filament, mm.
@@ -95,14 +100,13 @@ pub fn locate_parts(
     let parts = parts.collect();
     let toolpaths = sources.first().map(|source| &source.toolpath);
     let diameters = toolpaths.and_then(|toolpath| toolpath.diameters_mm.first());
+    let infill = evidence.promise.infill.as_ref();
     Ok(LocatedPlate {
         parts,
         outside: Body::of(&evidence.hollowed).outer,
-        laid_ratio: evidence
-            .promise
-            .infill
-            .as_ref()
-            .map(|infill| infill.laid_ratio),
+        laid_ratio: infill.map(|infill| infill.laid_ratio),
+        field: infill.and_then(|infill| infill.field.clone().or(infill.smooth.clone())),
+        wall_mm: evidence.promise.wall.required_mm,
         stated_ratio: toolpaths.and_then(|toolpath| toolpath.facts.infill_ratio),
         filament_mm: diameters.copied().unwrap_or(USUAL_FILAMENT_MM),
     })

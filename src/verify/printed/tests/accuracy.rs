@@ -1,6 +1,8 @@
 //! Right prints pass although slicers word and lay them in many ways, and no fault hides another.
 
 use super::*;
+use crate::goal::GoalKind;
+use crate::verify::{Aim, FigureName, PromisedFigure, RotorOrder};
 
 /// Judges both trays, the second with other boxes.
 fn judged_with(second: &[Block]) -> PrintedJudgement {
@@ -169,4 +171,34 @@ fn a_failed_check_without_a_wrong_setting_says_so() {
     let note = found.notes.last().unwrap();
     assert!(note.starts_with("no wrong setting was found"), "{note}");
     assert!(judged_with(&TRAY).notes.is_empty());
+}
+
+#[test]
+fn a_rotor_may_be_as_coarse_as_its_grade_and_no_coarser() {
+    // The axis lies 0.005 mm beside the middle of the trays: at 3000 rpm that is 1.57 mm/s.
+    let of_grade = |grade_mm_s: f64| {
+        let mut evidence = kit();
+        evidence.promise.goal = Aim {
+            rotor: Some(RotorOrder {
+                speed_rpm: 3000.0,
+                grade_mm_s,
+            }),
+            ..Aim::new(GoalKind::Balance, [30.005, 20.0, 0.0], [0.0, 0.0, 1.0])
+        };
+        // Written parts have a finer one.
+        evidence.promise.promise = Some(PromisedFigure {
+            figure: FigureName::BalanceGradeMmS,
+            value: 0.01,
+        });
+        judged(&evidence, RIGHT.trays(LABELS))
+    };
+    assert_eq!(broken(&of_grade(2.5)), Vec::<String>::new());
+    let coarse = of_grade(1.0);
+    assert_eq!(broken(&coarse), ["balance quality", "balance grade"]);
+    let limits = coarse.checks.iter().filter(|check| !check.pass);
+    assert!(limits.clone().all(|check| (check.limit - 1.0).abs() < 0.01));
+    assert!(limits.clone().all(|check| {
+        let grade_mm_s = check.value.unwrap();
+        (grade_mm_s - 0.005 * 3000.0 * std::f64::consts::PI / 30.0).abs() < 0.01
+    }));
 }
