@@ -107,15 +107,9 @@ fn dispatch(cli: Cli, manner: Manner) -> Result<Exit, Box<dyn Error + Send + Syn
             Ok(Exit::Kept)
         }
         Command::Coupon(args) => Ok(coupon::coupon(&args, voice, &stop(), out)?),
-        Command::Skeleton(args) => {
-            stop().end_process();
-            Ok(skeleton::skeleton(&args, voice, out)?)
-        }
+        Command::Skeleton(args) => Ok(skeleton::skeleton(&args, voice, &stop(), out)?),
         Command::Slice(args) => Ok(slice::slice(&args, voice, &stop(), out)?),
-        Command::ScaleExtrusion(args) => {
-            stop().end_process();
-            Ok(scale::scale_extrusion(&args, voice, out)?)
-        }
+        Command::ScaleExtrusion(args) => Ok(scale::scale_extrusion(&args, voice, &stop(), out)?),
         Command::Verify(args) => {
             stop().end_process();
             Ok(verify::verify(&args, voice, out)?)

@@ -9,14 +9,18 @@ use serde::Serialize;
 use super::args::{FieldChoice, ScaleArgs};
 use super::exit::Exit;
 use super::new_files::{NewFileError, check_free, draft};
-use super::show::table;
+use super::show::{say, table};
+use super::signals::Stop;
 use super::voice::Voice;
 use crate::base::numbers::quantity;
 use crate::base::watch::Watch;
 use crate::field::FileError;
+use crate::geom::Point;
 use crate::job::InfillDensity;
 use crate::slice::{ScaleError, ScaleOrder, Scaled, scale_toolpaths};
-use crate::verify::{Figures, PrintedError, PrintedJudgement, PrintedPart, verify_printed};
+use crate::verify::{
+    Figures, PRINTED_CENTER_LIMIT_MM, PrintedError, PrintedJudgement, PrintedPart, verify_printed,
+};
 
 /// A reason why no toolpaths were written.
 #[derive(Debug, thiserror::Error)]
@@ -54,6 +58,15 @@ struct Found<'a> {
     parts: Vec<[&'a PrintedPart; 2]>,
     /// All parts together, before and after; `None` if another plate holds some of them.
     together: Option<[&'a Figures; 2]>,
+    /// How far their centre is from the promised one if they follow the kit's own field, mm.
+    off_mm: Option<f64>,
+}
+
+impl Found<'_> {
+    /// Returns true unless toolpaths that follow the kit's own field miss its centre.
+    fn passes(&self) -> bool {
+        self.off_mm.is_none_or(|mm| mm <= PRINTED_CENTER_LIMIT_MM)
+    }
 }
 
 /// Scales toolpaths, weighs them before and after, and prints what changed to `out`.
@@ -63,6 +76,7 @@ struct Found<'a> {
 pub fn scale_extrusion(
     args: &ScaleArgs,
     voice: Voice,
+    stop: &Stop,
     out: &mut dyn Write,
 ) -> Result<Exit, ScaleCommandError> {
     check_free(&args.out, args.force)?;
@@ -70,7 +84,7 @@ pub fn scale_extrusion(
     if args.out.exists() && is_same(&args.out) == is_same(&args.toolpaths) {
         return Err(ScaleCommandError::Same(args.out.clone()));
     }
-    let watch = Watch::silent();
+    let watch = Watch::silent_until(stop.flag());
     let order = ScaleOrder {
         toolpaths: args.toolpaths.clone(),
         kit: args.kit.clone(),
@@ -78,7 +92,13 @@ pub fn scale_extrusion(
         infill_ratio: args.infill.map(InfillDensity::ratio),
         most_flow_mm3_s: args.most_flow,
     };
-    let (scaled, [before, after]) = write(&order, &args.out, &watch)?;
+    let written = write(&order, &args.out, &watch);
+    if written.is_err()
+        && let Some(exit) = stop.end()
+    {
+        return Ok(exit);
+    }
+    let (scaled, [before, after]) = written?;
     let parts = before.parts.iter().filter_map(|part| {
         let now = after.parts.iter().find(|now| now.id == part.id)?;
         Some([part, now])
@@ -92,13 +112,41 @@ pub fn scale_extrusion(
             .as_ref()
             .zip(after.toolpaths.as_ref())
             .map(|(a, b)| [a, b]),
+        off_mm: args.field.is_none().then(|| off_mm(&after)).flatten(),
     };
     if voice.json {
         writeln!(out, "{}", serde_json::to_string_pretty(&found)?)?;
     } else if !voice.manner.quiet {
         write!(out, "{}", text(&found))?;
+    } else if !found.passes() {
+        say(&off_text(&found));
     }
-    Ok(Exit::Kept)
+    Ok(if found.passes() {
+        Exit::Kept
+    } else {
+        Exit::NotKept
+    })
+}
+
+/// Returns the distance between the centre of the toolpaths and that of the written parts, mm;
+/// `None` if another plate holds some of them.
+fn off_mm(judged: &PrintedJudgement) -> Option<f64> {
+    let laid = Point::from(judged.toolpaths.as_ref()?.center_mm);
+    Some((laid - Point::from(judged.written.center_mm)).norm())
+}
+
+/// Words how far the centre is off.
+fn off_text(found: &Found) -> String {
+    let off = found.off_mm.map_or(String::new(), |mm| {
+        format!("centre of mass {mm:.3} mm from the promised one\n")
+    });
+    if found.passes() {
+        return off;
+    }
+    format!(
+        "{off}warning: that is more than {PRINTED_CENTER_LIMIT_MM} mm: do not print these \
+         toolpaths\n"
+    )
 }
 
 /// Writes the scaled toolpaths under another name first, so that nothing half-written is left.
@@ -158,6 +206,7 @@ fn text(found: &Found) -> String {
             written.slowed
         );
     }
+    said += &off_text(found);
     said += "how a printer follows such lines is not measured: print a small piece and weigh it\n";
     format!("{said}written to {}\n", found.file.display()).replace('\u{a0}', " ")
 }

@@ -15,8 +15,8 @@ use super::show::say;
 /// The line on the standard error when a command was stopped.
 const STOPPED: &str = "stopped; nothing was written";
 /// The line on the standard error when the time of a command was over.
-const TIMED_OUT: &str = "error: the time that was given is over; nothing was written\n  remedy: give it \
-     more time, or a coarser pitch";
+const TIMED_OUT: &str =
+    "error: the time that was given is over; nothing was written\n  remedy: give it more time";
 /// The time between two looks at a stop button. A person takes less for at once.
 const LOOK: Duration = Duration::from_millis(50);
 

@@ -9,6 +9,7 @@ use super::args::SkeletonArgs;
 use super::exit::Exit;
 use super::new_files::{NewFileError, check_free, write_all};
 use super::show::table;
+use super::signals::Stop;
 use super::skeleton_picture::picture;
 use super::voice::Voice;
 use crate::base::toml_text::TextFault;
@@ -115,13 +116,25 @@ struct SolidFacts {
 pub fn skeleton(
     args: &SkeletonArgs,
     voice: Voice,
+    stop: &Stop,
     out: &mut dyn Write,
 ) -> Result<Exit, SkeletonCommandError> {
     let is_text = args
         .model
         .extension()
         .is_some_and(|ending| ending == SKELETON_ENDING);
-    let findings = if is_text { check(args)? } else { write(args)? };
+    let watch = Watch::silent_until(stop.flag());
+    let found = if is_text {
+        check(args)
+    } else {
+        write(args, &watch)
+    };
+    if found.is_err()
+        && let Some(exit) = stop.end()
+    {
+        return Ok(exit);
+    }
+    let findings = found?;
     if voice.json {
         writeln!(out, "{}", serde_json::to_string_pretty(&findings)?)?;
     } else if !voice.manner.quiet {
@@ -142,7 +155,7 @@ fn check(args: &SkeletonArgs) -> Result<Findings, SkeletonCommandError> {
 }
 
 /// Finds the skeleton of a model and writes it with its picture.
-fn write(args: &SkeletonArgs) -> Result<Findings, SkeletonCommandError> {
+fn write(args: &SkeletonArgs, watch: &Watch) -> Result<Findings, SkeletonCommandError> {
     let file = args
         .out
         .clone()
@@ -151,14 +164,13 @@ fn write(args: &SkeletonArgs) -> Result<Findings, SkeletonCommandError> {
     for path in [&file, &image] {
         check_free(path, args.force)?;
     }
-    let watch = Watch::silent();
-    let solid = read_solid(args, &watch)?;
+    let solid = read_solid(args, watch)?;
     let sizes = sizes(args);
-    let mut skeleton = Skeleton::of(&solid, &watch)?;
+    let mut skeleton = Skeleton::of(&solid, watch)?;
     choose_root(&mut skeleton, args.root)?;
     skeleton.mark_solid(&solid, &sizes);
     let name = args.model.file_name().unwrap_or_default().to_string_lossy();
-    let up = find_upright(&solid, &watch)?.first().map(|pose| pose.up);
+    let up = find_upright(&solid, watch)?.first().map(|pose| pose.up);
     let drawn = picture(&solid, &skeleton, up)?.to_file(&format!("the skeleton of {name}"));
     write_all([(&file, &skeleton.to_toml(&name)), (&image, &drawn)])?;
     let mut findings = findings(&skeleton, &sizes);

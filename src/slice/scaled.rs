@@ -257,9 +257,13 @@ impl Portions for OfField<'_> {
         let place = part.to_model(at);
         let laid = match feature {
             Feature::Infill => self.sparse_ratio.unwrap_or(1.0),
-            _ if self.is_wall(&place) => return 1.0,
             _ => 1.0,
         };
-        self.field.at(&place) / laid
+        let wanted = if self.is_wall(&place) {
+            1.0
+        } else {
+            self.field.at(&place)
+        };
+        wanted / laid
     }
 }

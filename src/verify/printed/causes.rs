@@ -299,7 +299,7 @@ impl Printed<'_> {
 /// Edges across the layers are known to a part of a line, those along z to a layer. Slicers leave
 /// out thin tips, which makes edges shorter: then the spread of the material must say the same. A
 /// thin lid on its rim lost 1.3 % of an edge, and its spreads missed by up to 2.1 %.
-fn is_scaled(part: &PrintedPart, promise: &Promise) -> bool {
+pub(super) fn is_scaled(part: &PrintedPart, promise: &Promise) -> bool {
     let layer_mm = part.layer_mm.or(promise.printer.layer_mm).unwrap_or(0.0);
     // A part without lines is made of pixels, and its edges are known to one.
     let pixel_mm = promise.printer.pixel_mm.filter(|_| part.line_mm.is_none());

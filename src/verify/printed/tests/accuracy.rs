@@ -202,3 +202,25 @@ fn a_rotor_may_be_as_coarse_as_its_grade_and_no_coarser() {
         (grade_mm_s - 0.005 * 3000.0 * std::f64::consts::PI / 30.0).abs() < 0.01
     }));
 }
+
+#[test]
+fn spreads_that_miss_along_other_edges_tell_of_no_scale() {
+    let evidence = kit();
+    let part = judged(&evidence, RIGHT.trays(LABELS)).parts[0].clone();
+    let is_scaled = |size_ratio: [f64; 3], spread_ratio: [f64; 3]| {
+        let part = PrintedPart {
+            size_ratio,
+            spread_ratio,
+            ..part.clone()
+        };
+        super::super::causes::is_scaled(&part, &evidence.promise)
+    };
+    let shrunk = [0.985, 1.0, 1.0];
+    assert!(is_scaled(shrunk, [0.985, 1.0, 1.0]));
+    // What slicers lay wrong of a sound part.
+    assert!(is_scaled(shrunk, [0.985, 1.004, 0.992]));
+    // A thin lid that lost its tips: its spreads miss by more than its edge.
+    assert!(!is_scaled(shrunk, [0.985, 1.021, 1.0]));
+    assert!(!is_scaled([0.987, 1.001, 0.992], [0.983, 1.021, 1.016]));
+    assert!(is_scaled([0.985; 3], [0.985; 3]));
+}
