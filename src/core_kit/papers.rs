@@ -4,7 +4,7 @@ use super::asked::Asked;
 use super::error::CoreRunError;
 use super::files::packages;
 use super::judge::Draft;
-use super::scene::pictures;
+use super::scene::{Shown, pictures};
 use crate::base::watch::{Phase, Watch};
 use crate::job::ModelChoice;
 use crate::kit::Kit;
@@ -27,7 +27,7 @@ pub fn finish(
     watch: &Watch,
 ) -> Result<Prepared<CoreSheet>, CoreRunError> {
     watch.enter(Phase::Report);
-    let pictures = pictures(asked, &draft.made, watch)?;
+    let Shown { pictures, stage } = pictures(asked, &draft.made, watch)?;
     let mut kit = Kit::default();
     for part in &draft.made.parts {
         kit.add(&part.file, part.bytes.clone());
@@ -59,6 +59,7 @@ pub fn finish(
         sheet: &papers.sheet,
         sha256: &papers.sha256,
         pictures: &pictures,
+        view: Some(&stage),
         drawings: &drawings,
     };
     let page = core_job(&page);

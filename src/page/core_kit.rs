@@ -10,6 +10,7 @@ use super::figure::{Picture, Role, figures};
 use super::job_id::JobId;
 use super::proof;
 use super::running::style;
+use super::stage::{Stage, viewer};
 use super::wing_frame::{self as frame, Cover};
 use crate::base::numbers::{measured, measured_extent, number};
 use crate::base::units::format_count;
@@ -38,6 +39,8 @@ pub struct CorePage<'a> {
     pub sha256: &'a str,
     /// The pictures.
     pub pictures: &'a [Picture],
+    /// The view for a screen; `None` for a page with pictures only.
+    pub view: Option<&'a Stage>,
     /// The drawings of the sheets, as SVG files.
     pub drawings: &'a [String],
 }
@@ -60,6 +63,7 @@ pub fn core_job(page: &CorePage) -> String {
     let body = html! {
         (cover(page, &job))
         main {
+            @if let Some(view) = page.view { (viewer(view)) }
             (frame::steps(STEPS.into_iter().zip(steps.map(|step| step(page)))))
             (proof::checks(&page.sheet.checks))
             (frame::files(page.sha256, &page.sheet.files))
