@@ -8,7 +8,6 @@ use super::document::styled_document;
 use super::fields::{blank, file_name};
 use super::figure::{Picture, Role, figures};
 use super::job_id::JobId;
-use super::proof;
 use super::running::style;
 use super::stage::{Stage, viewer};
 use super::wing_frame::{self as frame, Cover};
@@ -46,7 +45,7 @@ pub struct CorePage<'a> {
 }
 
 impl CorePage<'_> {
-    fn job_id(&self) -> JobId<'_> {
+    pub(super) fn job_id(&self) -> JobId<'_> {
         JobId {
             name: &self.sheet.job,
             sha256: self.sha256,
@@ -65,8 +64,6 @@ pub fn core_job(page: &CorePage) -> String {
         main {
             @if let Some(view) = page.view { (viewer(view)) }
             (frame::steps(STEPS.into_iter().zip(steps.map(|step| step(page)))))
-            (proof::checks(&page.sheet.checks))
-            (frame::files(page.sha256, &page.sheet.files))
         }
     };
     styled_document(
@@ -85,14 +82,14 @@ fn cover(page: &CorePage, job: &JobId) -> Markup {
     let cover = Cover {
         job,
         promise: promise(sheet),
-        broken: "✗ do not make: see the checks",
+        broken: "✗ do not make: see certificate",
         fields: &FIELDS,
     };
     cover.draw(sheet, &content)
 }
 
 /// Words what the object does, in one sentence.
-fn promise(sheet: &CoreSheet) -> String {
+pub(super) fn promise(sheet: &CoreSheet) -> String {
     let stands = sheet.toppling_deg.map_or(String::new(), |toppling| {
         format!(" It stands until leaned by {}.", measured(toppling, "°"))
     });

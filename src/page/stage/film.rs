@@ -133,6 +133,7 @@ impl Stage {
                 .map(|curve| PackedBody::line("curve", curve, INK))
                 .collect(),
             named: named.collect(),
+            names_wait: false,
             steps: &steps,
             motion: film.motion(),
         };

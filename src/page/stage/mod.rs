@@ -99,6 +99,8 @@ struct Packed<'a, M> {
     lines: Vec<PackedBody>,
     /// The words that are written beside bodies.
     named: Vec<Named>,
+    /// True if they wait until their body is out of its place, where others hide it.
+    names_wait: bool,
     steps: &'a [Step],
     motion: M,
 }
@@ -130,6 +132,7 @@ impl Stage {
             items: bodies.iter().map(PackedBody::of).collect(),
             lines: Vec::new(),
             named: Vec::new(),
+            names_wait: false,
             steps: &[],
             motion: shifts,
         };

@@ -25,7 +25,7 @@ const makePlayer = (stage, data, { words, figures }) => {
     say(more, now);
     slider.setAttribute("aria-valuetext", now ? `${told}. ${now}` : told);
     chips.forEach((chip, index) => {
-      if (at > 0 && index === step) chip.setAttribute("aria-current", "step");
+      if (at > 0 && at < end && index === step) chip.setAttribute("aria-current", "step");
       else chip.removeAttribute("aria-current");
     });
     say(play, goals.length > 0 ? "Stop" : "Play");

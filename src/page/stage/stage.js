@@ -115,7 +115,7 @@ const makeStage = (data, poses, far) => {
     const words = [];
     for (const { body, words: name } of view.isNamed ? data.named : []) {
       const item = items[body];
-      if (!item.isShown) continue;
+      if (!item.isShown || data.names_wait && item.pose.to.every((value) => value === 0)) continue;
       const center = moved(item.pose, item.low.map((value, axis) => value + 0.5 * item.size[axis]));
       const [x, y] = turned(turn, center.map((value, axis) => value - middle[axis]));
       const [left, top] = [0.5 * canvas.clientWidth + x * unit, 0.5 * canvas.clientHeight - y * unit];
@@ -154,9 +154,11 @@ const makeStage = (data, poses, far) => {
     gl.uniform1i(at.isCutMoved, data.cuts_moved ? 1 : 0);
     gl.uniform1i(at.isCut, view.axis >= 0 ? 1 : 0);
     gl.uniform1i(at.isLine, 0);
-    const normal = turned(back(upright).turn, [0, 1, 2].map((axis) => (axis === view.axis ? 1 : 0)));
+    // What lies towards the viewer of the start is cut away: the front has the low y.
+    const side = view.axis === 1 ? -1 : 1;
+    const normal = turned(back(upright).turn, [0, 1, 2].map((axis) => (axis === view.axis ? side : 0)));
     const offset = view.axis < 0 ? 0 : low[view.axis] + view.share * size[view.axis];
-    gl.uniform4f(at.plane, ...normal, offset);
+    gl.uniform4f(at.plane, ...normal, side * offset);
     const place = (item) => {
       gl.bindVertexArray(item.array);
       gl.uniform3fv(at.low, item.low);

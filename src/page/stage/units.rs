@@ -74,6 +74,7 @@ impl Stage {
             items: bodies.iter().map(PackedBody::of).collect(),
             lines: Vec::new(),
             named: named(view),
+            names_wait: true,
             steps: &steps,
             motion: ways(view),
         };

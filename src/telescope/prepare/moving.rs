@@ -10,6 +10,7 @@ use crate::draw::PictureError;
 use crate::geom::{Frame, Point, Vector};
 use crate::mesh::TriMesh;
 use crate::page::{Film, FilmBody, FilmLimb, FilmPlace, Stage};
+use crate::repair::weld;
 use crate::telescope::motion::{Key, between};
 use crate::telescope::nest::JointState;
 use crate::telescope::network::{Limb, Network};
@@ -134,7 +135,8 @@ fn written(state: &[Key]) -> Vec<Vec<[f64; 2]>> {
 pub fn limb_bodies(limb: usize, made: &Made) -> Vec<MovingBody> {
     let parts = made.parts.par_iter().map(|part| MovingBody {
         id: part.id.clone(),
-        mesh: part.in_shell(),
+        // A file of triangles holds every corner anew.
+        mesh: weld(&part.in_shell()),
         color: part.shell,
         place: FilmPlace::Shell {
             limb,

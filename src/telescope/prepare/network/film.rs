@@ -7,6 +7,7 @@ use super::draft::MadeNetwork;
 use super::made::{Workshop, prefix};
 use crate::geom::Point;
 use crate::page::FilmPlace;
+use crate::repair::weld;
 use crate::telescope::prepare::motion_file::motion;
 
 /// Returns the bodies of a network, with a limb's colours as in its pictures.
@@ -20,7 +21,7 @@ pub fn moving(workshop: &Workshop, made: &MadeNetwork) -> Result<Moving, Telesco
     let junctures = made.junctures.iter().enumerate();
     let junctures = junctures.map(|(index, own)| MovingBody {
         id: own.id.clone(),
-        mesh: own.in_model(),
+        mesh: weld(&own.in_model()),
         color: 0,
         place: FilmPlace::Juncture(index),
         is_named: true,
