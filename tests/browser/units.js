@@ -49,7 +49,7 @@ const leave = async (page) => {
 const drive = async (page) => {
   const start = await pixels(page);
   must(drawn(start) > 0.02 && await clear(page, start), "the object is drawn, with room at every edge");
-  must((await page.$$("#view-names span")).length === 0, "and none is named while it is in its place");
+  must((await page.$$("#view-names span")).length === 0, "no unit is named while it is in its place");
   await shoot(page, "together");
   await page.focus("#view-at");
   await page.keyboard.press("End");

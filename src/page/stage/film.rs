@@ -266,3 +266,92 @@ impl<'a> Film<'a> {
         limbs.chain([junctures]).collect()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::primitives::cuboid;
+    use crate::verify::{JointMotion, ShellMotion};
+
+    /// Returns the motion of three straight shells of 40 mm.
+    fn straight() -> TelescopeMotion {
+        let shell = |id: &str| ShellMotion {
+            id: id.to_owned(),
+            curvature: 0.0,
+            torsion: 0.0,
+            length_mm: 40.0,
+            ends_mm: [-3.0, 43.0],
+        };
+        let joint = |id: &str| JointMotion {
+            id: id.to_owned(),
+            closed_mm: 5.0,
+            open_mm: 40.0,
+            turn_rad: 0.5,
+        };
+        TelescopeMotion {
+            schema: 1,
+            root: Pose::identity(),
+            shells: ["S01", "S02", "S03"].map(shell).to_vec(),
+            joints: ["J01", "J02"].map(joint).to_vec(),
+            order: Vec::new(),
+            keys: Vec::new(),
+        }
+    }
+
+    #[test]
+    fn a_joint_that_slides_and_turns_is_one_step_and_a_shell_is_shown_with_its_cap() {
+        let motion = straight();
+        let mesh = cuboid(&Point::origin(), &Point::new(4.0, 2.0, 2.0));
+        let body = |id, shell| FilmBody {
+            id,
+            mesh: &mesh,
+            color: shell,
+            place: FilmPlace::Shell { limb: 0, shell },
+            is_named: true,
+        };
+        let [closed, slid, turned] = [[5.0, 0.0], [40.0, 0.0], [40.0, 0.5]];
+        let keys = [
+            [closed; 2],
+            [slid, closed],
+            [turned, closed],
+            [turned, slid],
+        ];
+        let bodies = vec![
+            body("S01", 0),
+            body("C01", 0),
+            body("S02", 1),
+            body("S03", 2),
+        ];
+        let out = Frame {
+            origin: Point::new(70.0, 0.0, 0.0),
+            ..Frame::identity()
+        };
+        let film = Film {
+            seen: vec![vec![Frame::identity(); 4], vec![out; 4]],
+            bodies,
+            limbs: vec![FilmLimb {
+                id: "",
+                motion: &motion,
+                ends: [0, 1],
+            }],
+            junctures: 2,
+            keys: keys.iter().map(|key| vec![key.to_vec()]).collect(),
+            curves: &[vec![Point::origin(), Point::new(120.0, 0.0, 0.0)]],
+            up: Vector::x(),
+        };
+        let step = |name: &str, to| Step {
+            name: name.to_owned(),
+            to,
+        };
+        assert_eq!(film.steps(), [step("J01", 2), step("J02", 3)]);
+        let names: Vec<String> = film.toggles().into_iter().map(|own| own.name).collect();
+        assert_eq!(names, ["S01 + C01", "S02", "S03"]);
+        let stage = Stage::of_film(&film, &Watch::silent()).unwrap();
+        let data: serde_json::Value = serde_json::from_str(&stage.packed).unwrap();
+        // Upright, the view has room for both places and for the curve.
+        assert_eq!(data["box"][0][2], 0.0);
+        assert_eq!(data["box"][1][2], 120.0);
+        assert_eq!(data["motion"]["bodies"][3], serde_json::json!([0, 2]));
+        assert_eq!(data["items"][0]["size"], serde_json::json!([4.0, 2.0, 2.0]));
+    }
+}
