@@ -143,7 +143,9 @@ impl<'a> Tree<'a> {
                 tracks: vec![self.track(*joint, true)?],
             })
         });
-        [whole].into_iter().chain(alone).collect()
+        // A single shell has no motion, and the format no animation without one.
+        let whole = Some(whole).filter(|whole| !whole.tracks.is_empty());
+        whole.into_iter().chain(alone).collect()
     }
 
     /// Returns the motion of a joint's inner shell; `None` if it has none. Alone, it begins at
