@@ -8,6 +8,8 @@
 #![allow(clippy::print_stderr, reason = "a skipped test says so")]
 
 mod common;
+#[path = "telescopes/scene.rs"]
+mod scene;
 
 use std::ffi::OsString;
 use std::fs;
@@ -51,6 +53,7 @@ fn an_arc_becomes_a_kit_that_stands_and_passes_both_judges() {
         "collapsed.3mf",
         "extended.3mf",
         "motion.json",
+        "motion.glb",
         "curve.csv",
         "telescope.toml",
         "job.toml",
@@ -65,6 +68,7 @@ fn an_arc_becomes_a_kit_that_stands_and_passes_both_judges() {
     assert_eq!(code, Some(0), "{said}");
     judge_in_python(&kit);
     replay(folder.path(), &kit);
+    scene::lie_about_the_scene(&kit);
     lie_about_a_stop(&kit);
 }
 

@@ -4,16 +4,17 @@ use super::asked::Asked;
 use super::error::CoreRunError;
 use super::files::packages;
 use super::judge::Draft;
-use super::scene::pictures;
+use super::scene::{Shown, pictures};
 use crate::base::watch::{Phase, Watch};
 use crate::job::ModelChoice;
 use crate::kit::Kit;
-use crate::page::{CorePage, core_job};
+use crate::page::{CorePage, CoreProof, core_certificate, core_job};
 use crate::sheet::core_kit::CoreSheet;
 use crate::verify::{
-    CORE_CERTIFICATE_FILE, JOB_FILE, MODEL_FILE, MODEL_FOLDER, PANELS_FILE, SHEET_FILE,
+    CERTIFICATE_FILE, CORE_CERTIFICATE_FILE, JOB_FILE, MODEL_FILE, MODEL_FOLDER, PANELS_FILE,
+    SHEET_FILE,
 };
-use crate::wing::{Papers, Prepared};
+use crate::wing::{Papers, Prepared, read_back};
 
 /// The base in a kit, for a person to edit.
 const BASE_FILE: &str = "base.toml";
@@ -27,7 +28,7 @@ pub fn finish(
     watch: &Watch,
 ) -> Result<Prepared<CoreSheet>, CoreRunError> {
     watch.enter(Phase::Report);
-    let pictures = pictures(asked, &draft.made, watch)?;
+    let Shown { pictures, stage } = pictures(asked, &draft.made, watch)?;
     let mut kit = Kit::default();
     for part in &draft.made.parts {
         kit.add(&part.file, part.bytes.clone());
@@ -38,6 +39,8 @@ pub fn finish(
     for (file, bytes) in &draft.drawings {
         kit.add(file, bytes.clone());
     }
+    let panels = read_back(PANELS_FILE, &draft.panels_json)?;
+    let certificate = read_back(CORE_CERTIFICATE_FILE, &draft.certificate_json)?;
     kit.add(MODEL_FILE, draft.model_stl);
     kit.add(PANELS_FILE, draft.panels_json.into_bytes());
     kit.add(CORE_CERTIFICATE_FILE, draft.certificate_json.into_bytes());
@@ -59,8 +62,13 @@ pub fn finish(
         sheet: &papers.sheet,
         sha256: &papers.sha256,
         pictures: &pictures,
+        view: Some(&stage),
         drawings: &drawings,
     };
-    let page = core_job(&page);
-    Ok(papers.sealed([(SHEET_FILE, page)]))
+    let proof = CoreProof {
+        certificate: &certificate,
+        panels: &panels,
+    };
+    let (job, certificate) = (core_job(&page), core_certificate(&page, &proof));
+    Ok(papers.sealed([(SHEET_FILE, job), (CERTIFICATE_FILE, certificate)]))
 }

@@ -7,14 +7,20 @@ use super::units::{joins, units};
 use crate::base::watch::Watch;
 use crate::geom::Vector;
 use crate::mesh::TriMesh;
-use crate::page::{CoreView, JoinStep, Picture, ShownThing, draw_core};
-use crate::verify::{JoinPromise, UnitPromise};
+use crate::page::{CoreView, JoinStep, Picture, ShownThing, Stage, draw_core};
+use crate::verify::{CorePartKind, JoinPromise, UnitPromise};
 
 /// The width of pictures of parts, in the size of the model: coarse bodies look the same.
 const COARSE_RATIO: f64 = 0.002;
 
-/// Draws the pictures of an object.
-pub fn pictures(asked: &Asked, made: &Made, watch: &Watch) -> Result<Vec<Picture>, CoreRunError> {
+/// The pictures of an object, and its view.
+pub struct Shown {
+    pub pictures: Vec<Picture>,
+    pub stage: Stage,
+}
+
+/// Draws the pictures and the view of an object.
+pub fn pictures(asked: &Asked, made: &Made, watch: &Watch) -> Result<Shown, CoreRunError> {
     let (units, joins) = (units(made), joins(made));
     let size_mm = asked.ground.solid().mesh().longest_side_mm();
     let bodies: Vec<TriMesh> = made
@@ -42,6 +48,7 @@ pub fn pictures(asked: &Asked, made: &Made, watch: &Watch) -> Result<Vec<Picture
         mesh,
         unit: unit_of(&part.id).unwrap_or(0),
         is_panel: false,
+        is_bracket: part.kind == CorePartKind::Bracket,
     });
     let sheets = panels.iter().enumerate().map(|(index, mesh)| ShownThing {
         id: format!("panel {}", index + 1),
@@ -51,6 +58,7 @@ pub fn pictures(asked: &Asked, made: &Made, watch: &Watch) -> Result<Vec<Picture
             .position(|unit| unit.panel == Some(index + 1))
             .unwrap_or(0),
         is_panel: true,
+        is_bracket: false,
     });
     let things: Vec<ShownThing> = printed.chain(sheets).collect();
     let view = CoreView {
@@ -60,7 +68,10 @@ pub fn pictures(asked: &Asked, made: &Made, watch: &Watch) -> Result<Vec<Picture
         steps: steps(&units, &joins),
         up: asked.up,
     };
-    Ok(draw_core(&view)?)
+    Ok(Shown {
+        pictures: draw_core(&view)?,
+        stage: Stage::of_units(&view, watch)?,
+    })
 }
 
 /// Returns the way by which a unit is drawn apart: its own, and those of its polyhedron.

@@ -45,7 +45,14 @@
 //! farther than the gap that all pairs keep. So no collision lies between them. The first sequence
 //! that is free is taken, from the root on. What is behind a root's mouth needs no look.
 //!
-//! # 7. Limits
+//! # 7. The motion on a screen
+//! Between two keys, slides and turns go evenly ([`crate::telescope::JointState`]). The page moves
+//! a shell by the screw of its helix (Chasles), so it shows the true path. In `motion.glb` every
+//! shell is a node on the one before it. That format goes straight between its keys. A chord of
+//! length c leaves a path of curvature κ by κ c²/8. Keys are so near that this is 2 µm at most. The
+//! judge holds the file against its own screws: at the keys, and at three states between two.
+//!
+//! # 8. Limits
 //! Three theorems refuse curves ([`crate::telescope::Limit`]). Walls may not fit into the root,
 //! strands may be nearer than the tubes are thick, arcs too long for the ball that holds them. A
 //! poor deviation alone is no proof, and is told as the best that was found.

@@ -3,6 +3,7 @@
 //! * `read` reads a file in any of the formats; `sniff` recognises the format from the content.
 //! * [`stl`], `obj`, `ply` and [`threemf`] hold one format each.
 //! * `points` reads curves, a point a line; `lines` reads them as OBJ lines or PLY edges, too.
+//! * [`glb`] writes bodies that move as glTF, and reads them back.
 //! * [`gcode`] reads what a print lays down; it writes nothing.
 //! * [`layers`] writes and weighs layer images.
 //! * `volume` reads tetrahedra with densities: `.msh`, legacy `.vtk`, `.node` with `.ele`.
@@ -13,6 +14,7 @@ mod cut_svg;
 mod drawing;
 mod dxf;
 pub mod gcode;
+pub mod glb;
 pub mod layers;
 mod lines;
 mod obj;

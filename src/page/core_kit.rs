@@ -8,8 +8,8 @@ use super::document::styled_document;
 use super::fields::{blank, file_name};
 use super::figure::{Picture, Role, figures};
 use super::job_id::JobId;
-use super::proof;
 use super::running::style;
+use super::stage::{Stage, viewer};
 use super::wing_frame::{self as frame, Cover};
 use crate::base::numbers::{measured, measured_extent, number};
 use crate::base::units::format_count;
@@ -38,12 +38,14 @@ pub struct CorePage<'a> {
     pub sha256: &'a str,
     /// The pictures.
     pub pictures: &'a [Picture],
+    /// The view for a screen; `None` for a page with pictures only.
+    pub view: Option<&'a Stage>,
     /// The drawings of the sheets, as SVG files.
     pub drawings: &'a [String],
 }
 
 impl CorePage<'_> {
-    fn job_id(&self) -> JobId<'_> {
+    pub(super) fn job_id(&self) -> JobId<'_> {
         JobId {
             name: &self.sheet.job,
             sha256: self.sha256,
@@ -60,9 +62,8 @@ pub fn core_job(page: &CorePage) -> String {
     let body = html! {
         (cover(page, &job))
         main {
+            @if let Some(view) = page.view { (viewer(view)) }
             (frame::steps(STEPS.into_iter().zip(steps.map(|step| step(page)))))
-            (proof::checks(&page.sheet.checks))
-            (frame::files(page.sha256, &page.sheet.files))
         }
     };
     styled_document(
@@ -81,14 +82,14 @@ fn cover(page: &CorePage, job: &JobId) -> Markup {
     let cover = Cover {
         job,
         promise: promise(sheet),
-        broken: "✗ do not make: see the checks",
+        broken: "✗ do not make: see certificate",
         fields: &FIELDS,
     };
     cover.draw(sheet, &content)
 }
 
 /// Words what the object does, in one sentence.
-fn promise(sheet: &CoreSheet) -> String {
+pub(super) fn promise(sheet: &CoreSheet) -> String {
     let stands = sheet.toppling_deg.map_or(String::new(), |toppling| {
         format!(" It stands until leaned by {}.", measured(toppling, "°"))
     });

@@ -26,6 +26,15 @@ pub struct ShownThing<'a> {
     pub unit: usize,
     /// True for a panel, false for a printed part.
     pub is_panel: bool,
+    /// True for a bracket, which is printed but belongs to the base.
+    pub is_bracket: bool,
+}
+
+impl ShownThing<'_> {
+    /// Returns whether it belongs to the base, and not to the shell.
+    pub fn is_base(&self) -> bool {
+        self.is_panel || self.is_bracket
+    }
 }
 
 /// A step of putting the object together.
@@ -81,6 +90,12 @@ impl CoreView<'_> {
         view_direction(&side, &self.up, TURN_AND_LIFT)
     }
 
+    /// Returns the index of a unit's first printed part.
+    pub(super) fn first_of(&self, unit: usize) -> Option<usize> {
+        let mut things = self.things.iter();
+        things.position(|thing| thing.unit == unit && !thing.is_panel)
+    }
+
     fn item(&self, index: usize) -> Item<'_> {
         let thing = &self.things[index];
         if thing.is_panel {
@@ -118,22 +133,22 @@ fn whole<'a>(view: &'a CoreView) -> Draft<'a> {
     view.draft("pictures/whole.png".to_owned(), items, words)
 }
 
-/// Draws the units apart, each moved out along its way.
-fn apart<'a>(view: &'a CoreView) -> Draft<'a> {
+/// Returns the usual way of units that are drawn apart, mm.
+pub(super) fn way_mm(view: &CoreView) -> f64 {
     let boxes = view.things.iter().map(|thing| thing.mesh.aabb());
     let size = boxes.fold(Aabb::EMPTY, |all, one| all.union(&one)).size();
-    let way_mm = APART_RATIO * size.max();
+    APART_RATIO * size.max()
+}
+
+/// Draws the units apart, each moved out along its way.
+fn apart<'a>(view: &'a CoreView) -> Draft<'a> {
+    let way_mm = way_mm(view);
     let items = (0..view.things.len()).map(|at| Item {
         shift: view.apart[view.things[at].unit] * way_mm,
         ..view.item(at)
     });
     let named = view.units.iter().enumerate().filter_map(|(unit, name)| {
-        let own = |thing: &&ShownThing| thing.unit == unit && !thing.is_panel;
-        let first = view.things.iter().find(own)?;
-        let at = view
-            .things
-            .iter()
-            .position(|thing| std::ptr::eq(thing, first))?;
+        let at = view.first_of(unit)?;
         Some(Label::On(at, name.clone()))
     });
     let words = [
@@ -179,9 +194,7 @@ fn base<'a>(view: &'a CoreView) -> Draft<'a> {
 /// Draws what stands when something is joined, with that on its way in.
 fn joined<'a>(view: &'a CoreView, index: usize) -> Draft<'a> {
     let step = &view.steps[index];
-    let boxes = view.things.iter().map(|thing| thing.mesh.aabb());
-    let size = boxes.fold(Aabb::EMPTY, |all, one| all.union(&one)).size();
-    let shift = step.way * (APART_RATIO * size.max());
+    let shift = step.way * way_mm(view);
     let items = (0..view.things.len()).filter_map(|at| {
         let unit = view.things[at].unit;
         let is_new = step.moving.contains(&unit);

@@ -7,6 +7,7 @@ use super::fields::file_name;
 use super::figure::{Picture, Role, figures};
 use super::job_id::JobId;
 use super::running::style;
+use super::stage::{Stage, viewer};
 use super::telescope::{
     DO_NOT_PRINT, FIELDS, STEPS, TelescopePage, assemble, clean, dry_fit, glue, joint_line,
     sign_off,
@@ -26,6 +27,8 @@ pub struct NetworkPage<'a> {
     pub sha256: &'a str,
     /// The pictures.
     pub pictures: &'a [Picture],
+    /// The view for a screen; `None` for a page with pictures only.
+    pub view: Option<&'a Stage>,
 }
 
 impl<'a> NetworkPage<'a> {
@@ -41,6 +44,7 @@ impl<'a> NetworkPage<'a> {
             sheet: &limb.sheet,
             sha256: self.sha256,
             pictures: &[],
+            view: None,
         }
     }
 }
@@ -52,6 +56,7 @@ pub fn network_job(page: &NetworkPage) -> String {
     let body = html! {
         (cover(page, &job))
         main {
+            @if let Some(view) = page.view { (viewer(view)) }
             (frame::steps(STEPS.into_iter().zip(steps.map(|step| step(page)))))
             (sign_off())
         }

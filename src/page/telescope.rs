@@ -7,6 +7,7 @@ use super::fields::{blank, file_name};
 use super::figure::{Picture, Role, figures};
 use super::job_id::JobId;
 use super::running::style;
+use super::stage::{Stage, viewer};
 use super::wing_frame::{self as frame, Cover};
 use crate::base::numbers::{measured, measured_extent, number};
 use crate::base::units::format_count;
@@ -31,6 +32,8 @@ pub struct TelescopePage<'a> {
     pub sha256: &'a str,
     /// The pictures.
     pub pictures: &'a [Picture],
+    /// The view for a screen; `None` for a page with pictures only.
+    pub view: Option<&'a Stage>,
 }
 
 impl TelescopePage<'_> {
@@ -49,6 +52,7 @@ pub fn telescope_job(page: &TelescopePage) -> String {
     let body = html! {
         (cover(page, &job))
         main {
+            @if let Some(view) = page.view { (viewer(view)) }
             (frame::steps(STEPS.into_iter().zip(steps.map(|step| step(page)))))
             (sign_off())
             (card(page.sheet))

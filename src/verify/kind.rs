@@ -159,6 +159,8 @@ pub enum CheckKind {
     Motion,
     /// Placements of shells at the keys of a motion.
     Placements,
+    /// Agreement of `motion.glb` with the parts and their keys.
+    MotionScene,
     /// Deviation of an open telescope from its curve.
     Deviation,
     /// Boxes of a telescope, all in and all out.
@@ -223,6 +225,7 @@ impl CheckKind {
             Self::WayBack => "way back",
             Self::Motion => "motion",
             Self::Placements => "placements",
+            Self::MotionScene => "motion.glb",
             Self::Deviation => "deviation",
             Self::Sizes => "sizes",
             Self::Mass => "mass",
@@ -316,7 +319,7 @@ mod tests {
     use serde_json::json;
 
     /// The keys and names of all kinds without data.
-    const KEYS: [(CheckKind, &str, &str); 82] = [
+    const KEYS: [(CheckKind, &str, &str); 83] = [
         (CheckKind::Plugs, "plugs", "plugs"),
         (CheckKind::DrainHoles, "drain-holes", "drain holes"),
         (CheckKind::MatchMass, "match-mass", "mass of the match"),
@@ -416,6 +419,7 @@ mod tests {
         (CheckKind::WayBack, "way-back", "way back"),
         (CheckKind::Motion, "motion", "motion"),
         (CheckKind::Placements, "placements", "placements"),
+        (CheckKind::MotionScene, "motion-scene", "motion.glb"),
         (CheckKind::Deviation, "deviation", "deviation"),
         (CheckKind::Sizes, "sizes", "sizes"),
         (CheckKind::Mass, "mass", "mass"),

@@ -80,7 +80,8 @@ fn placed_faults(file: &str, objects: &[PlacedObject], bodies: &[Named]) -> Vec<
     faults
 }
 
-fn is_same(a: &TriMesh, b: &TriMesh) -> bool {
+/// Returns whether two bodies have the same box and volume, up to single precision.
+pub(super) fn is_same(a: &TriMesh, b: &TriMesh) -> bool {
     let [own, other] = [a, b].map(TriMesh::aabb);
     let side = |mesh: &TriMesh| mesh.signed_volume_mm3().cbrt();
     let is_near = |a: &Vector, b: &Vector| (a - b).amax() < SAME_MM;

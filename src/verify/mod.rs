@@ -191,7 +191,7 @@ pub use telescope::{
     TelescopeEvidence, TelescopeFacts, TelescopeMotion, TelescopePartPromise, TelescopePromise,
     TelescopeVerifyError, judge_telescope, telescope_checks, verify_telescope,
 };
-pub use telescope::{CURVE_FILE, MOTION_FILE, asked_points};
+pub use telescope::{CURVE_FILE, MOTION_FILE, MOTION_SCENE_FILE, OPENING, asked_points};
 // Several telescopes on junctures.
 pub use telescope::{
     JuncturePromise, LimbPromise, NetworkEvidence, NetworkFacts, NetworkKey, NetworkMotion,

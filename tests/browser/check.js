@@ -1,95 +1,11 @@
 // Drives a job sheet in headless Chromium with the network off: no rule of axe broken, no request, no error, and the view does
-// what its controls say. usage: node check.js JOB.html MOST_PAGES (CHROMIUM=path, TOOLS=folder with puppeteer-core and axe-core)
+// what its controls say. usage: node check.js JOB.html MOST_PAGES
 "use strict";
-const { createRequire } = require("node:module");
-const path = require("node:path");
-const { pathToFileURL } = require("node:url");
-const tools = createRequire(path.join(process.env.TOOLS, "package.json"));
-const puppeteer = tools("puppeteer-core");
-const axe = require("node:fs").readFileSync(tools.resolve("axe-core/axe.min.js"), "utf8");
-
-const SOFTWARE_GL = ["--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
-// A control that does something moves this share of the pixels; noise moves none.
-const CHANGED = 0.01;
-const MOST_PAGES = Number(process.argv[3] || 8);
-const faults = [];
-const must = (holds, claim) => {
-  console.log(`${holds ? "ok   " : "WRONG"} ${claim}`);
-  if (!holds) faults.push(claim);
-};
-
-// The page in a browser of its own, with what went wrong in it.
-const opened = async (file, options) => {
-  const browser = await puppeteer.launch({ executablePath: process.env.CHROMIUM, headless: true, args: ["--no-sandbox", ...options] });
-  const page = await browser.newPage();
-  const trouble = [];
-  await page.setViewport({ width: 1100, height: 1200 });
-  await page.setOfflineMode(true);
-  page.on("pageerror", (error) => trouble.push(String(error)));
-  page.on("console", (message) => { if (message.type() === "error") trouble.push(message.text()); });
-  page.on("request", (request) => { if (!/^(file|data):/.test(request.url())) trouble.push(`asked for ${request.url()}`); });
-  await page.goto(pathToFileURL(path.resolve(file)).href, { waitUntil: "load" });
-  return { browser, page, trouble };
-};
-
-// The pixels of the view after the next frame.
-const pixels = (page) => page.evaluate(() => new Promise((resolve) => {
-  requestAnimationFrame(() => requestAnimationFrame(() => {
-    const canvas = document.getElementById("view-canvas");
-    const copy = document.createElement("canvas");
-    [copy.width, copy.height] = [canvas.width, canvas.height];
-    const context = copy.getContext("2d");
-    context.drawImage(canvas, 0, 0);
-    resolve(Array.from(context.getImageData(0, 0, copy.width, copy.height).data));
-  }));
-}));
-const share = (data, test) => {
-  let count = 0;
-  for (let at = 0; at < data.length; at += 4) count += test(at) ? 1 : 0;
-  return count / (data.length / 4);
-};
-const difference = (a, b) => share(a, (at) => [0, 1, 2].some((channel) => Math.abs(a[at + channel] - b[at + channel]) > 8));
-const ofCut = (data) => share(data, (at) => Math.abs(data[at] - 213) < 6 && Math.abs(data[at + 1] - 94) < 6 && data[at + 2] < 6);
-
-// Whether the outermost pixels of the view are paper.
-const clear = async (page, data) => {
-  const [width, height] = await page.$eval("#view-canvas", (canvas) => [canvas.width, canvas.height]);
-  const isPaper = (x, y) => data[4 * (y * width + x)] + data[4 * (y * width + x) + 1] + data[4 * (y * width + x) + 2] > 740;
-  const across = Array.from({ length: width }, (_, x) => isPaper(x, 0) && isPaper(x, height - 1));
-  const down = Array.from({ length: height }, (_, y) => isPaper(0, y) && isPaper(width - 1, y));
-  return across.concat(down).every(Boolean);
-};
-
-// Nothing is wider than a phone.
-const fitsPhone = async (page) => {
-  await page.setViewport({ width: 390, height: 800 });
-  const wide = await page.$$eval("table, figure, svg, p, li, h1, h2", (all) => all
-    .filter((one) => one.getBoundingClientRect().right > window.innerWidth + 1 || one.scrollWidth > one.clientWidth + 1 && one.tagName === "TABLE")
-    .map((one) => `${one.tagName} ${one.textContent.slice(0, 40)}`));
-  must(wide.length === 0, `on a phone nothing needs sideways scrolling ${wide.join("; ")}`);
-};
-
-// The pages that the sheet takes on paper.
-const pagesOn = async (page, format) => {
-  const pdf = Buffer.from(await page.pdf({ format, preferCSSPageSize: false, printBackground: true })).toString("latin1");
-  return (pdf.match(/\/Type\s*\/Page\b/g) || []).length;
-};
-
-const presses = async (page, id, key, times) => {
-  await page.focus(id);
-  for (let time = 0; time < times; time += 1) await page.keyboard.press(key);
-};
-
-const accessible = async (page, how) => {
-  await page.evaluate(axe);
-  const { violations } = await page.evaluate(() => window.axe.run(document, { resultTypes: ["violations"] }));
-  for (const violation of violations) console.log(`      ${violation.id}: ${violation.help}: ${violation.nodes.map((node) => node.html.slice(0, 160)).join(" | ")}`);
-  must(violations.length === 0, `axe finds nothing, ${how}`);
-};
+const { CHANGED, SOFTWARE_GL, accessible, clear, difference, drawn, must, ofCut, onPaper, opened, pixels, presses, report, withoutView } = require("./common.js");
 
 const drive = async (page) => {
   const start = await pixels(page);
-  must(share(start, (at) => start[at] + start[at + 1] + start[at + 2] < 740) > 0.02, "the assembly is drawn");
+  must(drawn(start) > 0.02, "the assembly is drawn");
   must(ofCut(start) === 0, "nothing is cut at first");
   must(await clear(page, start), "all of it is seen, with room at every edge");
   await presses(page, "#view-explode", "ArrowRight", 60);
@@ -116,7 +32,7 @@ const drive = async (page) => {
   await presses(page, "#view-explode", "ArrowRight", 100);
   const all = await pixels(page);
   const without = [];
-  for (const box of await page.$$("input[data-item]")) {
+  for (const box of await page.$$("input[data-bodies]")) {
     await box.click();
     without.push(difference(all, await pixels(page)));
     await box.click();
@@ -125,26 +41,13 @@ const drive = async (page) => {
   must(difference(all, await pixels(page)) === 0, "and all of them come back");
 };
 
-(async () => {
-  const file = process.argv[2];
+report(async () => {
+  const [file, mostPages] = [process.argv[2], Number(process.argv[3] || 8)];
   const shown = await opened(file, SOFTWARE_GL);
   await drive(shown.page);
   await accessible(shown.page, "with the view");
-  await shown.page.emulateMediaType("print");
-  await accessible(shown.page, "on paper");
+  await onPaper(shown.page, mostPages);
   must(shown.trouble.length === 0, `no error and no request ${shown.trouble.join("; ")}`);
-  for (const format of ["A4", "Letter"]) {
-    const pages = await pagesOn(shown.page, format);
-    must(pages > 0 && pages <= MOST_PAGES, `on ${format} it takes ${pages} pages, at most ${MOST_PAGES}`);
-  }
   await shown.browser.close();
-
-  const plain = await opened(file, ["--disable-gpu", "--disable-3d-apis"]);
-  must(await plain.page.$eval("#view", (view) => view.hidden), "without WebGL the view stays away");
-  must(await plain.page.$$eval("figure img, figure svg", (all) => all.every((one) => one.getBoundingClientRect().width > 100)), "and the pictures are there");
-  await accessible(plain.page, "without the view");
-  await fitsPhone(plain.page);
-  must(plain.trouble.length === 0, `no error and no request ${plain.trouble.join("; ")}`);
-  await plain.browser.close();
-  process.exit(faults.length === 0 ? 0 : 1);
-})().catch((error) => { console.error(error); process.exit(2); });
+  await withoutView(file);
+});

@@ -106,6 +106,7 @@ fn a_box_becomes_a_kit_that_stands_and_passes_both_judges() {
         "certificate.json",
         "job.toml",
         "job.html",
+        "certificate.html",
         "SHA256SUMS",
         "sheets/sheet-1.dxf",
         "sheets/sheet-1.svg",

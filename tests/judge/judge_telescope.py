@@ -21,6 +21,9 @@ import scipy.linalg
 import scipy.spatial
 import trimesh
 
+sys.dont_write_bytecode = True
+import judge_scene  # noqa: E402, beside this file
+
 # A stop is free so much before it and holds so much after it, mm.
 FREE_MM = 0.02
 HELD_MM = 0.05
@@ -372,7 +375,7 @@ def main():
         print(__doc__)
         return 2
     try:
-        return 1 if sum(judge(folder) for folder in sys.argv[1:]) else 0
+        return 1 if sum(judge(folder) + judge_scene.judge(folder) for folder in sys.argv[1:]) else 0
     except FileNotFoundError as error:
         print(f"no kit: {error}")
         return 2

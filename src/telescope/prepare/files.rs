@@ -6,7 +6,7 @@ use super::asked::Asked;
 use super::error::TelescopeRunError;
 use super::made::{Made, WrittenPart, from_print};
 use crate::draw::part_color;
-use crate::geom::{Frame, Matrix, Vector};
+use crate::geom::{Frame, Matrix, Point, Vector};
 use crate::io::threemf::{Build, Object, Package, Transform};
 use crate::make::{Arrangement, File, plates, print_settings};
 use crate::mesh::TriMesh;
@@ -20,8 +20,7 @@ const CURVE_SAMPLES: usize = 40;
 /// Returns the points asked for and made, one pair a line.
 pub fn curve_csv(asked: &Asked, made: &Made) -> String {
     let design = &made.best.design;
-    let shells = design.telescope.shells.len();
-    let wanted = asked.curve.samples(shells * CURVE_SAMPLES);
+    let wanted = wanted_points(asked, made);
     let reached = design.fit.chain.samples(CURVE_SAMPLES);
     let lines = wanted.iter().zip(&reached).map(|(p, q)| {
         format!(
@@ -31,6 +30,12 @@ pub fn curve_csv(asked: &Asked, made: &Made) -> String {
     });
     let titles = "asked_x,asked_y,asked_z,made_x,made_y,made_z\n".to_owned();
     [titles].into_iter().chain(lines).collect()
+}
+
+/// Returns points of the curve that was asked for.
+pub fn wanted_points(asked: &Asked, made: &Made) -> Vec<Point> {
+    let shells = made.best.design.telescope.shells.len();
+    asked.curve.samples(shells * CURVE_SAMPLES)
 }
 
 /// The telescope as plain data: `telescope.toml`.

@@ -2,6 +2,7 @@
 //! from a skeleton is in `network`.
 
 mod advise;
+mod animate;
 mod asked;
 mod balance;
 mod best;
@@ -12,6 +13,7 @@ mod load;
 mod load_skeleton;
 mod made;
 mod motion_file;
+mod moving;
 mod network;
 mod papers;
 mod poses;

@@ -2,17 +2,21 @@
 
 use std::path::Path;
 
+use super::animate::motion_scene;
 use super::asked::Asked;
 use super::error::TelescopeRunError;
-use super::files::{packages, telescope_toml};
+use super::files::{packages, telescope_toml, wanted_points};
 use super::judge::Draft;
+use super::moving::Moving;
 use super::scene::pictures;
 use crate::base::watch::{Phase, Watch};
 use crate::job::ModelChoice;
 use crate::kit::Kit;
 use crate::page::{TelescopePage, telescope_certificate, telescope_job};
 use crate::sheet::telescope::TelescopeSheet;
-use crate::verify::{CERTIFICATE_FILE, CURVE_FILE, MODEL_FOLDER, MOTION_FILE, SHEET_FILE};
+use crate::verify::{
+    CERTIFICATE_FILE, CURVE_FILE, MODEL_FOLDER, MOTION_FILE, MOTION_SCENE_FILE, SHEET_FILE,
+};
 use crate::wing::{Papers, Prepared};
 
 /// File of the job in a kit.
@@ -28,6 +32,8 @@ pub fn finish(
 ) -> Result<Prepared<TelescopeSheet>, TelescopeRunError> {
     watch.enter(Phase::Report);
     let pictures = pictures(&draft.made, watch)?;
+    let moving = Moving::of_chain(&draft.made, wanted_points(asked, &draft.made));
+    let stage = moving.stage(watch)?;
     let mut kit = Kit::default();
     for part in &draft.made.parts {
         kit.add(&part.file, part.bytes.clone());
@@ -36,6 +42,7 @@ pub fn finish(
         kit.add(&file, bytes);
     }
     kit.add(MOTION_FILE, draft.motion_json.into_bytes());
+    kit.add(MOTION_SCENE_FILE, motion_scene(&asked.job.name(), &moving)?);
     kit.add(CURVE_FILE, draft.curve_csv.into_bytes());
     kit.add(TELESCOPE, telescope_toml(&draft.sheet)?.into_bytes());
     let mut job = asked.job.in_kit();
@@ -54,6 +61,7 @@ pub fn finish(
         sheet: &papers.sheet,
         sha256: &papers.sha256,
         pictures: &pictures,
+        view: Some(&stage),
     };
     let (job, certificate) = (telescope_job(&page), telescope_certificate(&page));
     Ok(papers.sealed([(SHEET_FILE, job), (CERTIFICATE_FILE, certificate)]))

@@ -15,7 +15,7 @@ use crate::geom::Vector;
 use crate::io::{DrawnLine, decode_cut_svg, decode_dxf, read_model};
 use crate::mesh::TriMesh;
 use crate::verify::kit_folder::{KitFolder, all_inside_kit};
-use crate::verify::{CHECKLIST_FILE, KindJudgement, KitFolderError, SHEET_FILE};
+use crate::verify::{CERTIFICATE_FILE, CHECKLIST_FILE, KindJudgement, KitFolderError, SHEET_FILE};
 
 /// By how much the squared length of a normal may differ from 1.
 const UNIT_SLACK: f64 = 1e-9;
@@ -35,7 +35,7 @@ pub fn verify_core(folder: &Path, watch: &Watch) -> Result<KindJudgement, CoreVe
     let evidence = read(&folder)?;
     let facts = judge_core(&evidence, watch)?;
     let checks = core_checks(&evidence.promise, &facts);
-    let papers = [CHECKLIST_FILE, SHEET_FILE];
+    let papers = [CHECKLIST_FILE, SHEET_FILE, CERTIFICATE_FILE];
     let mut judgement = folder.judgement(checks, &evidence.promise.files, &papers)?;
     judgement.checks.push(packages_check(&folder, &evidence));
     Ok(judgement)

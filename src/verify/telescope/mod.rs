@@ -18,6 +18,7 @@ mod network_seats;
 mod packages;
 mod promise;
 mod reading;
+mod scene;
 mod shells;
 mod standing;
 mod stops;
@@ -37,3 +38,4 @@ pub use promise::{
     BalancePromise, DeviationPromise, JointPromise, TelescopePartPromise, TelescopePromise,
 };
 pub use reading::{CURVE_FILE, MOTION_FILE, TelescopeVerifyError, asked_points};
+pub use scene::{MOTION_SCENE_FILE, OPENING};

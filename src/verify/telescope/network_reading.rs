@@ -15,6 +15,7 @@ use super::reading::{
     MOTION_FILE, TelescopeVerifyError, asked_points, mismatch, read_nominal, read_parts,
     verify_curve,
 };
+use super::scene::network_scene_check;
 use crate::base::watch::Watch;
 use crate::geom::Vector;
 use crate::mesh::TriMesh;
@@ -57,6 +58,9 @@ pub fn verify_telescope(
     judgement
         .checks
         .push(network_packages_check(&folder, &evidence));
+    judgement
+        .checks
+        .push(network_scene_check(&folder, &evidence));
     Ok(judgement)
 }
 

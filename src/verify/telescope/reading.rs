@@ -8,6 +8,7 @@ use super::facts::judge_telescope;
 use super::motion::{MotionKey, TelescopeMotion};
 use super::packages::packages_check;
 use super::promise::{TelescopePartPromise, TelescopePromise};
+use super::scene::scene_check;
 use crate::base::watch::{Cancelled, Watch};
 use crate::geom::{Point, Vector};
 use crate::io::{PointsError, decode_points, read_model};
@@ -54,6 +55,7 @@ pub(super) fn verify_curve(
     let papers = [CHECKLIST_FILE, SHEET_FILE, CERTIFICATE_FILE];
     let mut judgement = folder.judgement(checks, &evidence.promise.files, &papers)?;
     judgement.checks.push(packages_check(folder, &evidence));
+    judgement.checks.push(scene_check(folder, &evidence));
     Ok(judgement)
 }
 

@@ -6,6 +6,7 @@
 
 mod bodies;
 mod draft;
+mod film;
 mod limb;
 mod made;
 mod papers;

@@ -4,8 +4,10 @@ use std::path::Path;
 
 use serde::Serialize;
 
+use super::super::animate::motion_scene;
 use super::super::error::TelescopeRunError;
 use super::draft::{MadeNetwork, NetworkDraft};
+use super::film::moving;
 use super::made::Workshop;
 use crate::base::watch::Phase;
 use crate::draw::part_color;
@@ -23,7 +25,8 @@ use crate::sheet::telescope::ShellRow;
 use crate::telescope::motion::Key;
 use crate::telescope::prepare::made::from_print;
 use crate::verify::{
-    CERTIFICATE_FILE, MODEL_FOLDER, MOTION_FILE, Pose, SHEET_FILE, limb_curve_file,
+    CERTIFICATE_FILE, MODEL_FOLDER, MOTION_FILE, MOTION_SCENE_FILE, Pose, SHEET_FILE,
+    limb_curve_file,
 };
 use crate::wing::{Papers, Prepared, Unwritable};
 
@@ -51,7 +54,11 @@ pub fn finish(
     for (file, bytes) in packages(workshop, made)? {
         kit.add(&file, bytes);
     }
+    let moving = moving(workshop, made)?;
+    let stage = moving.stage(workshop.watch)?;
     kit.add(MOTION_FILE, draft.motion_json.into_bytes());
+    let scene = motion_scene(&workshop.job.name(), &moving)?;
+    kit.add(MOTION_SCENE_FILE, scene);
     for (limb, curve) in draft.sheet.limbs.iter().zip(draft.curves) {
         kit.add(&limb_curve_file(&limb.id), curve.into_bytes());
     }
@@ -74,6 +81,7 @@ pub fn finish(
         sheet: &papers.sheet,
         sha256: &papers.sha256,
         pictures: &pictures,
+        view: Some(&stage),
     };
     let (job, certificate) = (network_job(&page), network_certificate(&page));
     Ok(papers.sealed([(SHEET_FILE, job), (CERTIFICATE_FILE, certificate)]))

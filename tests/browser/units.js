@@ -1,0 +1,87 @@
+// Drives the sheet of an object on a base in headless Chromium: its units leave one after the other along the normals of their
+// panels, what closes it first. usage: node units.js KIT MOST_PAGES
+"use strict";
+const fs = require("node:fs");
+const path = require("node:path");
+const { CHANGED, SOFTWARE_GL, accessible, clear, difference, drawn, fitsPhone, must, onPaper, opened, pixels, report, shoot, withoutView } = require("./common.js");
+
+const kit = process.argv[2];
+const read = (file) => JSON.parse(fs.readFileSync(path.join(kit, file), "utf8"));
+const [sheet, panels] = [read("checklist.json"), read("panels.json").panels];
+const leaving = [...sheet.units].reverse();
+
+const set = (page, at) => page.$eval("#view-at", (slider, value) => {
+  slider.value = value;
+  slider.dispatchEvent(new Event("input", { bubbles: true }));
+}, at);
+const found = (page) => page.evaluate(() => document.getElementById("view").places());
+const ids = (unit) => [...unit.parts, ...(unit.panel ? [`panel ${unit.panel}`] : [])];
+const along = (rows, way) => rows.reduce((sum, row, axis) => sum + row[3] * way[axis], 0);
+const far = (rows) => Math.hypot(...rows.map((row) => row[3]));
+const isUpright = (rows) => rows.every((row, i) => [0, 1, 2].every((j) => row[j] === (i === j ? 1 : 0)));
+
+// At each half step all before it are out, the one that leaves is on its way, and the others stand.
+const leave = async (page) => {
+  let [whole, aside, wrong] = [0, 0, []];
+  for (let step = 0; step < leaving.length; step += 1) {
+    await set(page, step + 0.5);
+    const named = Object.fromEntries((await found(page)).map(({ name, rows }) => [name, rows]));
+    leaving.forEach((unit, place) => {
+      for (const id of ids(unit)) {
+        const rows = named[id];
+        const out = along(rows, unit.way);
+        aside = Math.max(aside, Math.sqrt(Math.max(0, far(rows) ** 2 - out ** 2)));
+        whole = place < step ? Math.max(whole, out) : whole;
+        const isRight = place < step ? out > 1 : place === step ? out > 0.5 : far(rows) === 0;
+        if (!isRight || !isUpright(rows)) wrong.push(`${id} at ${step + 0.5}`);
+      }
+    });
+  }
+  must(wrong.length === 0, `units leave in order, what closes it first ${wrong.join("; ")}`);
+  must(aside < 1e-3 && whole > 0, `each goes ${whole.toFixed(1)} mm along its way and ${aside.toExponential(1)} mm beside it`);
+  const skew = sheet.units.filter((unit) => unit.panel).map((unit) => {
+    const normal = panels[unit.panel - 1].axes[2];
+    return Math.hypot(...unit.way.map((value, axis) => value - normal[axis]));
+  });
+  must(skew.length > 3 && Math.max(...skew) < 1e-9, `the ways are the normals of ${skew.length} panels`);
+};
+
+const drive = async (page) => {
+  const start = await pixels(page);
+  must(drawn(start) > 0.02 && await clear(page, start), "the object is drawn, with room at every edge");
+  must((await page.$$("#view-names span")).length === 0, "no unit is named while it is in its place");
+  await shoot(page, "together");
+  await page.focus("#view-at");
+  await page.keyboard.press("End");
+  const apart = await pixels(page);
+  must(difference(start, apart) > CHANGED, "the slider takes it apart by the keyboard");
+  await shoot(page, "apart");
+  must((await page.$$("#view-names span")).length > 2, "names are written beside the units that are out");
+  const boxes = await page.$$("input[data-bodies]");
+  for (const box of boxes.slice(0, 2)) {
+    const name = await box.evaluate((input) => input.parentElement.textContent.trim());
+    await box.click();
+    must(difference(apart, await pixels(page)) > CHANGED, `the ${name} can be hidden`);
+    await shoot(page, `without-${name}`);
+    await box.click();
+  }
+  must(difference(apart, await pixels(page)) === 0, "and comes back");
+  await page.click("#view-reset");
+  must(difference(start, await pixels(page)) === 0, "starting again is as at the start");
+};
+
+report(async () => {
+  const [file, mostPages] = [path.join(kit, "job.html"), Number(process.argv[3])];
+  const shown = await opened(file, SOFTWARE_GL);
+  await drive(shown.page);
+  await leave(shown.page);
+  await accessible(shown.page, "with the view");
+  await fitsPhone(shown.page);
+  await pixels(shown.page);
+  await shoot(shown.page, "phone");
+  await shown.page.setViewport({ width: 1100, height: 1200 });
+  await onPaper(shown.page, mostPages);
+  must(shown.trouble.length === 0, `no error and no request ${shown.trouble.join("; ")}`);
+  await shown.browser.close();
+  await withoutView(file);
+});

@@ -1,0 +1,38 @@
+//! A changed motion in `motion.glb` is found by the judge.
+
+use std::fs;
+use std::path::Path;
+
+use crate::common::{assert_exit, equipoise, json, path};
+
+/// Returns the number at a pointer.
+fn at(value: &serde_json::Value, pointer: &str) -> usize {
+    value.pointer(pointer).unwrap().as_u64().unwrap() as usize
+}
+
+/// Moves one key of the first joint aside, and leaves all else: the judge must tell which parts
+/// are then off.
+pub fn lie_about_the_scene(kit: &Path) {
+    let file = kit.join("motion.glb");
+    let right = fs::read(&file).unwrap();
+    let length = u32::from_le_bytes(right[12..16].try_into().unwrap()) as usize;
+    let scene: serde_json::Value = serde_json::from_slice(&right[20..20 + length]).unwrap();
+    assert_eq!(scene["animations"][0]["name"], "open");
+    let output = at(&scene, "/animations/0/samplers/0/output");
+    let view = at(&scene, &format!("/accessors/{output}/bufferView"));
+    let start = 28 + length + at(&scene, &format!("/bufferViews/{view}/byteOffset"));
+    let mut wrong = right.clone();
+    let old = f32::from_le_bytes(wrong[start..start + 4].try_into().unwrap());
+    wrong[start..start + 4].copy_from_slice(&(old + 0.1).to_le_bytes());
+    fs::write(&file, wrong).unwrap();
+    let checked = equipoise(&["--json", "verify", path(kit)]);
+    assert_exit(&checked, 1);
+    let found = json(&checked);
+    let mut checks = found.as_array().unwrap().iter();
+    let check = checks
+        .find(|check| check["kind"] == "motion-scene")
+        .unwrap();
+    assert_eq!(check["pass"], false);
+    assert!(check.to_string().contains("S02 is 0.1"), "{check}");
+    fs::write(&file, right).unwrap();
+}
