@@ -9,7 +9,7 @@ use crate::geom::{Point, Vector};
 use crate::mass::{Moments, moments_of_mesh};
 use crate::mesh::{TriMesh, area_mm2};
 use crate::panels::Panel;
-use crate::verify::{FastenerPromise, GluePromise};
+use crate::verify::{BallastPromise, FastenerPromise, GluePromise};
 
 /// The masses of an object, g, and its centre in the model frame.
 #[derive(Debug, Clone, PartialEq)]
@@ -24,10 +24,13 @@ pub struct Weighed {
     pub fasteners_g: f64,
     /// The glue.
     pub glue_g: f64,
+    /// The ballast.
+    pub ballast_g: f64,
     /// Everything: mass, g, and first moments.
     pub whole: Moments,
     pub fasteners: Vec<FastenerPromise>,
     pub glue: Vec<GluePromise>,
+    pub ballast: Vec<BallastPromise>,
 }
 
 impl Weighed {
@@ -62,9 +65,11 @@ pub fn weigh(asked: &Asked, made: &Made) -> Weighed {
         brackets_g: brackets.volume(),
         fasteners_g: held.volume(),
         glue_g: glued.volume(),
+        ballast_g: 0.0,
         whole: shell + brackets + panels + held + glued,
         fasteners,
         glue,
+        ballast: Vec::new(),
     }
 }
 

@@ -41,6 +41,10 @@ MASS_RATIO = 1e-6
 CENTRE_MM = 1e-3
 TOPPLING_DEG = 0.01
 NEAR_MM = 1e-3
+# By how much less is looked for about pins, mm, and the volume that may be missing there, mm³.
+NEAR_PIN_MM = 0.05
+PIN_MM3 = 0.02
+TOUCH_MM = 5e-3
 BAND_RATIO = 0.002
 SAMPLES = 4000
 STRAY_SIDES = "sides that lie between no polyhedra"
@@ -337,10 +341,86 @@ def judge_parts(kit, model):
     clear = [base.solid(kit.sheet["gap_mm"] - 0.01, True, 0.01)[0] for base in kit.bases]
     inside = sum((kit.solids[part["id"]] ^ one).volume() for part in shell for one in clear)
     kit.check("parts within the gap, mm³", inside, inside <= IN_BASE_MM3, IN_BASE_MM3)
-    parts = math.fsum(moments(kit.parts[part["id"]])[0] + part["void_mm3"] + part["bores_mm3"] for part in shell)
+    pins = lambda part: part.get("pins_mm3", [0.0, 0.0])
+    parts = math.fsum(moments(kit.parts[part["id"]])[0] + part["void_mm3"] + part["bores_mm3"] + pins(part)[1] - pins(part)[0] for part in shell)
     whole = moments(kit.model)[0]
     off = (parts + sum((one ^ model).volume() for one in grown)) / whole - 1
     kit.check("sum of volumes, relative", off, abs(off) <= VOLUME_RATIO, VOLUME_RATIO)
+
+
+def bar(peg, radius, low, high):
+    """A round bar about the axis of a pin, between two heights."""
+    place = trimesh.geometry.align_vectors([0, 0, 1], peg["direction"])
+    place[:3, 3] = np.array(peg["center_mm"]) + low * np.array(peg["direction"])
+    return manifold3d.Manifold.cylinder(high - low, radius, circular_segments=96).transform(place[:3])
+
+
+def cone(a, b, height):
+    return math.pi * height / 3 * (a * a + a * b + b * b)
+
+
+def judge_pins(kit):
+    """Every pin is there, has room in its socket, a wall about it, and stands along the way of its unit."""
+    pegs, units = kit.sheet.get("pins", []), kit.sheet["units"]
+    wall = kit.sheet["printer"]["minimum_wall_mm"]
+    wrong = []
+    unit_of = lambda name: next(at for at, unit in enumerate(units) if name in unit["parts"])
+    volumes = {name: [0.0, 0.0] for name in kit.parts}
+    for peg in pegs:
+        on, into = kit.solids[peg["on"]], kit.solids[peg["into"]]
+        thick, wide, long, deep = peg["diameter_mm"] / 2, peg["socket_diameter_mm"] / 2, peg["length_mm"], peg["socket_depth_mm"]
+        tip, mouth = peg["chamfers_mm"]
+        name = f"the pin of {peg['on']} into {peg['into']}"
+        if peg["on"] == peg["into"] or not (0 < tip < thick < wide and 0 < long < deep and mouth >= 0) or abs(np.linalg.norm(peg["direction"]) - 1) > 1e-9:
+            wrong.append(f"{name} is none")
+            continue
+        volumes[peg["on"]][0] += math.pi * thick**2 * (long - tip) + cone(thick, thick - tip, tip)
+        volumes[peg["into"]][1] += math.pi * wide**2 * (deep - mouth) + cone(wide, wide + mouth, mouth)
+        if (bar(peg, thick - NEAR_PIN_MM, NEAR_PIN_MM, long - tip) - on).volume() > PIN_MM3:
+            wrong.append(f"{name} is not there")
+        room = bar(peg, wide - NEAR_PIN_MM, NEAR_PIN_MM, deep - NEAR_PIN_MM)
+        if (room ^ into).volume() > PIN_MM3:
+            wrong.append(f"{name} has no room")
+        if ((room - bar(peg, thick + NEAR_PIN_MM, 0, deep)) ^ on).volume() > PIN_MM3:
+            wrong.append(f"{name} is thicker than listed")
+        about = bar(peg, wide + wall - NEAR_PIN_MM, mouth + NEAR_PIN_MM, deep) - bar(peg, wide + NEAR_PIN_MM, 0, deep + 1)
+        below = bar(peg, 0.9 * wide, deep + NEAR_PIN_MM, deep + wall - NEAR_PIN_MM)
+        if (about - into).volume() > PIN_MM3 or (below - into).volume() > PIN_MM3:
+            wrong.append(f"the socket of {name} lacks its wall")
+        first, second = unit_of(peg["on"]), unit_of(peg["into"])
+        if first != second:
+            way = np.dot(units[max(first, second)]["way"], peg["direction"])
+            if abs(way - (1 if second > first else -1)) > 1e-9:
+                wrong.append(f"{name} stands across the way of its unit")
+    for part in kit.sheet["parts"]:
+        told = part.get("pins_mm3", [0.0, 0.0])
+        if any(abs(a - b) > 0.02 * b for a, b in zip(told, volumes[part["id"]])):
+            wrong.append(f"the volumes of the pins of {part['id']} are others")
+    for fault in wrong:
+        print(f"    {fault}")
+    kit.check("faults of pins", len(wrong), not wrong, f"0 of {len(pegs)} pins")
+
+
+def judge_held(kit):
+    """Every part lies on its panel and is held there, or is joined to a part that is held."""
+    shell = [part for part in kit.sheet["parts"] if part["kind"] == "shell"]
+    screwed = {one["part"] for one in kit.sheet["fasteners"] if one["kind"] == "screw"}
+    films = [film.get("parts", []) for film in kit.sheet["glue"]]
+    screwed |= {film[0] for film in films if len(film) == 1}
+    graph = networkx.Graph()
+    graph.add_node("base")
+    for part in shell:
+        graph.add_node(part["id"])
+        panel = kit.panels[part["panel"] - 1]
+        heights = (kit.parts[part["id"]].vertices - panel["origin_mm"]) @ np.array(panel["axes"][2])
+        if part["id"] in screwed and (np.abs(heights - kit.sheet["gap_mm"]) < TOUCH_MM).sum() >= 3:
+            graph.add_edge("base", part["id"])
+    pairs = [(peg["on"], peg["into"]) for peg in kit.sheet.get("pins", [])] + [tuple(film) for film in films if len(film) == 2]
+    for a, b in set(pairs):
+        if kit.solids[a].min_gap(kit.solids[b], 1.0) < TOUCH_MM:
+            graph.add_edge(a, b)
+    loose = set(graph) - networkx.node_connected_component(graph, "base")
+    kit.check("parts without a path to the base", len(loose), not loose, 0)
 
 
 def judge_ways(kit, panels):
@@ -471,6 +551,8 @@ def judge_things(kit, model):
     cut = [panel for index, promised in enumerate(kit.sheet["cut_sheets"]) for panel in judge_sheet(kit, index, promised)]
     kit.check("panels that are cut", len(cut), sorted(cut) == list(range(1, len(kit.panels) + 1)), len(kit.panels))
     judge_parts(kit, model)
+    judge_pins(kit)
+    judge_held(kit)
     judge_ways(kit, panels)
     judge_heads(kit, panels)
     judge_mass(kit)
