@@ -4,15 +4,15 @@ use super::asked::Asked;
 use super::ballast::ballasted;
 use super::build::Refused;
 use super::made::Made;
-use super::mass::{Weighed, point, weigh};
+use super::mass::{Weighed, point, toppling_deg, weigh};
 use crate::ballast::{BallastError, Order};
 use crate::base::numbers::measured;
 use crate::base::setting::{Key, Setting};
 use crate::cladding::CladdingError;
 use crate::geom::Point;
-use crate::goal::{Goal, Up, compute_figures, support_edges};
+use crate::goal::{Goal, Up, support_edges};
 use crate::job::core_kit::{CoreGoal, CoreJoints, CoreShell};
-use crate::mass::{Moments, moments_of_mesh};
+use crate::mass::moments_of_mesh;
 use crate::panels::PanelError;
 use crate::wing::{Impossible, Remedy};
 
@@ -88,20 +88,6 @@ fn unclad(asked: &Asked, why: &CladdingError) -> Impossible {
     };
     answer.hints.push(hint);
     answer
-}
-
-/// Returns the lean at which an object topples, degrees; less than zero if it does not stand.
-pub fn toppling_deg(goal: &Goal, weighed: &Weighed) -> f64 {
-    lean_deg(goal, &weighed.whole)
-}
-
-/// Returns the lean at which a body with these moments topples, degrees; less than zero if it does
-/// not stand.
-pub fn lean_deg(goal: &Goal, moments: &Moments) -> f64 {
-    let moments = moments.in_frame(&goal.frame);
-    let figures = compute_figures(goal, &moments);
-    let lean_rad = figures.toppling_angle_rad.unwrap_or(f64::NEG_INFINITY);
-    lean_rad.to_degrees()
 }
 
 /// Tells why an object does not stand as asked, and what helps; `None` if it does, or need not.

@@ -105,11 +105,6 @@ pub fn measure<'a>(
     let two_mm = bolt.as_ref().map_or(0.0, |bolt| bolt.disc_mm(sheet_mm));
     let disc_mm = CONNECTOR_MM.max(two_mm.ceil());
     let (up, goal) = stance(job, &loaded.ground, wall_mm, watch)?;
-    let axis = GoalAxis {
-        point: Point::origin(),
-        direction: up,
-    };
-    let pins = PlanRequest::for_printer(&shop.printer, size_mm, axis);
     Ok(Asked {
         job,
         shop,
@@ -127,12 +122,9 @@ pub fn measure<'a>(
         bolt,
         panels: panel_request(job, shop, &bracket_screw),
         stock,
-        keeps_grain: match job.cutting.grain {
-            Some(choice) => choice == GrainChoice::Keep,
-            None => shop.sheet.grain != Grain::None,
-        },
+        keeps_grain: keeps_grain(job, shop),
         screws,
-        pins,
+        pins: pins(shop, size_mm),
         bracket_screw,
         up,
         goal,
@@ -163,6 +155,24 @@ impl Asked<'_> {
     pub fn sheet_g_mm3(&self) -> f64 {
         self.shop.sheet.mass_per_area_g_mm2() / self.shop.sheet.thickness_mm.value
     }
+}
+
+/// Returns true if panels follow the grain: as the job says, or else the sheet's profile.
+fn keeps_grain(job: &CoreJob, shop: &Shop) -> bool {
+    match job.cutting.grain {
+        Some(choice) => choice == GrainChoice::Keep,
+        None => shop.sheet.grain != Grain::None,
+    }
+}
+
+/// Returns the sizes of the printer's pins for a model of a size, mm.
+fn pins(shop: &Shop, size_mm: f64) -> PlanRequest {
+    // Pins do not depend on the axis of a goal.
+    let axis = GoalAxis {
+        point: Point::origin(),
+        direction: Vector::z(),
+    };
+    PlanRequest::for_printer(&shop.printer, size_mm, axis)
 }
 
 fn panel_request(job: &CoreJob, shop: &Shop, screw: &Fastener) -> PanelRequest {
@@ -205,8 +215,8 @@ fn bracket_screw(stock: &[Fastener], sheet_mm: f64) -> Option<Fastener> {
     best.map(|(fastener, _)| fastener.clone())
 }
 
-/// Returns the sheets at hand as they lie on the bed: those of the job, or else those of the sheet's
-/// profile.
+/// Returns the sheets at hand as they lie on the bed: those of the job, or else those of the
+/// sheet's profile.
 fn stock(job: &CoreJob, shop: &Shop) -> Result<Vec<Stock>, CoreRunError> {
     let (cutter, sheet) = (&shop.cutter, &shop.sheet);
     let named = job.cutting.stock.0.iter().map(|item| {

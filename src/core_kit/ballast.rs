@@ -1,10 +1,9 @@
 //! Ballast on the inner side of the lowest panel: which pieces, how many, and where.
 
-use super::advise::lean_deg;
 use super::asked::Asked;
 use super::hardware::wood_film;
 use super::made::Made;
-use super::mass::{Weighed, point};
+use super::mass::{Weighed, lean_deg, point};
 use crate::ballast::{BallastError, MOST_PARTS, Order, Part, catalogue, find};
 use crate::cladding::{FlatThing, places_on};
 use crate::cutter::FastenerShape;
@@ -16,8 +15,8 @@ use crate::verify::BallastPromise;
 /// Distance of pieces from each other and from the other panels, mm.
 const APART_MM: f64 = 1.0;
 
-/// Returns the object with the ballast that is ordered, as far as that finds room; as it is if none
-/// is ordered, or if it stands without.
+/// Returns the object with the ballast that is ordered, as far as that finds room. It stays as it
+/// is if none is ordered, or if it stands without.
 ///
 /// All pieces are of one kind. Each goes to the place at which the object then leans the farthest.
 /// Of all kinds, those are taken that weigh the least together. They do even if each is lighter by

@@ -6,6 +6,7 @@ use super::asked::Asked;
 use super::hardware::{fasteners, glue};
 use super::made::{Made, WrittenPart};
 use crate::geom::{Point, Vector};
+use crate::goal::{Goal, compute_figures};
 use crate::mass::{Moments, moments_of_mesh};
 use crate::mesh::{TriMesh, area_mm2};
 use crate::panels::Panel;
@@ -71,6 +72,20 @@ pub fn weigh(asked: &Asked, made: &Made) -> Weighed {
         glue,
         ballast: Vec::new(),
     }
+}
+
+/// Returns the lean at which an object topples, degrees; less than zero if it does not stand.
+pub fn toppling_deg(goal: &Goal, weighed: &Weighed) -> f64 {
+    lean_deg(goal, &weighed.whole)
+}
+
+/// Returns the lean at which a body with these moments topples, degrees; less than zero if it does
+/// not stand.
+pub fn lean_deg(goal: &Goal, moments: &Moments) -> f64 {
+    let moments = moments.in_frame(&goal.frame);
+    let figures = compute_figures(goal, &moments);
+    let lean_rad = figures.toppling_angle_rad.unwrap_or(f64::NEG_INFINITY);
+    lean_rad.to_degrees()
 }
 
 fn sum(moments: impl Iterator<Item = Moments>) -> Moments {

@@ -2,12 +2,11 @@
 
 use std::collections::BTreeMap;
 
-use super::advise::toppling_deg;
 use super::asked::{Asked, margin_mm};
 use super::files::{cut_sheets, joint_word};
 use super::hardware::pins;
 use super::made::Made;
-use super::mass::{Weighed, paper_estimate};
+use super::mass::{Weighed, paper_estimate, toppling_deg};
 use super::rows::{buy, part_rows, promise, sheet_rows};
 use super::units::{joins, units};
 use crate::base::sourced::Sure;

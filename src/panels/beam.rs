@@ -57,8 +57,8 @@ pub fn beam_path(outline: &Outline, kerf_mm: f64) -> Result<Outline, BeamError> 
     }
 }
 
-/// Returns a corner, or the middle of a side, to which the beam comes too near or not near enough:
-/// a side that is shorter than the beam is wide, beside an inner corner.
+/// Returns a corner, or the middle of a side, to which the beam comes too near or not near enough.
+/// Such a side is shorter than the beam is wide, and lies beside an inner corner.
 fn missed(outline: &Outline, path: &Outline, radius_mm: f64) -> Option<[f64; 2]> {
     let middles = outline
         .edges()

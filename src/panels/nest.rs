@@ -164,8 +164,8 @@ fn area_of(size_mm: [f64; 2]) -> f64 {
     size_mm[0] * size_mm[1]
 }
 
-/// Returns true if a nest is better than another one: it takes less area of whole sheets, of which
-/// only the used length counts on the last one, or else less of offcuts.
+/// Returns true if a nest is better than another one: it takes less area of whole sheets, or else
+/// less of offcuts. Of the last whole sheet only the used length counts.
 fn is_better(sheets: &[NestedSheet], than: &[NestedSheet]) -> bool {
     let rank = |sheets: &[NestedSheet]| {
         let whole = sheets.iter().filter(|sheet| !sheet.is_offcut);

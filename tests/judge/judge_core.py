@@ -401,6 +401,50 @@ def judge_pins(kit):
     kit.check("faults of pins", len(wrong), not wrong, f"0 of {len(pegs)} pins")
 
 
+def ballast_solid(piece):
+    place = trimesh.geometry.align_vectors([0, 0, 1], piece["axis"])
+    height, radius = piece["shape"]["thickness_mm"], piece["shape"]["diameter_mm"] / 2
+    place[:3, 3] = np.array(piece["center_mm"]) - height / 2 * np.array(piece["axis"])
+    return manifold3d.Manifold.cylinder(height, radius, circular_segments=96).transform(place[:3])
+
+
+def judge_ballast(kit, panels):
+    """Every piece lies flat on its panel, in the place that is shown, within the base, and in nothing else."""
+    pieces, wrong = kit.sheet.get("ballast", []), 0
+    bodies = [ballast_solid(piece) for piece in pieces]
+    for at, (piece, body) in enumerate(zip(pieces, bodies)):
+        panel = kit.panels[piece["panel"] - 1]
+        axes, half = np.array(panel["axes"]), piece["shape"]["thickness_mm"] / 2
+        x, y, z = axes @ (np.array(piece["center_mm"]) - panel["origin_mm"])
+        lies = abs(z + half + kit.thick) <= NEAR_MM and math.dist((x, y), piece["at_mm"]) <= NEAR_MM and np.linalg.norm(axes[2] - piece["axis"]) <= 1e-9
+        within = Polygon(panel["outline_mm"]).contains(Point(x, y).buffer(piece["shape"]["diameter_mm"] / 2))
+        base = kit.base_of(panel).solid(0.0)[0]
+        others = [*kit.solids.values(), *panels, *bodies[:at]]
+        shared = sum((body ^ other).volume() for other in others if meets(body, other))
+        density = piece["mass_g"] * 1e3 / (math.pi * half * piece["shape"]["diameter_mm"] ** 2 / 2)
+        wrong += not (lies and within and (body - base).volume() <= IN_BASE_MM3 and shared <= HEADS_MM3 and 0.5 <= density <= 20)
+    kit.check("faults of ballast", wrong, wrong == 0, f"0 of {len(pieces)} pieces")
+    return bodies
+
+
+def judge_stock(kit):
+    """Every sheet is one of those at hand and lies on the bed; panels follow the grain if they must."""
+    left = [[stock["size_mm"], math.inf if stock["count"] is None else stock["count"]] for stock in kit.sheet.get("stock", [])]
+    bed, missing = kit.sheet["cutter"].get("bed_mm"), 0
+    for sheet in kit.sheet["cut_sheets"]:
+        own = [one for one in left if one[0] == sheet["size_mm"] and one[1] > 0]
+        if left and not own:
+            missing += 1
+        if own:
+            own[0][1] -= 1
+        size = sorted(sheet["size_mm"])
+        missing += bool(bed) and any(side > room + 1e-6 for side, room in zip(size, sorted(bed)))
+    kit.check("sheets that are not at hand", missing, missing == 0, 0)
+    if kit.sheet["sheet"].get("keeps_grain"):
+        turns = [abs(math.sin(place["turn_rad"])) for sheet in kit.sheet["cut_sheets"] for place in sheet["panels"]]
+        kit.check("sine of a panel's turn against the grain", max(turns), max(turns) <= 1e-9, 1e-9)
+
+
 def judge_held(kit):
     """Every part lies on its panel and is held there, or is joined to a part that is held."""
     shell = [part for part in kit.sheet["parts"] if part["kind"] == "shell"]
@@ -423,7 +467,7 @@ def judge_held(kit):
     kit.check("parts without a path to the base", len(loose), not loose, 0)
 
 
-def judge_ways(kit, panels):
+def judge_ways(kit, panels, ballast):
     """Takes the object apart: every unit, the last joined first, in steps along its way."""
     units = kit.sheet["units"]
     named = sorted(name for unit in units for name in unit["parts"])
@@ -431,7 +475,8 @@ def judge_ways(kit, panels):
     bodies = []
     for unit in units:
         own = [kit.solids[name] for name in unit["parts"]]
-        bodies.append(own + ([panels[unit["panel"] - 1]] if unit["panel"] else []))
+        laid = [body for piece, body in zip(kit.sheet.get("ballast", []), ballast) if piece["panel"] == unit["panel"]]
+        bodies.append(own + ([panels[unit["panel"] - 1]] if unit["panel"] else []) + laid)
     worst, where = 0.0, "none"
     for name, way, moving, standing in steps(kit, bodies):
         for step in STEPS_MM:
@@ -523,7 +568,7 @@ def judge_mass(kit):
         terms += [(-math.pi / 4 * hole["diameter_mm"] ** 2, put(*hole["at_mm"])) for hole in panel["holes"]]
         for area, middle in terms:
             mass, first = mass + area * kit.thick * density, first + middle * area * kit.thick * density
-    for thing in [*sheet["fasteners"], *sheet["glue"]]:
+    for thing in [*sheet["fasteners"], *sheet["glue"], *sheet.get("ballast", [])]:
         mass, first = mass + thing["mass_g"], first + np.array(thing["center_mm"]) * thing["mass_g"]
     centre = first / mass
     kit.check("mass, relative", mass / sheet["mass_g"] - 1, abs(mass / sheet["mass_g"] - 1) <= MASS_RATIO, f"{MASS_RATIO} of {sheet['mass_g']:.1f} g")
@@ -550,11 +595,13 @@ def judge_things(kit, model):
     panels = judge_panels(kit)
     cut = [panel for index, promised in enumerate(kit.sheet["cut_sheets"]) for panel in judge_sheet(kit, index, promised)]
     kit.check("panels that are cut", len(cut), sorted(cut) == list(range(1, len(kit.panels) + 1)), len(kit.panels))
+    judge_stock(kit)
     judge_parts(kit, model)
     judge_pins(kit)
     judge_held(kit)
-    judge_ways(kit, panels)
-    judge_heads(kit, panels)
+    ballast = judge_ballast(kit, panels)
+    judge_ways(kit, panels, ballast)
+    judge_heads(kit, [*panels, *ballast])
     judge_mass(kit)
 
 

@@ -154,6 +154,11 @@ impl SheetJudge<'_> {
             );
             facts.faults.push(words);
         }
+        self.judge_edge(facts);
+    }
+
+    /// Holds that the sheet's own edge is drawn, and that all lines are within it.
+    fn judge_edge(&self, facts: &mut DrawingFacts) {
         let edge = self.closed_on(CutLayer::Sheet);
         let [width, depth] = self.sheet.size_mm;
         let is_out = |[x, y]: [f64; 2]| {
