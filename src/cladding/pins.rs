@@ -4,6 +4,8 @@
 //! them. Each cut parts a body in two, and what is on either side comes together square to it. A
 //! limb of another cell than its carrier gets pins only if nothing bars its way square to the seam.
 
+use std::cmp::Reverse;
+
 use super::divide::Scene;
 use super::error::CladdingError;
 use super::lie::Lie;
@@ -66,16 +68,16 @@ impl Scene<'_> {
     }
 }
 
-/// Returns the pairs of parts of one unit that touch in a cut.
+/// Returns the pairs of parts of one unit that touch in a cut, in the order in which they are
+/// joined. A cut that was made later is closed earlier. Then both sides of every cut are whole
+/// again before they come together square to it.
 fn seats_in_cuts(parts: &[Part], units: &[Unit]) -> Vec<Seat> {
     let unit_of = |part: usize| units.iter().position(|unit| unit.parts.contains(&part));
-    let mut seats = Vec::new();
+    let mut seats: Vec<(usize, Seat)> = Vec::new();
     for below in 0..parts.len() {
-        let bounds = parts[below].region.bounds().iter();
-        for plane in bounds
-            .filter(|bound| bound.kind == BoundKind::Cut)
-            .map(|bound| bound.plane)
-        {
+        let bounds = parts[below].region.bounds().iter().enumerate();
+        for (depth, bound) in bounds.filter(|(_, bound)| bound.kind == BoundKind::Cut) {
+            let plane = bound.plane;
             let others = (below + 1..parts.len()).filter(|&above| {
                 let other = &parts[above];
                 let is_beyond = || {
@@ -84,14 +86,19 @@ fn seats_in_cuts(parts: &[Part], units: &[Unit]) -> Vec<Seat> {
                 };
                 other.face == parts[below].face && unit_of(above) == unit_of(below) && is_beyond()
             });
-            seats.extend(others.map(|above| Seat {
-                parts: [below, above],
-                plane,
-                upward: sides_of_cut(parts, [below, above], &plane),
+            seats.extend(others.map(|above| {
+                let parts_beside = [below, above];
+                let seat = Seat {
+                    parts: parts_beside,
+                    plane,
+                    upward: sides_of_cut(parts, parts_beside, &plane),
+                };
+                (depth, seat)
             }));
         }
     }
-    seats
+    seats.sort_by_key(|(depth, _)| Reverse(*depth));
+    seats.into_iter().map(|(_, seat)| seat).collect()
 }
 
 /// Returns the sides of a cut on which pins may stand. Where a part carries the other one, they

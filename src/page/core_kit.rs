@@ -306,7 +306,7 @@ fn screw_on(page: &CorePage) -> Markup {
         p {
             "Press the inserts hot into the bores of the parts, flush. Screw brackets to the outside of their panel first: "
             "their heads lie under the parts. "
-            @if !sheet.pins.is_empty() { "Glue the parts of one panel to each other first: their pins let them together one way. " }
+            @if !sheet.pins.is_empty() { "Glue the parts of one panel to each other first, in the order below: their pins let them together one way. A part with several joints closes all of them at once. " }
             "Then screw every part to its panel from inside, on the bench. "
             "Glue parts that bear on no panel only when all is joined."
         }

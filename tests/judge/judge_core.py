@@ -392,6 +392,16 @@ def judge_pins(kit):
             way = np.dot(units[max(first, second)]["way"], peg["direction"])
             if abs(way - (1 if second > first else -1)) > 1e-9:
                 wrong.append(f"{name} stands across the way of its unit")
+    benched, group = [peg for peg in pegs if unit_of(peg["on"]) == unit_of(peg["into"])], {name: {name} for name in kit.parts}
+    for peg in benched:
+        one, other = group[peg["on"]], group[peg["into"]]
+        if one is other:
+            continue
+        across = [pin["direction"] for pin in benched if pin["on"] in one and pin["into"] in other or pin["on"] in other and pin["into"] in one]
+        if min(abs(np.dot(peg["direction"], way)) for way in across) < 1 - 1e-9:
+            wrong.append(f"{peg['into']} cannot be joined to {peg['on']} in turn")
+        one |= other
+        group.update({name: one for name in other})
     for part in kit.sheet["parts"]:
         told = part.get("pins_mm3", [0.0, 0.0])
         if any(abs(a - b) > 0.02 * b for a, b in zip(told, volumes[part["id"]])):
