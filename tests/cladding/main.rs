@@ -9,6 +9,7 @@
 #[path = "../common/mod.rs"]
 mod common;
 mod models;
+mod pins;
 mod scenes;
 mod several;
 mod ways;
