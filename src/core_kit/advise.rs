@@ -9,8 +9,10 @@ use crate::ballast::{BallastError, Order};
 use crate::base::numbers::measured;
 use crate::base::setting::{Key, Setting};
 use crate::cladding::CladdingError;
+use crate::cutting::SheetError;
 use crate::geom::Point;
 use crate::goal::{Goal, Up, support_edges};
+use crate::job::GrainChoice;
 use crate::job::core_kit::{CoreGoal, CoreJoints, CoreShell};
 use crate::mass::moments_of_mesh;
 use crate::panels::PanelError;
@@ -49,8 +51,20 @@ pub fn refused(asked: &Asked, refused: &Refused) -> Impossible {
         }
         Refused::Apart => apart(asked.connector.radius_mm),
         Refused::Shell(why) => unclad(asked, why),
-        Refused::Sheets(why) => Impossible::new(why.to_string()),
+        Refused::Sheets(why) => uncut(asked, why),
     }
+}
+
+/// Tells why the panels find no place on sheets, and what helps.
+fn uncut(asked: &Asked, why: &SheetError) -> Impossible {
+    let mut answer = Impossible::new(why.to_string());
+    if asked.keeps_grain {
+        answer.hints.push(format!(
+            "all panels follow the grain; let them lie any way by `{}`",
+            Setting::new(Key::Grain, GrainChoice::Free)
+        ));
+    }
+    answer
 }
 
 /// Tells that the polyhedra of a given base are not joined, and what helps.

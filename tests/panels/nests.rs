@@ -123,7 +123,7 @@ fn of_several_sizes_those_are_cut_that_take_the_least_area() {
     // Two large squares need a long sheet. The small ones beside them need no other one.
     let panels = [square(190.0), square(190.0), square(90.0), square(90.0)];
     let sizes = vec![
-        stock(200.0, 200.0),
+        stock(230.0, 230.0),
         stock(610.0, 210.0),
         stock(120.0, 120.0),
     ];
