@@ -226,7 +226,7 @@ impl<'a> Floor<'a> {
             let film = self.film(&laid.part, at);
             weighed.ballast_g += laid.part.mass_g;
             weighed.glue_g += film.mass_g;
-            weighed.whole = weighed.whole + self.moments(&laid.part, at, 1.0);
+            weighed.whole += self.moments(&laid.part, at, 1.0);
             weighed.glue.push(film);
             weighed.ballast.push(BallastPromise {
                 id: laid.part.id.clone(),

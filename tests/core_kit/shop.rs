@@ -61,7 +61,7 @@ fn hold_ballast(sheet: &Value, named: &str) {
     );
     let toppling_deg = number(sheet, "/toppling_deg");
     assert!(
-        toppling_deg >= LEAN_DEG && toppling_deg < LEAN_DEG + 4.0,
+        (LEAN_DEG..LEAN_DEG + 4.0).contains(&toppling_deg),
         "{toppling_deg}"
     );
     // Without the pieces it topples earlier: by its centre, over the nearer side.
