@@ -21,10 +21,7 @@ fn main() -> anyhow::Result<()> {
         id: "prusa-mk4".to_owned(),
         material: None,
     };
-    let cutting = CutChoice {
-        cutter: "makerspace-900x600".to_owned(),
-        sheet: "birch-3".to_owned(),
-    };
+    let cutting = CutChoice::new("makerspace-900x600", "birch-3");
     let mut job = CoreJob::new(model, printer, cutting);
     // An ellipsoid stands on a point.
     job.goal = CoreGoal::None;

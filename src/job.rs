@@ -14,6 +14,7 @@ mod model;
 mod reading;
 mod sliced;
 mod slicer;
+mod stock_list;
 pub mod telescope;
 mod telescope_root;
 
@@ -31,6 +32,7 @@ pub use like::Like;
 pub use model::ModelChoice;
 pub use sliced::{SlicedKit, SlicedPart, SlicedPlate, SlicedRound};
 pub use slicer::SlicerChoice;
+pub use stock_list::{GrainChoice, StockError, StockItem, StockList};
 
 use reading::{read_goal, read_positive};
 

@@ -75,12 +75,12 @@ macro_rules! built_in {
 }
 
 /// The built-in families: the file's name and its text.
-const BUILT_IN: &[(&str, &str)] = built_in!("balls" "nuts" "coins");
+const BUILT_IN: &[(&str, &str)] = built_in!("balls" "nuts" "coins" "discs");
 
 /// The plausible densities, from wood to gold, g/cm³. Outside them a size or mass is misprinted.
 const PLAUSIBLE_G_CM3: [f64; 2] = [0.5, 20.0];
 
-/// Returns all stock parts: balls, then nuts, then coins, each from small to large.
+/// Returns all stock parts: balls, then nuts, coins and discs, each from small to large.
 pub fn catalogue() -> Result<Vec<Part>, StockFault> {
     let families: Vec<Vec<Part>> = BUILT_IN
         .iter()
@@ -203,13 +203,19 @@ mod tests {
     }
 
     #[test]
-    fn the_catalogue_has_balls_nuts_and_coins_and_no_id_twice() {
+    fn the_catalogue_has_balls_nuts_coins_and_discs_and_no_id_twice() {
         let parts = catalogue().unwrap();
         let mut ids: Vec<&str> = parts.iter().map(|part| part.id.as_str()).collect();
         assert!(
-            ["ball-4", "nut-m3", "nut-m12", "coin-euro-1-cent"]
-                .iter()
-                .all(|id| ids.contains(id))
+            [
+                "ball-4",
+                "nut-m3",
+                "nut-m12",
+                "coin-euro-1-cent",
+                "disc-50-10"
+            ]
+            .iter()
+            .all(|id| ids.contains(id))
         );
         ids.sort_unstable();
         assert!(ids.windows(2).all(|pair| pair[0] != pair[1]));

@@ -145,6 +145,10 @@ choice! {
         Joints = "joints",
         /// The style of the parts on a base.
         Shell = "shell",
+        /// The sheets at hand.
+        Stock = "stock",
+        /// The choice to let panels follow the grain of their sheet.
+        Grain = "grain",
         /// The folder or file that is written; it is not part of a job.
         Out = "out",
         /// The permission to replace what is there; it is not part of a job.

@@ -50,6 +50,8 @@ pub struct Cup {
     pub unreached_mm3: f64,
     /// The volume of material that stood free in the hollow and went with it, mm³.
     pub loose_mm3: f64,
+    /// The volumes that its pins add and that its sockets take away, mm³.
+    pub pins_mm3: [f64; 2],
 }
 
 impl Cup {
@@ -60,6 +62,7 @@ impl Cup {
             void_mm3: 0.0,
             unreached_mm3: 0.0,
             loose_mm3: 0.0,
+            pins_mm3: [0.0; 2],
         }
     }
 }
@@ -110,6 +113,7 @@ impl Scene<'_> {
             void_mm3: part.volume_mm3() - body.signed_volume_mm3(),
             unreached_mm3: closed.iter().map(TriMesh::signed_volume_mm3).sum(),
             loose_mm3,
+            pins_mm3: [0.0; 2],
             body,
         })
     }

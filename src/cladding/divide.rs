@@ -1,5 +1,7 @@
 //! The model outside of a base, divided into parts by the cells of the faces.
 
+use std::cmp::Ordering;
+
 use rayon::prelude::*;
 
 use super::cells::{Cell, cells};
@@ -17,6 +19,9 @@ use crate::polyhedra::{Ground, Polyhedron};
 const SHEET_VOLUME_MM3: f64 = 1e-6;
 /// Area below which two parts only touch along an edge, mm².
 const LEAST_CONTACT_MM2: f64 = 1e-3;
+/// Area of a cut from which the other side holds a part, rather than another cell, mm². It is that
+/// of a disc of some 11 mm, which has room for a pin of filament.
+const WIDE_CUT_MM2: f64 = 100.0;
 /// Margin of the box about the model, as a share of its size: the sides of the box then stay clear
 /// of flat faces.
 const MARGIN_RATIO: f64 = 0.01;
@@ -235,29 +240,45 @@ struct Contact {
     part: usize,
     bound: usize,
     area_mm2: f64,
+    /// True if it is a cut from a part of the same cell, with room for pins.
+    is_cut: bool,
 }
 
-/// Returns the contacts of a part with others along its bounds, the largest first.
+impl Contact {
+    /// Compares two contacts: the better one is a cut, or else larger.
+    fn compare(&self, other: &Self) -> Ordering {
+        let by_kind = self.is_cut.cmp(&other.is_cut);
+        by_kind.then(self.area_mm2.total_cmp(&other.area_mm2))
+    }
+}
+
+/// Returns the contacts of a part with others along its bounds, the best first. Those in wide cuts
+/// are better than others, as pins hold there and both leave as one. Then larger ones are.
 fn contacts(parts: &[Part], part: usize) -> Vec<Contact> {
     let own = &parts[part];
     let bounds: Vec<(usize, &Bound)> = own.region.bounds().iter().enumerate().skip(1).collect();
     let others = (0..parts.len()).filter(|&other| other != part);
     let found = others.flat_map(|other| {
-        bounds.iter().map(move |(bound, of)| Contact {
-            part: other,
-            bound: *bound,
-            area_mm2: contact_mm2(&own.body, &parts[other].body, &of.plane),
+        bounds.iter().map(move |(bound, of)| {
+            let area_mm2 = contact_mm2(&own.body, &parts[other].body, &of.plane);
+            let is_within = of.kind == BoundKind::Cut && parts[other].face == own.face;
+            Contact {
+                part: other,
+                bound: *bound,
+                area_mm2,
+                is_cut: is_within && area_mm2 >= WIDE_CUT_MM2,
+            }
         })
     });
     let mut found: Vec<Contact> = found
         .filter(|contact| contact.area_mm2 > LEAST_CONTACT_MM2)
         .collect();
-    found.sort_by(|a, b| b.area_mm2.total_cmp(&a.area_mm2));
+    found.sort_by(|a, b| b.compare(a));
     found
 }
 
 /// Names the carriers of all parts that bear on no panel. Step by step, one is pinned to a part
-/// that has a path to the base: the pair that touches in the largest area.
+/// that has a path to the base: the pair with the best contact.
 pub(super) fn name_holdings(parts: &mut [Part]) {
     let loose = parts.iter_mut().filter(|part| !part.is_on_panel());
     loose.for_each(|part| part.holding = Holding::Nothing);
@@ -278,7 +299,7 @@ pub(super) fn hold_loose(parts: &mut [Part]) {
             let carrier = contacts.iter().find(|contact| is_held[contact.part])?;
             Some((*part, carrier))
         });
-        let best = best.reduce(|a, b| if b.1.area_mm2 > a.1.area_mm2 { b } else { a });
+        let best = best.reduce(|a, b| if b.1.compare(a.1).is_gt() { b } else { a });
         let Some((part, carrier)) = best else { break };
         is_held[part] = true;
         parts[part].holding = Holding::Pinned {

@@ -10,11 +10,13 @@
 //! * [`Scene::cup`] hollows a part from its panel's side.
 //! * [`Scene::screws`] finds the places of screws, and [`PartScrews`] has their bosses, bores and
 //!   holes.
+//! * [`PartPins`] join parts of one panel, and limbs to what carries them.
 //! * [`Scene::assembly`] gathers panels and parts in [`Unit`]s, and orders them.
 //! * [`Scene::clad`] does all of it.
 //! * [`Sides`] does it for a base of several polyhedra, each on its side of the planes between
 //!   them.
 //! * [`bolts`] finds the places of the bolts through their common panels.
+//! * [`places_on`] finds those of ballast on a panel.
 //!
 //! All lengths are in mm, angles in radians.
 
@@ -23,9 +25,12 @@ mod cells;
 mod cups;
 mod divide;
 mod error;
+mod floor;
 mod lie;
 mod overlap;
 mod part;
+mod part_pins;
+mod pins;
 mod region;
 mod rooms;
 mod screws;
@@ -39,9 +44,11 @@ pub use cells::{Cell, cells};
 pub use cups::{Cup, CupRequest, ShellStyle};
 pub use divide::Scene;
 pub use error::CladdingError;
+pub use floor::{FlatThing, places_on};
 pub use lie::Lie;
 pub use overlap::{barred_mm2, contact_mm2, face_mm2};
 pub use part::{Crumb, Holding, Part};
+pub use part_pins::{PartPins, PinRequest};
 pub use region::{Bound, BoundKind, Region};
 pub use rooms::Room;
 pub use screws::{PartScrews, Screw, ScrewKit, ScrewRequest};

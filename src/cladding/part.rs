@@ -12,7 +12,7 @@ pub enum Holding {
         /// The area on which it bears, mm².
         area_mm2: f64,
     },
-    /// Another part: pins stand between the two, along the part's own way.
+    /// Another part, by glue, and by pins where they find room.
     Pinned {
         /// The index of the part that carries it.
         to: usize,
@@ -23,6 +23,13 @@ pub enum Holding {
     },
     /// Nothing: it touches neither its panel nor another part in a face.
     Nothing,
+}
+
+impl Holding {
+    /// Returns true if it is this part, by its index.
+    pub(super) fn is_by(&self, part: usize) -> bool {
+        matches!(self, Self::Pinned { to, .. } if *to == part)
+    }
 }
 
 /// A small piece that goes with a part of a neighbouring cell, as it touches no panel.

@@ -78,15 +78,16 @@ impl Scene<'_> {
 
     /// Returns how a part lies in the printer's room: panel side down, if it fits so.
     pub fn lie(&self, part: &Part, room: &Room) -> Option<Lie> {
-        Lie::of_part(part, &self.normal(part.face), room)
+        Lie::of_part(part, &[], &self.normal(part.face), room)
     }
 }
 
 impl Lie {
-    /// Returns how a part lies in the printer's room. The side that bears on its panel, whose
-    /// normal is given, is down if the part fits so.
-    pub fn of_part(part: &Part, normal: &Vector, room: &Room) -> Option<Self> {
-        let points = hull_points(&part.body).ok()?;
+    /// Returns how a part lies in the printer's room, with the points of what stands out of it. The
+    /// side that bears on its panel, whose normal is given, is down if the part fits so.
+    pub fn of_part(part: &Part, more: &[Point], normal: &Vector, room: &Room) -> Option<Self> {
+        let mut points = hull_points(&part.body).ok()?;
+        points.extend(more);
         Self::find(&points, normal, room.size_mm)
     }
 }

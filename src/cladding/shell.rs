@@ -6,16 +6,19 @@ use super::cups::{Cup, CupRequest, ShellStyle};
 use super::divide::Scene;
 use super::error::CladdingError;
 use super::part::Part;
+use super::part_pins::{PartPins, PinRequest, socket_keep};
 use super::rooms::Room;
 use super::screws::{PartScrews, ScrewKit, ScrewRequest};
 use super::units::Assembly;
 use crate::base::watch::Watch;
+use crate::cut::PinSite;
 use crate::geom::Vector;
 use crate::mesh::Csg;
 use crate::panels::PanelSet;
+use crate::shell::Keep;
 
 /// The order for a shell.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy)]
 pub struct ShellRequest<'a> {
     /// The wall of the parts, mm.
     pub wall_mm: f64,
@@ -27,6 +30,8 @@ pub struct ShellRequest<'a> {
     pub room_mm: Option<[f64; 3]>,
     /// The screws and inserts; `None` for parts that are glued.
     pub kit: Option<&'a ScrewKit>,
+    /// The pins between parts; `None` for parts that are only glued to one another.
+    pub pins: Option<PinRequest<'a>>,
     /// The direction up of the object as it stands. The unit at the bottom closes it.
     pub up: Vector,
 }
@@ -40,6 +45,8 @@ pub struct CladShell {
     pub cups: Vec<Cup>,
     /// The screws.
     pub screws: Vec<PartScrews>,
+    /// The pins between parts.
+    pub pins: Vec<PartPins>,
     /// The volume of all bores, mm³.
     pub bores_mm3: f64,
     /// The panels with the holes for the screws.
@@ -60,7 +67,8 @@ impl Scene<'_> {
         watch: &Watch,
     ) -> Result<CladShell, CladdingError> {
         let bare = self.clad_bare(panels, request, watch)?;
-        let assembly = self.assembly(&bare.parts, &request.up)?;
+        let units = self.blocked(&bare.parts, &bare.pins);
+        let assembly = self.closed_by(units, &request.up, self.bottom_face(&request.up))?;
         Ok(CladShell { assembly, ..bare })
     }
 
@@ -90,9 +98,14 @@ impl Scene<'_> {
             };
             self.screws(&parts, &order)
         });
+        let pins = self.pins(&parts, &screws, request)?;
         let cups = (0..parts.len()).into_par_iter().map(|index| {
-            let own = screws.iter().find(|screws| screws.part == index);
-            self.finished(&parts[index], own, request, watch)
+            let own = Fastened {
+                screws: screws.iter().find(|screws| screws.part == index),
+                pegs: PartPins::on(&pins, index, 0),
+                sockets: PartPins::on(&pins, index, 1),
+            };
+            self.finished(&parts[index], &own, request, watch)
         });
         let cups: Vec<(Cup, f64)> = cups.collect::<Result<_, CladdingError>>()?;
         let (cups, bores): (Vec<Cup>, Vec<f64>) = cups.into_iter().unzip();
@@ -107,25 +120,28 @@ impl Scene<'_> {
             parts,
             cups,
             screws,
+            pins,
             panels,
             assembly: Assembly::default(),
         })
     }
 
-    /// Hollows a part and bores it for its screws; returns it with the volume of its bores, mm³.
+    /// Hollows a part, bores it for its screws and gives it its pins and sockets. Returns it with
+    /// the volume of its bores, mm³.
     fn finished(
         &self,
         part: &Part,
-        screws: Option<&PartScrews>,
+        fastened: &Fastened,
         request: &ShellRequest,
         watch: &Watch,
     ) -> Result<(Cup, f64), CladdingError> {
-        let own = screws.zip(request.kit);
+        let own = fastened.screws.zip(request.kit);
         let mut cup = match request.style {
             ShellStyle::Solid => Cup::solid(part),
             ShellStyle::Cups => {
                 let below_mm = 3.0 * request.wall_mm;
                 let keeps = own.map_or_else(Vec::new, |(screws, kit)| screws.keeps(kit, below_mm));
+                let keeps = [keeps, fastened.socket_keeps(request)].concat();
                 let order = CupRequest {
                     wall_mm: request.wall_mm,
                     keeps: &keeps,
@@ -140,6 +156,47 @@ impl Scene<'_> {
             cup.body = bored.to_mesh()?;
         }
         let bores_mm3 = whole_mm3 - cup.body.signed_volume_mm3();
+        watch.check()?;
+        fastened.pin(&mut cup)?;
         Ok((cup, bores_mm3))
+    }
+}
+
+/// What fastens a part.
+struct Fastened<'a> {
+    screws: Option<&'a PartScrews>,
+    /// The pins that stand on it, and those whose sockets it has.
+    pegs: Vec<&'a PinSite>,
+    sockets: Vec<&'a PinSite>,
+}
+
+impl Fastened<'_> {
+    /// Returns the material about sockets that stays solid.
+    fn socket_keeps(&self, request: &ShellRequest) -> Vec<Keep> {
+        let wall_mm = request.pins.map_or(0.0, |pins| pins.plan.wall_mm);
+        let keep = |site: &&PinSite| socket_keep(site, wall_mm);
+        self.sockets.iter().map(keep).collect()
+    }
+
+    /// Adds the pins of a part, and takes its sockets away.
+    fn pin(&self, cup: &mut Cup) -> Result<(), CladdingError> {
+        if self.pegs.is_empty() && self.sockets.is_empty() {
+            return Ok(());
+        }
+        let bare_mm3 = cup.body.signed_volume_mm3();
+        let mut body = Csg::of_mesh(&cup.body)?;
+        for peg in &self.pegs {
+            body = body.union(&Csg::of_mesh(&peg.pin_body())?)?;
+        }
+        let pinned_mm3 = body.to_mesh()?.signed_volume_mm3();
+        for socket in &self.sockets {
+            body = body.subtract(&Csg::of_mesh(&socket.socket_body())?)?;
+        }
+        cup.body = body.to_mesh()?;
+        cup.pins_mm3 = [
+            pinned_mm3 - bare_mm3,
+            pinned_mm3 - cup.body.signed_volume_mm3(),
+        ];
+        Ok(())
     }
 }

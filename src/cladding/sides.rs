@@ -8,6 +8,7 @@ use super::divide::{Scene, hold_loose};
 use super::error::CladdingError;
 use super::overlap::barred_mm2;
 use super::part::{Crumb, Holding, Part};
+use super::part_pins::PartPins;
 use super::screws::PartScrews;
 use super::shell::{CladShell, ShellRequest};
 use super::units::{Assembly, FREE_MM2, Join, Unit};
@@ -60,7 +61,7 @@ impl<'a> Sides<'a> {
         let mut units = Vec::new();
         for (scene, panels) in self.scenes.iter().zip(panels) {
             let shell = scene.clad_bare(panels, request, watch)?;
-            units.push(scene.blocked(&shell.parts));
+            units.push(scene.blocked(&shell.parts, &shell.pins));
             shells.push(shell);
         }
         let mut whole = self.joined(shells);
@@ -77,6 +78,7 @@ impl<'a> Sides<'a> {
             parts: Vec::new(),
             cups: Vec::new(),
             screws: Vec::new(),
+            pins: Vec::new(),
             bores_mm3: 0.0,
             panels: PanelSet::joined([]),
             assembly: Assembly::default(),
@@ -96,6 +98,11 @@ impl<'a> Sides<'a> {
                 part: screws.part + first,
                 panel: screws.panel + panels,
                 ..screws
+            }));
+            let pins = shell.pins.into_iter();
+            whole.pins.extend(pins.map(|pins| PartPins {
+                parts: pins.parts.map(|part| part + first),
+                ..pins
             }));
             whole.bores_mm3 += shell.bores_mm3;
             panels += shell.panels.panels.len();

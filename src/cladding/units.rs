@@ -6,6 +6,8 @@ use super::divide::Scene;
 use super::error::CladdingError;
 use super::overlap::barred_mm2;
 use super::part::{Holding, Part};
+use super::part_pins::PartPins;
+use super::region::BoundKind;
 use crate::geom::Vector;
 
 /// Area below which a way is free, mm²: what rounding leaves along seams.
@@ -22,7 +24,7 @@ pub struct Unit {
     pub has_panel: bool,
     /// The indices of its parts; each comes after the one that carries it.
     pub parts: Vec<usize>,
-    /// The direction in which it leaves, a unit vector.
+    /// The unit direction in which it leaves: the normal of its face, or that of its pins.
     pub way: Vector,
     /// The indices of the units that must leave before it.
     pub after: Vec<usize>,
@@ -55,6 +57,20 @@ pub struct Join {
     pub way: Vector,
 }
 
+impl Unit {
+    /// Returns the direction square to the seam in which a unit without a panel lies on the part
+    /// that carries it; `None` for all others.
+    pub(super) fn way_off(&self, parts: &[Part]) -> Option<Vector> {
+        let first = &parts[*self.parts.first()?];
+        let Holding::Pinned { bound, .. } = first.holding else {
+            return None;
+        };
+        let bound = first.region.bounds()[bound];
+        let is_seam = matches!(bound.kind, BoundKind::Seam { .. });
+        (is_seam && !self.has_panel).then(|| -bound.plane.normal)
+    }
+}
+
 impl Scene<'_> {
     /// Returns the face that looks down most along a direction.
     pub fn bottom_face(&self, up: &Vector) -> Option<usize> {
@@ -70,7 +86,7 @@ impl Scene<'_> {
     /// # Errors
     /// The units bar each other's ways in a circle: the error names them.
     pub fn assembly(&self, parts: &[Part], up: &Vector) -> Result<Assembly, CladdingError> {
-        self.closed_by(self.blocked(parts), up, self.bottom_face(up))
+        self.closed_by(self.blocked(parts, &[]), up, self.bottom_face(up))
     }
 
     /// Orders units so that the one of a face closes.
@@ -97,9 +113,19 @@ impl Scene<'_> {
         })
     }
 
-    /// Gathers parts in units, each with those that must leave before it.
-    pub(super) fn blocked(&self, parts: &[Part]) -> Vec<Unit> {
-        let units = self.gather(parts);
+    /// Gathers parts in units, each with those that must leave before it. A unit that pins join to
+    /// another one leaves along them.
+    pub(super) fn blocked(&self, parts: &[Part], pins: &[PartPins]) -> Vec<Unit> {
+        let mut units = self.gather(parts);
+        for unit in &mut units {
+            let Some(way) = unit.way_off(parts) else {
+                continue;
+            };
+            let limb = unit.parts[0];
+            if pins.iter().any(|pins| pins.holds_limb(parts, limb)) {
+                unit.way = way;
+            }
+        }
         let unit_of = |part: usize| units.iter().position(|unit| unit.parts.contains(&part));
         let after: Vec<Vec<usize>> = (0..units.len())
             .into_par_iter()
@@ -123,7 +149,7 @@ impl Scene<'_> {
     }
 
     /// Returns the units, those with panels first, without their order.
-    fn gather(&self, parts: &[Part]) -> Vec<Unit> {
+    pub(super) fn gather(&self, parts: &[Part]) -> Vec<Unit> {
         let new = |face: usize, has_panel: bool, parts: Vec<usize>| Unit {
             polyhedron: 0,
             face,
@@ -207,7 +233,7 @@ fn order(
 }
 
 /// Returns true if a unit on its way meets a part of another one.
-fn is_barred(parts: &[Part], unit: &Unit, other: &Unit) -> bool {
+pub(super) fn is_barred(parts: &[Part], unit: &Unit, other: &Unit) -> bool {
     unit.parts.iter().any(|&moving| {
         other
             .parts

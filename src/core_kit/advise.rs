@@ -1,14 +1,18 @@
 //! The answers where there is no such object, with what helps.
 
 use super::asked::Asked;
+use super::ballast::ballasted;
 use super::build::Refused;
 use super::made::Made;
-use super::mass::{Weighed, point, weigh};
+use super::mass::{Weighed, point, toppling_deg, weigh};
+use crate::ballast::{BallastError, Order};
 use crate::base::numbers::measured;
 use crate::base::setting::{Key, Setting};
 use crate::cladding::CladdingError;
+use crate::cutting::SheetError;
 use crate::geom::Point;
-use crate::goal::{Goal, Up, compute_figures, support_edges};
+use crate::goal::{Goal, Up, support_edges};
+use crate::job::GrainChoice;
 use crate::job::core_kit::{CoreGoal, CoreJoints, CoreShell};
 use crate::mass::moments_of_mesh;
 use crate::panels::PanelError;
@@ -47,8 +51,20 @@ pub fn refused(asked: &Asked, refused: &Refused) -> Impossible {
         }
         Refused::Apart => apart(asked.connector.radius_mm),
         Refused::Shell(why) => unclad(asked, why),
-        Refused::Sheets(why) => Impossible::new(why.to_string()),
+        Refused::Sheets(why) => uncut(asked, why),
     }
+}
+
+/// Tells why the panels find no place on sheets, and what helps.
+fn uncut(asked: &Asked, why: &SheetError) -> Impossible {
+    let mut answer = Impossible::new(why.to_string());
+    if asked.keeps_grain {
+        answer.hints.push(format!(
+            "all panels follow the grain; let them lie any way by `{}`",
+            Setting::new(Key::Grain, GrainChoice::Free)
+        ));
+    }
+    answer
 }
 
 /// Tells that the polyhedra of a given base are not joined, and what helps.
@@ -88,23 +104,24 @@ fn unclad(asked: &Asked, why: &CladdingError) -> Impossible {
     answer
 }
 
-/// Returns the lean at which an object topples, degrees; less than zero if it does not stand.
-pub fn toppling_deg(goal: &Goal, weighed: &Weighed) -> f64 {
-    let moments = weighed.whole.in_frame(&goal.frame);
-    let figures = compute_figures(goal, &moments);
-    let lean_rad = figures.toppling_angle_rad.unwrap_or(f64::NEG_INFINITY);
-    lean_rad.to_degrees()
-}
-
 /// Tells why an object does not stand as asked, and what helps; `None` if it does, or need not.
 ///
 /// Its mass and centre are known exactly, but another base or other cuts may do.
-pub fn falls(asked: &Asked, made: &Made, weighed: &Weighed) -> Option<Impossible> {
-    let goal = asked.goal.as_ref()?;
+///
+/// # Errors
+/// The catalogue of ballast is at fault.
+pub fn falls(
+    asked: &Asked,
+    made: &Made,
+    weighed: &Weighed,
+) -> Result<Option<Impossible>, BallastError> {
+    let Some(goal) = asked.goal.as_ref() else {
+        return Ok(None);
+    };
     let least_deg = asked.job.least_angle_deg;
     let found_deg = toppling_deg(goal, weighed);
     if found_deg >= least_deg {
-        return None;
+        return Ok(None);
     }
     let center = goal.frame.to_local(&weighed.center());
     let mut answer = Impossible::new(format!(
@@ -123,9 +140,12 @@ pub fn falls(asked: &Asked, made: &Made, weighed: &Weighed) -> Option<Impossible
         });
     }
     answer.remedies.extend(solid_shell(asked, made, goal));
-    match ballast(asked, made, goal, weighed) {
-        Some(hint) => answer.hints.push(hint),
-        None => answer.tried.push("ballast on the lowest panel".to_owned()),
+    match laid_in(asked, made, weighed)? {
+        Some(remedy) => answer.remedies.push(remedy),
+        None => {
+            answer.tried.push("ballast on the lowest panel".to_owned());
+            answer.hints.extend(ballast(asked, made, goal, weighed));
+        }
     }
     answer.remedies.extend(another_way_up(asked, weighed));
     answer.remedies.push(Remedy {
@@ -133,7 +153,29 @@ pub fn falls(asked: &Asked, made: &Made, weighed: &Weighed) -> Option<Impossible
         words: "promises nothing about standing: fix the object to the floor or to a plate"
             .to_owned(),
     });
-    Some(answer)
+    Ok(Some(answer))
+}
+
+/// Returns the remedy of ballast that is laid in, if the object then stands as asked.
+fn laid_in(asked: &Asked, made: &Made, weighed: &Weighed) -> Result<Option<Remedy>, BallastError> {
+    if !asked.job.ballast.is_none() {
+        return Ok(None);
+    }
+    let heavier = ballasted(asked, made, weighed.clone(), &Order::Auto)?;
+    let goal = asked.goal.as_ref();
+    Ok(goal
+        .zip(heavier.ballast.first())
+        .map(|(goal, piece)| Remedy {
+            settings: vec![Setting::new(Key::Ballast, Order::Auto)],
+            words: format!(
+                "lays {} of {}, {}, on panel {} inside: topples at {}",
+                heavier.ballast.len(),
+                piece.id,
+                measured(heavier.ballast_g, "g"),
+                piece.panel,
+                measured(toppling_deg(goal, &heavier), "°")
+            ),
+        }))
 }
 
 /// Returns the remedy of standing on another side, if the object then stands as asked. It is the
@@ -248,9 +290,11 @@ mod tests {
             brackets_g: 0.0,
             fasteners_g: 0.0,
             glue_g: 0.0,
+            ballast_g: 0.0,
             whole: point(1000.0, center),
             fasteners: Vec::new(),
             glue: Vec::new(),
+            ballast: Vec::new(),
         }
     }
 

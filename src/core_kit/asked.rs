@@ -4,12 +4,14 @@ use super::error::CoreRunError;
 use super::load::{Loaded, Shop};
 use crate::base::watch::Watch;
 use crate::cladding::{BoltKit, ScrewKit};
-use crate::cutter::{CutterNumber, Fastener, FastenerShape};
-use crate::cutting::SheetError;
-use crate::geom::Vector;
+use crate::cut::{GoalAxis, PlanRequest};
+use crate::cutter::{CutterNumber, Fastener, FastenerShape, Grain};
+use crate::cutting::{SheetError, whole_sheets};
+use crate::geom::{Point, Vector};
 use crate::goal::{Goal, GoalError, GoalKind, Request as GoalRequest, Up, find_upright, place};
+use crate::job::GrainChoice;
 use crate::job::core_kit::{CoreGoal, CoreJob, CoreJoints};
-use crate::panels::{BracketKind, JointStyle, PanelRequest};
+use crate::panels::{BracketKind, JointStyle, PanelRequest, Stock};
 use crate::polyhedra::{ConnectorRequest, Ground, Limits, Request};
 
 /// The wall of parts if the job says nothing else, mm.
@@ -51,8 +53,14 @@ pub struct Asked<'a> {
     pub bolt: Option<BoltKit>,
     /// The order for its panels.
     pub panels: PanelRequest,
+    /// The sheets at hand, as they lie on the bed.
+    pub stock: Vec<Stock>,
+    /// True if panels follow the grain of their sheet.
+    pub keeps_grain: bool,
     /// The screws and inserts of parts.
     pub screws: ScrewKit,
+    /// The pins between parts.
+    pub pins: PlanRequest,
     /// The screw of brackets.
     pub bracket_screw: Fastener,
     /// The direction up.
@@ -68,6 +76,9 @@ pub fn measure<'a>(
     watch: &Watch,
 ) -> Result<Asked<'a>, CoreRunError> {
     let job = &loaded.job;
+    if job.goal == CoreGoal::None && !job.ballast.is_none() {
+        return Err(CoreRunError::BallastForNothing);
+    }
     let size_mm = loaded.ground.solid().mesh().longest_side_mm();
     let least_mm = shop.printer.least_wall_mm(size_mm).value;
     let asked_mm = job
@@ -83,7 +94,8 @@ pub fn measure<'a>(
     let fastener_mm = screws.depth_mm() + 0.5 * screws.bore_mm() + SPARE_MM;
     let distance_mm = wall_mm + GAP_MM + fastener_mm;
     let head_mm = screws.screw.shape.diameter_mm();
-    let limits = Limits::for_sheet(sheet_mm, head_mm, room_mm(shop)?);
+    let stock = stock(job, shop)?;
+    let limits = Limits::for_sheet(sheet_mm, head_mm, room_mm(&stock, margin_mm(shop)));
     let base = Request {
         faces: job.faces,
         ..Request::new(distance_mm, limits)
@@ -108,8 +120,11 @@ pub fn measure<'a>(
             takes_tubes: false,
         },
         bolt,
-        panels: panel_request(job, sheet_mm, &bracket_screw),
+        panels: panel_request(job, shop, &bracket_screw),
+        stock,
+        keeps_grain: keeps_grain(job, shop),
         screws,
+        pins: pins(shop, size_mm),
         bracket_screw,
         up,
         goal,
@@ -142,19 +157,38 @@ impl Asked<'_> {
     }
 }
 
-fn panel_request(job: &CoreJob, sheet_mm: f64, screw: &Fastener) -> PanelRequest {
+/// Returns true if panels follow the grain: as the job says, or else the sheet's profile.
+fn keeps_grain(job: &CoreJob, shop: &Shop) -> bool {
+    match job.cutting.grain {
+        Some(choice) => choice == GrainChoice::Keep,
+        None => shop.sheet.grain != Grain::None,
+    }
+}
+
+/// Returns the sizes of the printer's pins for a model of a size, mm.
+fn pins(shop: &Shop, size_mm: f64) -> PlanRequest {
+    // Pins do not depend on the axis of a goal.
+    let axis = GoalAxis {
+        point: Point::origin(),
+        direction: Vector::z(),
+    };
+    PlanRequest::for_printer(&shop.printer, size_mm, axis)
+}
+
+fn panel_request(job: &CoreJob, shop: &Shop, screw: &Fastener) -> PanelRequest {
     let hole_mm = match screw.shape {
         FastenerShape::Screw { hole_mm, .. } => hole_mm,
         _ => screw.shape.thread_mm(),
     };
     PanelRequest {
-        sheet_mm,
+        sheet_mm: shop.sheet.thickness_mm.value,
         joints: match job.joints {
             CoreJoints::Auto => JointStyle::Auto,
             CoreJoints::Fingers => JointStyle::Fingers,
             CoreJoints::Brackets => JointStyle::Brackets,
         },
         press_mm: 0.0,
+        cut_mm: shop.cutter.offset_mm(shop.kerf.kerf_mm),
         brackets: BracketKind {
             hole_mm,
             head_mm: screw.shape.diameter_mm(),
@@ -181,15 +215,49 @@ fn bracket_screw(stock: &[Fastener], sheet_mm: f64) -> Option<Fastener> {
     best.map(|(fastener, _)| fastener.clone())
 }
 
-/// Returns the largest rectangle that a panel may fill on a sheet, mm.
-fn room_mm(shop: &Shop) -> Result<[f64; 2], CoreRunError> {
+/// Returns the sheets at hand as they lie on the bed: those of the job, or else those of the
+/// sheet's profile.
+fn stock(job: &CoreJob, shop: &Shop) -> Result<Vec<Stock>, CoreRunError> {
+    let (cutter, sheet) = (&shop.cutter, &shop.sheet);
+    let named = job.cutting.stock.0.iter().map(|item| {
+        let [length, width] = item.size_mm;
+        let on_bed = cutter.on_bed_mm(item.size_mm);
+        if on_bed != [length, width] && on_bed != [width, length] {
+            return Err(CoreRunError::StockTooLarge {
+                item: *item,
+                bed_mm: cutter.bed_mm.value,
+            });
+        }
+        Ok(Stock {
+            size_mm: on_bed,
+            count: item.count,
+        })
+    });
+    let named: Vec<Stock> = named.collect::<Result<_, CoreRunError>>()?;
+    let stock = if named.is_empty() {
+        whole_sheets(cutter, sheet)
+    } else {
+        named
+    };
+    match stock.is_empty() {
+        true => Err(SheetError::NoSize(sheet.id.clone()).into()),
+        false => Ok(stock),
+    }
+}
+
+/// Returns the width that stays free along the edges of a sheet, mm.
+pub fn margin_mm(shop: &Shop) -> f64 {
+    let spacing_mm = shop.cutter.spacing_mm(shop.kerf.kerf_mm);
     let margin = shop.cutter.numbers.get(&CutterNumber::MarginMm);
-    let margin_mm = margin.map_or(0.0, |margin| margin.value);
-    let more_mm = (shop.cutter.spacing_mm(shop.kerf.kerf_mm) - margin_mm).max(0.0);
-    let rooms = shop.cutter.rooms_mm(&shop.sheet).into_iter();
-    let rooms = rooms.map(|room| room.map(|side| (side - 2.0 * more_mm).max(0.0)));
+    margin.map_or(spacing_mm, |margin| margin.value.max(spacing_mm))
+}
+
+/// Returns the largest rectangle that a panel may fill on a sheet, mm.
+fn room_mm(stock: &[Stock], margin_mm: f64) -> [f64; 2] {
+    let rooms = stock.iter().map(|stock| stock.size_mm);
+    let rooms = rooms.map(|size| size.map(|side| (side - 2.0 * margin_mm).max(0.0)));
     let largest = rooms.reduce(|a, b| if b[0] * b[1] > a[0] * a[1] { b } else { a });
-    largest.ok_or_else(|| SheetError::NoSize(shop.sheet.id.clone()).into())
+    largest.unwrap_or([0.0; 2])
 }
 
 /// Returns the request for standing with a direction up, until leaned by so many degrees.

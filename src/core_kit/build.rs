@@ -2,10 +2,12 @@
 
 use super::asked::Asked;
 use super::error::CoreRunError;
-use super::pockets::{Pocket, cut_pockets, pockets};
+use super::pockets::{Pocket, cut_pockets, depth_mm, pockets};
 use crate::base::verdict::Verdict;
 use crate::base::watch::{Phase, Watch};
-use crate::cladding::{Bolt, CladShell, CladdingError, ShellRequest, ShellStyle, Sides, bolts};
+use crate::cladding::{
+    Bolt, CladShell, CladdingError, PinRequest, ShellRequest, ShellStyle, Sides, bolts,
+};
 use crate::cutting::{CutSheet, SheetError, SheetOrder, cut_sheets};
 use crate::job::base_choice::Polyhedra;
 use crate::job::core_kit::CoreShell;
@@ -93,8 +95,8 @@ fn furnish(
     let order = SheetOrder {
         cutter: &asked.shop.cutter,
         sheet: &asked.shop.sheet,
-        offcuts: &[],
-        keeps_grain: false,
+        stock: &asked.stock,
+        keeps_grain: asked.keeps_grain,
     };
     let sheets = match cut_sheets(&shell.panels, &order) {
         Ok(sheets) => sheets,
@@ -164,6 +166,10 @@ fn clad(
         crumb_mm3: CRUMB_MM3,
         room_mm: asked.room_mm(),
         kit: Some(&asked.screws),
+        pins: Some(PinRequest {
+            plan: &asked.pins,
+            floor_mm: depth_mm(asked),
+        }),
         up: asked.up,
     };
     let mut shell = sides.clad(panels, &request, watch)?;

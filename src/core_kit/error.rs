@@ -2,6 +2,8 @@
 
 use std::path::PathBuf;
 
+use crate::ballast::BallastError;
+use crate::base::setting::{Key, Setting};
 use crate::base::watch::Cancelled;
 use crate::cladding::CladdingError;
 use crate::cutter::{CannotCut, ProfileError as CutterError};
@@ -11,7 +13,8 @@ use crate::error::Error;
 use crate::goal::GoalError;
 use crate::io::threemf::PackageError;
 use crate::io::{ContentError, ReadError, StlError};
-use crate::job::JobError;
+use crate::job::core_kit::CoreGoal;
+use crate::job::{JobError, StockItem};
 use crate::mend::MendError;
 use crate::mesh::{ClipError, Defects};
 use crate::polyhedra::{BaseFileError, RequestError, SeparationError};
@@ -95,9 +98,31 @@ pub enum CoreRunError {
         /// The thickness of the sheet, mm.
         sheet_mm: f64,
     },
+    /// A sheet at hand that the cutter's bed does not hold.
+    #[error(
+        "a sheet of {item} mm does not lie on the cutter's bed of {} x {} mm; remedy: name in \
+         `{}` the sizes to which it is cut first",
+        .bed_mm[0], .bed_mm[1], Setting::open(Key::Stock)
+    )]
+    StockTooLarge {
+        /// The sheet.
+        item: StockItem,
+        /// Both sides of the bed, mm.
+        bed_mm: [f64; 2],
+    },
     /// The sheets cannot be cut.
     #[error(transparent)]
     Sheet(#[from] SheetError),
+    /// The ballast cannot be laid.
+    #[error(transparent)]
+    Ballast(#[from] BallastError),
+    /// Ballast for an object that need not stand.
+    #[error(
+        "ballast is laid so that an object stands; remedy: leave `{}` away, or give `{}`",
+        Setting::open(Key::Ballast),
+        Setting::new(Key::Goal, CoreGoal::Stand)
+    )]
+    BallastForNothing,
     /// The shell cannot be made.
     #[error(transparent)]
     Cladding(#[from] CladdingError),

@@ -10,7 +10,7 @@ use crate::geom::{Plane, Point, Vector};
 use crate::mesh::area_mm2;
 use crate::panels::EdgeJoint;
 use crate::printer::Quantity;
-use crate::verify::{FastenerKind, FastenerPromise, GluePromise};
+use crate::verify::{FastenerKind, FastenerPromise, GluePromise, PegPromise};
 
 /// The thickness of a film of wood glue between panels, mm, and its density once dry, g/mm³. Both
 /// are own choices for white glue that is wiped off.
@@ -195,6 +195,26 @@ fn center_mm(screw: &Fastener) -> f64 {
     0.5 * (shaft * length_mm - head * head_height_mm) / (shaft + head)
 }
 
+/// Returns all pins between parts.
+pub fn pins(made: &Made) -> Vec<PegPromise> {
+    let joints = made.built.shell.pins.iter();
+    let pegs = joints.flat_map(|joint| {
+        let [on, into] = joint.parts.map(|part| &made.names.parts[part]);
+        joint.sites.iter().map(|site| PegPromise {
+            on: on.clone(),
+            into: into.clone(),
+            center_mm: site.center_mm,
+            direction: site.direction,
+            diameter_mm: site.diameter_mm,
+            length_mm: site.length_mm,
+            socket_diameter_mm: site.socket_diameter_mm,
+            socket_depth_mm: site.socket_depth_mm,
+            chamfers_mm: [site.chamfer_mm, site.socket_chamfer_mm],
+        })
+    });
+    pegs.collect()
+}
+
 /// Returns all films of glue: along the fingers, and under the loose flanges of brackets. Parts
 /// that bear on no panel, or have no room for two screws, are glued too.
 pub fn glue(asked: &Asked, made: &Made) -> Vec<GluePromise> {
@@ -239,9 +259,11 @@ fn under_flanges(asked: &Asked, made: &Made) -> Vec<GluePromise> {
     films
 }
 
-fn wood_film(joint: String, area_mm2: f64, middle: Point) -> GluePromise {
+/// Returns a film of wood glue with its mass.
+pub fn wood_film(joint: String, area_mm2: f64, middle: Point) -> GluePromise {
     GluePromise {
         joint,
+        parts: Vec::new(),
         area_mm2,
         mass_g: area_mm2 * WOOD_FILM_MM * WOOD_GLUE_G_MM3,
         center_mm: middle.into(),
@@ -269,6 +291,7 @@ fn between_parts(asked: &Asked, made: &Made) -> Vec<GluePromise> {
             let plane = part.region.bounds()[bound].plane;
             Some(GluePromise {
                 joint: format!("parts {} and {}", names[0], names[1]),
+                parts: names.map(String::clone).to_vec(),
                 area_mm2,
                 mass_g: area_mm2 * film_mm * density_g_mm3,
                 center_mm: face(part.body.iter_corners(), &plane).1.into(),
@@ -290,8 +313,11 @@ fn on_panels(made: &Made) -> Vec<GluePromise> {
             let floor = part.region.bounds()[0].plane;
             let (area_mm2, middle) = face(cup.body.iter_corners(), &floor);
             let panel = made.names.panels[index];
-            let joint = format!("part {} and panel {panel}", made.names.parts[index]);
-            wood_film(joint, area_mm2, middle)
+            let part = &made.names.parts[index];
+            GluePromise {
+                parts: vec![part.clone()],
+                ..wood_film(format!("part {part} and panel {panel}"), area_mm2, middle)
+            }
         })
         .collect()
 }

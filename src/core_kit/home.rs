@@ -19,7 +19,8 @@ pub struct Home {
 /// Returns the panel that carries a bracket.
 ///
 /// It is the one of both that is joined first; the other one is glued on when it comes. A panel
-/// that bears on another polyhedron comes second, for heads have no room there.
+/// that bears on another polyhedron comes second, for heads have no room there. Where the bracket
+/// would then come through that panel, it is glued to it in spite of that.
 pub fn home_panel(plan: &BasePlan, shell: &CladShell, bracket: &Bracket) -> Home {
     let panels = shell.panels.edges[bracket.edge].panels;
     let place = |panel: usize| {
@@ -34,10 +35,17 @@ pub fn home_panel(plan: &BasePlan, shell: &CladShell, bracket: &Bracket) -> Home
         face.is_some_and(|face| face.is_locked)
     };
     let [first, second] = panels.map(|panel| (bears(panel), place(panel)));
-    let flange = usize::from(second < first);
+    let mut flange = usize::from(second < first);
+    let normals = panels.map(|panel| shell.panels.panels[panel].frame.axis());
+    // It leaves with its panel. Where both panels meet at more than 90°, its other flange would
+    // leave through the other panel, if that stood there before.
+    let is_later = [first, second][flange].1 > [first, second][1 - flange].1;
+    if is_later && normals[0].dot(&normals[1]) > 0.0 {
+        flange = 1 - flange;
+    }
     Home {
         flange,
         panel: panels[flange],
-        is_screwed: !(first.0 && second.0),
+        is_screwed: ![first, second][flange].0,
     }
 }

@@ -5,10 +5,12 @@ use rayon::prelude::*;
 use super::asked::Asked;
 use super::build::Built;
 use super::error::CoreRunError;
+use super::home::home_panel;
 use super::names::{Names, bracket_id};
 use super::pockets::Pocket;
 use crate::base::watch::{Phase, Watch};
-use crate::cladding::{BoundKind, CladdingError, Lie, Part, Room};
+use crate::cladding::{BoundKind, CladdingError, Lie, Part, PartPins, Room};
+use crate::cut::PinSite;
 use crate::geom::{Frame, Point, Vector};
 use crate::io::stl;
 use crate::make::write_free_of_folds;
@@ -22,7 +24,7 @@ const ANY_ROOM_MM: f64 = 1e6;
 pub struct WrittenPart {
     pub id: String,
     pub kind: CorePartKind,
-    /// The number of the panel along whose normal it leaves, from 1.
+    /// The number of the panel along whose normal it leaves, or on which a bracket stands, from 1.
     pub panel: usize,
     pub pose: Pose,
     /// True if it lies on the side that bears on its panel.
@@ -33,6 +35,8 @@ pub struct WrittenPart {
     pub read_back: TriMesh,
     pub void_mm3: f64,
     pub bores_mm3: f64,
+    /// The volumes that its pins add and that its sockets take away.
+    pub pins_mm3: [f64; 2],
     pub cuts: Vec<[f64; 4]>,
     pub bosses: Vec<BossPromise>,
 }
@@ -102,17 +106,22 @@ impl Writer<'_> {
         let no_cut = CladdingError::NoCut { face: part.face };
         let face = self.built.plan.face(part.face);
         let up = face.map_or_else(Vector::zeros, |face| face.plane.normal);
-        let lie = Lie::of_part(part, &up, &room).ok_or(no_cut)?;
-        let body = &shell.cups[index].body;
-        let written = self.write(body, &lie.frame, &self.names.parts[index])?;
+        let pegs = PartPins::on(&shell.pins, index, 0).into_iter();
+        let tips = pegs.map(PinSite::protruding_body);
+        let tips: Vec<Point> = tips.flat_map(TriMesh::into_vertices).collect();
+        let lie = Lie::of_part(part, &tips, &up, &room).ok_or(no_cut)?;
+        let cup = &shell.cups[index];
+        let [pegs_mm3, sockets_mm3] = cup.pins_mm3;
+        let written = self.write(&cup.body, &lie.frame, &self.names.parts[index])?;
         Ok(WrittenPart {
             kind: CorePartKind::Shell,
             panel: self.names.panels[index],
             lies_on_panel_side: part.is_on_panel() && lie.frame.axis().dot(&up) > 1.0 - 1e-9,
-            void_mm3: shell.cups[index].void_mm3,
-            bores_mm3: shell.parts[index].volume_mm3()
-                - shell.cups[index].void_mm3
-                - body.signed_volume_mm3(),
+            void_mm3: cup.void_mm3,
+            bores_mm3: part.volume_mm3() - cup.void_mm3 + pegs_mm3
+                - sockets_mm3
+                - cup.body.signed_volume_mm3(),
+            pins_mm3: cup.pins_mm3,
             cuts: cuts(part),
             bosses: self.bosses(index),
             ..written
@@ -130,7 +139,11 @@ impl Writer<'_> {
             origin: upright.to_model(&low),
             ..upright
         };
-        self.write(&bracket.body, &frame, &bracket_id(index))
+        let home = home_panel(&self.built.plan, &self.built.shell, bracket);
+        Ok(WrittenPart {
+            panel: home.panel + 1,
+            ..self.write(&bracket.body, &frame, &bracket_id(index))?
+        })
     }
 
     /// Writes a body that lies in a frame.
@@ -156,6 +169,7 @@ impl Writer<'_> {
             read_back: read_back.map_vertices(|p| p.coords.component_div(&scale).into()),
             void_mm3: 0.0,
             bores_mm3: 0.0,
+            pins_mm3: [0.0; 2],
             cuts: Vec::new(),
             bosses: Vec::new(),
         })

@@ -6,10 +6,11 @@ use super::asked::Asked;
 use super::hardware::{fasteners, glue};
 use super::made::{Made, WrittenPart};
 use crate::geom::{Point, Vector};
+use crate::goal::{Goal, compute_figures};
 use crate::mass::{Moments, moments_of_mesh};
 use crate::mesh::{TriMesh, area_mm2};
 use crate::panels::Panel;
-use crate::verify::{FastenerPromise, GluePromise};
+use crate::verify::{BallastPromise, FastenerPromise, GluePromise};
 
 /// The masses of an object, g, and its centre in the model frame.
 #[derive(Debug, Clone, PartialEq)]
@@ -24,10 +25,13 @@ pub struct Weighed {
     pub fasteners_g: f64,
     /// The glue.
     pub glue_g: f64,
+    /// The ballast.
+    pub ballast_g: f64,
     /// Everything: mass, g, and first moments.
     pub whole: Moments,
     pub fasteners: Vec<FastenerPromise>,
     pub glue: Vec<GluePromise>,
+    pub ballast: Vec<BallastPromise>,
 }
 
 impl Weighed {
@@ -62,10 +66,26 @@ pub fn weigh(asked: &Asked, made: &Made) -> Weighed {
         brackets_g: brackets.volume(),
         fasteners_g: held.volume(),
         glue_g: glued.volume(),
+        ballast_g: 0.0,
         whole: shell + brackets + panels + held + glued,
         fasteners,
         glue,
+        ballast: Vec::new(),
     }
+}
+
+/// Returns the lean at which an object topples, degrees; less than zero if it does not stand.
+pub fn toppling_deg(goal: &Goal, weighed: &Weighed) -> f64 {
+    lean_deg(goal, &weighed.whole)
+}
+
+/// Returns the lean at which a body with these moments topples, degrees; less than zero if it does
+/// not stand.
+pub fn lean_deg(goal: &Goal, moments: &Moments) -> f64 {
+    let moments = moments.in_frame(&goal.frame);
+    let figures = compute_figures(goal, &moments);
+    let lean_rad = figures.toppling_angle_rad.unwrap_or(f64::NEG_INFINITY);
+    lean_rad.to_degrees()
 }
 
 fn sum(moments: impl Iterator<Item = Moments>) -> Moments {

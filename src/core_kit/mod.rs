@@ -9,6 +9,7 @@
 
 mod advise;
 mod asked;
+mod ballast;
 mod build;
 mod error;
 mod files;
@@ -21,6 +22,7 @@ mod mass;
 mod names;
 mod papers;
 mod pockets;
+mod rows;
 mod scene;
 mod sheet;
 mod units;
@@ -56,7 +58,8 @@ pub fn prepare(job: &CoreJob, watch: &Watch) -> Result<Outcome<CoreSheet>, CoreR
     };
     let made = made::make(&asked, built, watch)?;
     let weighed = mass::weigh(&asked, &made);
-    if let Some(impossible) = advise::falls(&asked, &made, &weighed) {
+    let weighed = ballast::ballasted(&asked, &made, weighed, &job.ballast)?;
+    if let Some(impossible) = advise::falls(&asked, &made, &weighed)? {
         return Ok(Outcome::Impossible(Box::new(impossible)));
     }
     let draft = judge::draft(&asked, made, &weighed, watch)?;

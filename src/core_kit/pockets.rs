@@ -48,6 +48,14 @@ impl Pocket {
     }
 }
 
+/// Returns the depth of the pockets in the parts, mm; 0 without heads.
+pub fn depth_mm(asked: &Asked) -> f64 {
+    let FastenerShape::Screw { head_height_mm, .. } = asked.bracket_screw.shape else {
+        return 0.0;
+    };
+    (head_height_mm + ROOM_MM - asked.gap_mm).max(0.0)
+}
+
 /// Returns the pockets for the screws of all brackets.
 pub fn pockets(
     asked: &Asked,
@@ -56,9 +64,7 @@ pub fn pockets(
     brackets: &[Bracket],
 ) -> Vec<Pocket> {
     let FastenerShape::Screw {
-        head_diameter_mm,
-        head_height_mm,
-        ..
+        head_diameter_mm, ..
     } = asked.bracket_screw.shape
     else {
         return Vec::new();
@@ -75,7 +81,7 @@ pub fn pockets(
                 panel,
                 foot: inner + up * (asked.panels.sheet_mm + asked.gap_mm),
                 up,
-                depth_mm: (head_height_mm + ROOM_MM - asked.gap_mm).max(0.0),
+                depth_mm: depth_mm(asked),
                 diameter_mm: head_diameter_mm + 2.0 * ROOM_MM,
             }
         })

@@ -1,29 +1,26 @@
 //! The checklist of an object on a base, from what was asked and made.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
-use super::advise::toppling_deg;
-use super::asked::Asked;
+use super::asked::{Asked, margin_mm};
 use super::files::{cut_sheets, joint_word};
-use super::home::home_panel;
-use super::made::{Made, WrittenPart};
-use super::mass::{Weighed, paper_estimate};
+use super::hardware::pins;
+use super::made::Made;
+use super::mass::{Weighed, paper_estimate, toppling_deg};
+use super::rows::{buy, part_rows, promise, sheet_rows};
 use super::units::{joins, units};
-use crate::base::digest::sha256_hex;
 use crate::base::sourced::Sure;
 use crate::cladding::{HAND_MM2, Holding};
-use crate::cutter::CutterNumber;
 use crate::job::base_choice::Polyhedra;
 use crate::job::core_kit::CoreShell;
-use crate::mass::moments_of_mesh;
 use crate::mesh::{TriMesh, surface_mm2};
 use crate::polyhedra::{Breach, LimitKind};
 use crate::sheet::Verdict;
 use crate::sheet::core_kit::{
-    BaseRow, BuyRow, CORE_SHEET_SCHEMA, CoreMaterialRow, CoreModelRow, CorePartRow, CorePrinterRow,
-    CoreSheet, CutSheetRow, CutterRow, MassRow, PolyhedronRow, SheetRow,
+    BaseRow, CORE_SHEET_SCHEMA, CoreMaterialRow, CoreModelRow, CorePrinterRow, CoreSheet,
+    CutterRow, MassRow, PolyhedronRow, SheetRow,
 };
-use crate::verify::{CorePartPromise, CutPromise, PrinterLimits};
+use crate::verify::{CutPromise, PrinterLimits, StockPromise};
 
 /// Returns the checklist, but for its checks and the hashes of other files.
 pub fn checklist(asked: &Asked, made: &Made, weighed: &Weighed) -> CoreSheet {
@@ -44,12 +41,16 @@ pub fn checklist(asked: &Asked, made: &Made, weighed: &Weighed) -> CoreSheet {
         is_solid: asked.job.shell == CoreShell::Solid,
         distance_mm: asked.base.distance_mm,
         gap_mm: asked.gap_mm,
+        stock: stock_rows(asked),
         cut_sheets: cut_sheets(made),
         sheet_rows: sheet_rows(asked, made),
         parts: made.parts.iter().map(promise).collect(),
         part_rows: part_rows(asked, made),
         fasteners: weighed.fasteners.clone(),
+        pins: pins(made),
         glue: weighed.glue.clone(),
+        ballast: weighed.ballast.clone(),
+        ballast_panel_mm: ballast_panel(made, weighed),
         units: units(made),
         joins: joins(made),
         buy: buy(asked, made, weighed),
@@ -111,6 +112,7 @@ fn cutter(asked: &Asked) -> CutterRow {
         kerf_source: kerf.provenance.clone(),
         is_kerf_measured: kerf.sure == Sure::Measured,
         compensates_kerf: cutter.compensates_kerf.value,
+        bed_mm: Some(cutter.bed_mm.value),
     }
 }
 
@@ -118,7 +120,6 @@ fn sheet(asked: &Asked) -> SheetRow {
     let (cutter, sheet) = (&asked.shop.cutter, &asked.shop.sheet);
     let kerf_mm = asked.shop.kerf.kerf_mm;
     let spacing_mm = cutter.spacing_mm(kerf_mm);
-    let margin = cutter.numbers.get(&CutterNumber::MarginMm);
     SheetRow {
         id: sheet.id.clone(),
         name: sheet.name.clone(),
@@ -127,10 +128,27 @@ fn sheet(asked: &Asked) -> SheetRow {
             density_g_cm3: sheet.density_g_cm3.value,
             offset_kerf_mm: cutter.offset_mm(kerf_mm),
             spacing_mm,
-            margin_mm: margin.map_or(spacing_mm, |margin| margin.value.max(spacing_mm)),
+            margin_mm: margin_mm(asked.shop),
+            keeps_grain: asked.keeps_grain,
         },
         thickness_source: sheet.thickness_mm.provenance(),
     }
+}
+
+/// Returns the outline of the panel with the ballast; empty without any.
+fn ballast_panel(made: &Made, weighed: &Weighed) -> Vec<[f64; 2]> {
+    let panels = &made.built.shell.panels.panels;
+    let piece = weighed.ballast.first();
+    let panel = piece.and_then(|piece| panels.get(piece.panel - 1));
+    panel.map_or_else(Vec::new, |panel| panel.outline.corners().to_vec())
+}
+
+fn stock_rows(asked: &Asked) -> Vec<StockPromise> {
+    let stock = asked.stock.iter().map(|stock| StockPromise {
+        size_mm: stock.size_mm,
+        count: stock.count,
+    });
+    stock.collect()
 }
 
 fn base(asked: &Asked, made: &Made) -> BaseRow {
@@ -174,118 +192,6 @@ fn polyhedra(made: &Made) -> Vec<PolyhedronRow> {
     rows.collect()
 }
 
-fn sheet_rows(asked: &Asked, made: &Made) -> Vec<CutSheetRow> {
-    let kerfs = asked.shop.cutter.kerfs.iter();
-    let own = kerfs.filter(|kerf| kerf.material == asked.shop.sheet.material);
-    let thickness_mm = asked.shop.sheet.thickness_mm.value;
-    let off = |at_mm: f64| (at_mm - thickness_mm).abs();
-    let nearest = own.min_by(|a, b| off(a.thickness_mm).total_cmp(&off(b.thickness_mm)));
-    let speed = nearest.and_then(|kerf| kerf.speed_mm_s);
-    let sheets = made.built.sheets.iter().map(|sheet| sheet.figures());
-    sheets
-        .map(|figures| CutSheetRow {
-            sheet_ratio: figures.sheet_ratio,
-            used_ratio: figures.used_ratio,
-            cut_mm: figures.cut_mm,
-            pierces: figures.pierces,
-            engraved_mm: figures.engraved_mm,
-            cut_s: speed.map(|speed| figures.cut_mm / speed),
-        })
-        .collect()
-}
-
-fn promise(part: &WrittenPart) -> CorePartPromise {
-    CorePartPromise {
-        id: part.id.clone(),
-        kind: part.kind,
-        panel: part.panel,
-        file: part.file.clone(),
-        sha256: sha256_hex(&[&part.bytes]),
-        print_from_model: part.pose,
-        void_mm3: part.void_mm3,
-        bores_mm3: part.bores_mm3,
-        cuts: part.cuts.clone(),
-        bosses: part.bosses.clone(),
-    }
-}
-
-fn part_rows(asked: &Asked, made: &Made) -> Vec<CorePartRow> {
-    let shell = &made.built.shell;
-    let rows = made.parts.iter().enumerate().map(|(index, part)| {
-        let held_by = match shell.parts.get(index).map(|part| part.holding) {
-            Some(Holding::Panel { .. }) => {
-                let screws = shell.screws.iter().find(|screws| screws.part == index);
-                let count = screws.map_or(0, |screws| screws.screws.len());
-                match count {
-                    0 => format!("glue on panel {}", part.panel),
-                    1 => format!("a screw through panel {}, and glue", part.panel),
-                    count => format!("{count} screws through panel {}", part.panel),
-                }
-            }
-            Some(Holding::Pinned { to, .. }) => format!("glue on {}", made.names.parts[to]),
-            Some(Holding::Nothing) => "nothing".to_owned(),
-            None => bracket_words(made, index - shell.parts.len()).to_owned(),
-        };
-        let lies = match (part.lies_on_panel_side, shell.parts.get(index)) {
-            (true, _) => "panel side down",
-            (false, Some(_)) => "as in its file",
-            (false, None) => "on its side",
-        };
-        CorePartRow {
-            id: part.id.clone(),
-            lies: lies.to_owned(),
-            held_by,
-            size_mm: part.read_back.aabb().size().into(),
-            mass_g: moments_of_mesh(&part.read_back).volume() * asked.print_g_mm3(),
-        }
-    });
-    rows.collect()
-}
-
-/// Words what holds a bracket.
-fn bracket_words(made: &Made, bracket: usize) -> &'static str {
-    let built = &made.built;
-    let home = home_panel(&built.plan, &built.shell, &built.brackets[bracket]);
-    if home.is_screwed {
-        "2 screws, and glue on the other panel"
-    } else {
-        "glue on both panels"
-    }
-}
-
-fn buy(asked: &Asked, made: &Made, weighed: &Weighed) -> Vec<BuyRow> {
-    let sizes: BTreeSet<String> = made
-        .built
-        .sheets
-        .iter()
-        .map(|sheet| sheet.nested.size_mm)
-        .map(|[length, width]| format!("{length} × {width} mm"))
-        .collect();
-    let sheets = sizes.into_iter().map(|size| {
-        let own = made.built.sheets.iter();
-        let own = own.filter(|sheet| {
-            let [length, width] = sheet.nested.size_mm;
-            format!("{length} × {width} mm") == size
-        });
-        BuyRow {
-            id: asked.shop.sheet.id.clone(),
-            name: format!("{}, {size}", asked.shop.sheet.name),
-            count: own.count(),
-        }
-    });
-    let ids: BTreeSet<&String> = weighed.fasteners.iter().map(|one| &one.id).collect();
-    let fasteners = ids.into_iter().map(|id| {
-        let mut stock = asked.shop.fasteners.iter();
-        let name = stock.find(|one| one.id == *id).map(|one| one.name.clone());
-        BuyRow {
-            id: id.clone(),
-            name: name.unwrap_or_default(),
-            count: weighed.fasteners.iter().filter(|one| one.id == *id).count(),
-        }
-    });
-    sheets.chain(fasteners).collect()
-}
-
 fn masses(asked: &Asked, made: &Made, weighed: &Weighed) -> MassRow {
     let model = asked.ground.solid().mesh();
     let densities = [asked.print_g_mm3(), asked.shop.sheet.mass_per_area_g_mm2()];
@@ -299,6 +205,7 @@ fn masses(asked: &Asked, made: &Made, weighed: &Weighed) -> MassRow {
         brackets_g: weighed.brackets_g,
         fasteners_g: weighed.fasteners_g,
         glue_g: weighed.glue_g,
+        ballast_g: weighed.ballast_g,
         paper_g,
         paper_centre_mm: paper_centre.into(),
         if_solid_g: asked.ground.volume_mm3() * asked.print_g_mm3(),

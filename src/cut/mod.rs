@@ -74,6 +74,7 @@ pub use drains::{Drained, drain};
 pub use joints::bench::{PRESSED_MM, WIPING_ROOM_MM};
 pub use joints::boss::{Boss, BossRequest, JointName, MaterialPrice};
 pub use joints::bosses::bosses;
+pub use joints::free_joint::{PinPlacer, Touching};
 pub use joints::jig::{Jig, jigs};
 pub use joints::label::Label;
 pub use joints::pin_shape::PinSite;

@@ -1,6 +1,6 @@
 //! Sheets with panels: how they lie, what is drawn for the cutter, and how much is cut.
 
-use crate::cutter::{CannotCut, Cutter, CutterNumber, Dialect, Grain, StockSheet};
+use crate::cutter::{CannotCut, Cutter, CutterNumber, Dialect, StockSheet};
 use crate::io::{CutDrawing, CutLayer, DrawnLine, DrawnShape};
 use crate::panels::{
     BeamError, Hole, LineOrder, NestError, NestRequest, NestedSheet, Outline, PanelSet, SheetLines,
@@ -17,10 +17,10 @@ pub struct SheetOrder<'a> {
     pub cutter: &'a Cutter,
     /// The sheet.
     pub sheet: &'a StockSheet,
-    /// Length, width and number of offcuts, mm: they are used before whole sheets.
-    pub offcuts: &'a [Stock],
-    /// True if the grain must run the same way on all panels, though the sheet has none by its
-    /// profile.
+    /// The sheets at hand, as they lie on the bed; empty for any number of each size of the sheet's
+    /// profile. Those with a number are offcuts, which are used first.
+    pub stock: &'a [Stock],
+    /// True if panels may only be turned by half a turn, as their grain must run the same way.
     pub keeps_grain: bool,
 }
 
@@ -32,7 +32,10 @@ pub enum SheetError {
     #[error(transparent)]
     CannotCut(#[from] CannotCut),
     /// No size of the sheet is known.
-    #[error("sheet `{0}` has no size; remedy: add `sizes` to its profile, or name an offcut")]
+    #[error(
+        "sheet `{0}` has no size; remedy: add `sizes` to its profile, or name the sheets at \
+         hand"
+    )]
     NoSize(String),
     /// The panels find no place.
     #[error("{0}; remedy: use a larger sheet or cutter, or ask for more faces")]
@@ -71,7 +74,7 @@ pub struct SheetFigures {
 /// Lays the panels of a base on sheets, and finds the paths of the beam.
 ///
 /// Panels lie as far apart as the cutter asks, and as far from the edge as its margin. Offcuts are
-/// used first, then the sizes of the sheet's profile in their order.
+/// used first.
 ///
 /// # Errors
 /// The cutter does not cut the sheet, no sheet has room for a panel, or a gap is too narrow.
@@ -100,21 +103,42 @@ pub fn cut_sheets(set: &PanelSet, order: &SheetOrder) -> Result<Vec<CutSheet>, S
     cut.collect()
 }
 
+/// Returns the sizes of a sheet's profile as they lie on the bed, each once.
+pub fn whole_sheets(cutter: &Cutter, sheet: &StockSheet) -> Vec<Stock> {
+    let sizes = sheet.sizes.iter();
+    let sizes = sizes.map(|size| cutter.on_bed_mm(size.size_mm.value));
+    let mut stock: Vec<Stock> = Vec::new();
+    for size_mm in sizes {
+        if stock.iter().all(|known| known.size_mm != size_mm) {
+            stock.push(Stock {
+                size_mm,
+                count: None,
+            });
+        }
+    }
+    stock
+}
+
 /// Returns the order for the nest: sizes as they lie on the bed, with the cutter's margin.
 fn nest_request(order: &SheetOrder, kerf_mm: f64) -> Result<NestRequest, SheetError> {
     let SheetOrder { cutter, sheet, .. } = order;
     let spacing_mm = cutter.spacing_mm(kerf_mm);
     let margin = cutter.numbers.get(&CutterNumber::MarginMm);
     let margin_mm = margin.map_or(spacing_mm, |margin| margin.value.max(spacing_mm));
-    let whole = sheet.sizes.iter().map(|size| Stock {
-        size_mm: cutter.on_bed_mm(size.size_mm.value),
-        count: None,
+    let mut stock = order.stock.to_vec();
+    if stock.is_empty() {
+        stock = whole_sheets(cutter, sheet);
+    }
+    // The least offcuts come first.
+    let area_mm2 = |stock: &Stock| stock.size_mm[0] * stock.size_mm[1];
+    stock.sort_by(|a, b| {
+        let is_whole = |stock: &Stock| stock.count.is_none();
+        let by_kind = is_whole(a).cmp(&is_whole(b));
+        by_kind.then_with(|| match is_whole(a) {
+            true => std::cmp::Ordering::Equal,
+            false => area_mm2(a).total_cmp(&area_mm2(b)),
+        })
     });
-    let offcuts = order.offcuts.iter().map(|offcut| Stock {
-        size_mm: cutter.on_bed_mm(offcut.size_mm),
-        ..*offcut
-    });
-    let stock: Vec<Stock> = offcuts.chain(whole).collect();
     if stock.is_empty() {
         return Err(SheetError::NoSize(sheet.id.clone()));
     }
@@ -122,7 +146,7 @@ fn nest_request(order: &SheetOrder, kerf_mm: f64) -> Result<NestRequest, SheetEr
         stock,
         margin_mm,
         spacing_mm,
-        keeps_grain: order.keeps_grain || sheet.grain != Grain::None,
+        keeps_grain: order.keeps_grain,
     })
 }
 

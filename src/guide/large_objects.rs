@@ -52,6 +52,14 @@
 //! glued to a part that does. Where that part is of another cell, the order is found by
 //! looking.
 //!
+//! Pins need a way along themselves. Cuts of one part form a tree: each parts what the ones before
+//! it left in two. So its pieces come together in the reverse order, each time square to one
+//! plane, and pins may stand in all of these planes. That is done on the bench, before the panel
+//! is screwed on. A limb in cell i on a part of cell j touches it in the bisector. Its pins stand
+//! square to that, and n_i does not. So it gets pins only if it also leaves along n_i − n_j past
+//! all that still stands, which is found by looking. On that way it never meets the base, as
+//! n_i·(n_i − n_j) ≥ 0 ([`crate::cladding::PartPins`]).
+//!
 //! # 6. Several polyhedra
 //! A plane parts the model, and each side grows a polyhedron with one face locked beside the
 //! plane. Where two such faces overlap in a wide disc, their panels bear on each other and are
@@ -69,7 +77,14 @@
 //! bearing gap below, which is less than g. So on its own side it ends at the plane, no part is
 //! missing there, and volumes still add up to the model's.
 //!
-//! # 7. What is not proved
+//! # 7. Ballast
+//! Take an edge of the support with inward normal n and offset d, and the slope t = tan θ. A mass M
+//! with its centre at c leans by θ over that edge if M (n·c − d − t c_z) ≥ 0. The left side is
+//! linear in the mass, so that a piece adds its own term. It helps if its own place satisfies the
+//! condition, which low places well inside do. Pieces are laid one by one where the object then
+//! leans the farthest. That is a greedy choice, and no bound is claimed.
+//!
+//! # 8. What is not proved
 //! The base does not lock by its shape: glue, screws and brackets hold it. A wall is kept, but
 //! how much it carries is not worked out. How wide the beam cuts is a figure of the profile,
 //! until the shop cuts its coupon.

@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Deserializer, Serialize, de::Error as _};
 
 use super::base_choice::{BaseChoice, Polyhedra};
-use super::{JobError, ModelChoice, PrinterChoice};
+use super::{GrainChoice, JobError, ModelChoice, PrinterChoice, StockList};
+use crate::ballast::Order;
 use crate::base::digest::sha256_hex;
 use crate::base::toml_text::{self, TextFault};
 use crate::base::units::Length;
@@ -93,6 +94,9 @@ pub struct CoreJob {
     pub goal: CoreGoal,
     /// The toppling angle that it promises if it stands, degrees.
     pub least_angle_deg: f64,
+    /// The ballast on the lowest panel.
+    #[serde(default, skip_serializing_if = "Order::is_none")]
+    pub ballast: Order,
     /// The direction of the model that points up.
     pub up: Up,
     /// The model.
@@ -117,6 +121,24 @@ pub struct CutChoice {
     pub cutter: String,
     /// A built-in sheet's id, or the path of a profile.
     pub sheet: String,
+    /// The sheets at hand; those of the sheet's profile if empty.
+    #[serde(default, skip_serializing_if = "StockList::is_empty")]
+    pub stock: StockList,
+    /// The choice to let panels follow the grain; as the sheet's profile says if `None`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub grain: Option<GrainChoice>,
+}
+
+impl CutChoice {
+    /// Returns the choice of a cutter and a sheet, with the sizes and the grain of its profile.
+    pub fn new(cutter: impl Into<String>, sheet: impl Into<String>) -> Self {
+        Self {
+            cutter: cutter.into(),
+            sheet: sheet.into(),
+            stock: StockList::default(),
+            grain: None,
+        }
+    }
 }
 
 impl CoreJob {
@@ -133,6 +155,7 @@ impl CoreJob {
             wall: None,
             goal: CoreGoal::Stand,
             least_angle_deg: CORE_LEAST_ANGLE_DEG,
+            ballast: Order::None,
             up: Up::Natural,
             model,
             printer,
@@ -231,10 +254,7 @@ mod tests {
             id: "prusa-mk3s".to_owned(),
             material: None,
         };
-        let cutting = CutChoice {
-            cutter: "makerspace-900x600".to_owned(),
-            sheet: "birch-5".to_owned(),
-        };
+        let cutting = CutChoice::new("makerspace-900x600", "birch-5");
         CoreJob::new(model, printer, cutting)
     }
 
@@ -244,6 +264,11 @@ mod tests {
         job.joints = CoreJoints::Brackets;
         job.wall = Some(Length::from_mm(3.2).unwrap());
         job.up = Up::Along([0.0, 0.5, 1.0]);
+        let usual = job.to_toml().unwrap();
+        assert!(!usual.contains("stock") && !usual.contains("ballast"));
+        job.cutting.stock = "900x600,600x400*2".parse().unwrap();
+        job.cutting.grain = Some(GrainChoice::Free);
+        job.ballast = Order::Auto;
         let plain = job.to_toml().unwrap();
         assert!(
             !plain.contains("polyhedra") && !plain.contains("base"),

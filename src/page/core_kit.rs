@@ -3,6 +3,7 @@
 
 use maud::{Markup, PreEscaped, html};
 
+use super::core_kit_ballast as ballast;
 use super::core_kit_joining as joining;
 use super::document::styled_document;
 use super::fields::{blank, file_name};
@@ -121,7 +122,20 @@ fn facts(sheet: &CoreSheet) -> Markup {
             format!("{}, {}", sheet.cutter.name, sheet.sheet.name),
         ),
     ];
+    let whole: f64 = sheet
+        .cut_sheets
+        .iter()
+        .map(|of| of.size_mm[0] * of.size_mm[1])
+        .sum();
     let base = [
+        (
+            "Sheets",
+            format!(
+                "{}, {} of their area is panels",
+                format_count(sheet.cut_sheets.len(), "sheet"),
+                measured(100.0 * sheet.base.panels_mm2 / whole, "%")
+            ),
+        ),
         (
             "Base",
             format!(
@@ -156,12 +170,16 @@ fn masses(sheet: &CoreSheet) -> [(&'static str, String); 4] {
         (
             "of which",
             format!(
-                "printed parts {}, panels {}, brackets {}, screws and inserts {}, glue {}",
+                "printed parts {}, panels {}, brackets {}, screws and inserts {}, glue {}{}",
                 grams(masses.shell_g),
                 grams(masses.panels_g),
                 grams(masses.brackets_g),
                 grams(masses.fasteners_g),
-                grams(masses.glue_g)
+                grams(masses.glue_g),
+                match sheet.ballast.is_empty() {
+                    true => String::new(),
+                    false => format!(", ballast {}", grams(masses.ballast_g)),
+                }
             ),
         ),
         (
@@ -288,9 +306,13 @@ fn screw_on(page: &CorePage) -> Markup {
     html! {
         p {
             "Press the inserts hot into the bores of the parts, flush. Screw brackets to the outside of their panel first: "
-            "their heads lie under the parts. Then screw every part to its panel from inside, on the bench. "
+            "their heads lie under the parts. "
+            @if !sheet.pins.is_empty() { "Glue the parts of one panel to each other first, in the order below: their pins let them together one way. A part with several joints closes all of them at once. " }
+            "Then screw every part to its panel from inside, on the bench. "
             "Glue parts that bear on no panel only when all is joined."
         }
+        (pins(sheet))
+        (ballast::lay(sheet))
         table class="stack" {
             thead { tr { th scope="col" { "Unit" } th scope="col" { "Panel" } th scope="col" { "Things" } th scope="col" class="n" { "Screws" } } }
             tbody {
@@ -300,6 +322,34 @@ fn screw_on(page: &CorePage) -> Markup {
                         td data-head="Panel" { @if let Some(panel) = unit.panel { (panel) } }
                         td data-head="Things" { (unit.parts.join(", ")) }
                         td class="n" data-head="Screws" { (screws(sheet, unit)) }
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Returns the list of the joints with pins, those within a unit first.
+fn pins(sheet: &CoreSheet) -> Markup {
+    let unit_of = |id: &String| sheet.units.iter().position(|unit| unit.parts.contains(id));
+    let mut joints: Vec<(bool, [&String; 2], usize)> = Vec::new();
+    for peg in &sheet.pins {
+        let pair = [&peg.on, &peg.into];
+        match joints.iter_mut().find(|(_, known, _)| *known == pair) {
+            Some((_, _, count)) => *count += 1,
+            None => joints.push((unit_of(&peg.on) != unit_of(&peg.into), pair, 1)),
+        }
+    }
+    joints.sort_by_key(|(is_later, ..)| *is_later);
+    html! {
+        @if !joints.is_empty() {
+            ul class="ticks" {
+                @for (is_later, [on, into], count) in joints {
+                    li {
+                        (into) " on " (on) ", " (format_count(count, "pin"))
+                        @if is_later { ", when all is joined" }
+                        @if count == 1 { " (hold it straight: one pin lets it turn)" }
+                        "."
                     }
                 }
             }

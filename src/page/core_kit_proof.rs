@@ -11,7 +11,8 @@ use crate::base::numbers::{number, quantity};
 use crate::base::units::MM3_PER_CM3;
 use crate::sheet::core_kit::CoreSheet;
 use crate::verify::{
-    BaseCertificate, CheckKind, CoreCertificate, CorePartKind, FastenerKind, PanelsFile,
+    BaseCertificate, CheckKind, CoreCertificate, CorePartKind, CorePartPromise, FastenerKind,
+    PanelsFile,
 };
 
 /// The proofs of a base as the kit holds them.
@@ -125,6 +126,7 @@ fn mass(sheet: &CoreSheet) -> Markup {
         ("Brackets", grams(masses.brackets_g)),
         ("Screws, inserts and bolts", grams(masses.fasteners_g)),
         ("Glue", grams(masses.glue_g)),
+        ("Ballast", grams(masses.ballast_g)),
         ("The whole", grams(sheet.mass_g)),
         ("Its centre of mass", point(sheet.centre_mm)),
         (
@@ -143,10 +145,9 @@ fn mass(sheet: &CoreSheet) -> Markup {
 fn volume(sheet: &CoreSheet) -> Markup {
     let shell = sheet.parts.iter();
     let shell = shell.filter(|part| part.kind == CorePartKind::Shell);
-    let [hollows, bores] = [
-        shell.clone().map(|part| part.void_mm3).sum::<f64>(),
-        shell.map(|part| part.bores_mm3).sum::<f64>(),
-    ];
+    let total = |of: fn(&CorePartPromise) -> f64| shell.clone().map(of).sum::<f64>();
+    let (hollows, bores) = (total(|part| part.void_mm3), total(|part| part.bores_mm3));
+    let (pins, sockets) = (total(|part| part.pins_mm3[0]), total(|part| part.pins_mm3[1]));
     let printed = sheet.masses.shell_g / sheet.material.density_g_cm3 * MM3_PER_CM3;
     let whole = sheet.model.volume_mm3;
     let share = |mm3: f64| {
@@ -158,12 +159,13 @@ fn volume(sheet: &CoreSheet) -> Markup {
     };
     let rows = [
         ("The model", share(whole)),
-        ("Printed parts", share(printed)),
+        ("Printed parts without their pins", share(printed - pins)),
+        ("Their sockets for pins", share(sockets)),
         ("Their hollows", share(hollows)),
         ("Their bores", share(bores)),
         (
             "The rest: the base with the gap around it, and what marks take",
-            share(whole - printed - hollows - bores),
+            share(whole - (printed - pins) - sockets - hollows - bores),
         ),
         ("The base", share(sheet.base.volume_mm3)),
     ];

@@ -10,6 +10,7 @@ mod cleaning;
 mod closing;
 mod core_kit;
 mod core_kit_album;
+mod core_kit_ballast;
 mod core_kit_joining;
 mod core_kit_proof;
 mod cover;

@@ -50,8 +50,33 @@ pub fn beam_path(outline: &Outline, kerf_mm: f64) -> Result<Outline, BeamError> 
     match path.crossing() {
         Some(at_mm) => Err(narrow(at_mm)),
         None if is_turned => Err(narrow(corners[0])),
-        None => Ok(path),
+        None => match missed(outline, &path, radius_mm) {
+            Some(at_mm) => Err(narrow(at_mm)),
+            None => Ok(path),
+        },
     }
+}
+
+/// Returns a corner, or the middle of a side, to which the beam comes too near or not near enough.
+/// Such a side is shorter than the beam is wide, and lies beside an inner corner.
+fn missed(outline: &Outline, path: &Outline, radius_mm: f64) -> Option<[f64; 2]> {
+    let middles = outline
+        .edges()
+        .map(|[a, b]| [0, 1].map(|k| 0.5 * (a[k] + b[k])));
+    let mut points = outline.corners().iter().copied().chain(middles);
+    points.find(|at| {
+        let distances = path.edges().map(|edge| to_edge_mm(*at, edge));
+        let nearest_mm = distances.fold(f64::INFINITY, f64::min);
+        (nearest_mm - radius_mm).abs() > CHORD_MM
+    })
+}
+
+/// Returns the distance from a point to a side, mm.
+fn to_edge_mm(at: [f64; 2], [a, b]: [[f64; 2]; 2]) -> f64 {
+    let [x, y] = [b[0] - a[0], b[1] - a[1]];
+    let along = ((at[0] - a[0]) * x + (at[1] - a[1]) * y) / (x * x + y * y);
+    let along = along.clamp(0.0, 1.0);
+    (at[0] - a[0] - along * x).hypot(at[1] - a[1] - along * y)
 }
 
 /// Adds the path round a corner between two directions.
@@ -103,13 +128,9 @@ mod tests {
 
     /// Returns the distance from a point to a line, mm.
     fn distance_mm(line: &Outline, at: [f64; 2]) -> f64 {
-        let to_edge = |[a, b]: [[f64; 2]; 2]| {
-            let [x, y] = [b[0] - a[0], b[1] - a[1]];
-            let along = ((at[0] - a[0]) * x + (at[1] - a[1]) * y) / (x * x + y * y);
-            let along = along.clamp(0.0, 1.0);
-            (at[0] - a[0] - along * x).hypot(at[1] - a[1] - along * y)
-        };
-        line.edges().map(to_edge).fold(f64::INFINITY, f64::min)
+        line.edges()
+            .map(|edge| to_edge_mm(at, edge))
+            .fold(f64::INFINITY, f64::min)
     }
 
     fn middles(line: &Outline) -> Vec<[f64; 2]> {
@@ -192,6 +213,23 @@ mod tests {
         let hole = Outline::rectangle([0.0; 2], [0.1, 5.0]);
         let hole = Outline::new(hole.corners().iter().rev().copied()).unwrap();
         assert!(beam_path(&hole, KERF_MM).is_err());
+    }
+
+    #[test]
+    fn a_side_shorter_than_the_beam_beside_an_inner_corner_is_refused() {
+        let stepped = |step: f64| {
+            let corners = [
+                [0.0, 0.0],
+                [40.0, 0.0],
+                [40.0, 20.0],
+                [20.0, 20.0],
+                [20.0, 20.0 + step],
+                [0.0, 20.0 + step],
+            ];
+            beam_path(&Outline::new(corners).unwrap(), KERF_MM)
+        };
+        assert!(stepped(1.0).is_ok());
+        assert!(stepped(0.05).is_err());
     }
 
     #[test]

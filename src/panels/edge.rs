@@ -55,6 +55,8 @@ pub struct PanelRequest {
     pub joints: JointStyle,
     /// By how much fingers are wider than their gaps, mm; less than zero for a loose fit.
     pub press_mm: f64,
+    /// The width of the beam, which every gap must take, mm; 0 if the drawings are not offset.
+    pub cut_mm: f64,
     /// The brackets.
     pub brackets: BracketKind,
 }

@@ -107,6 +107,7 @@ mod tests {
             sheet_mm: 5.0,
             joints: JointStyle::Auto,
             press_mm: 0.0,
+            cut_mm: 0.2,
             brackets: BracketKind {
                 hole_mm: 3.4,
                 head_mm: 5.7,

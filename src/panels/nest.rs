@@ -29,7 +29,8 @@ pub struct Stock {
 /// The order for a nest.
 #[derive(Debug, Clone, PartialEq)]
 pub struct NestRequest {
-    /// The sheets; the first ones are used first, so offcuts come first.
+    /// The sheets. Those with a number are offcuts: they are used first, in their order. Of the
+    /// others, those are used that take the least area.
     pub stock: Vec<Stock>,
     /// The width that stays free along the edges of a sheet, mm.
     pub margin_mm: f64,
@@ -63,6 +64,8 @@ impl Placement {
 pub struct NestedSheet {
     /// Length and width, mm.
     pub size_mm: [f64; 2],
+    /// True if it is one of a number of offcuts.
+    pub is_offcut: bool,
     /// The panels.
     pub placements: Vec<Placement>,
     /// The length of the sheet up to the last panel with its margin, mm.
@@ -95,14 +98,22 @@ pub fn nest(
         .collect();
     let mut best: Option<Vec<NestedSheet>> = None;
     let mut first_error = None;
-    for order in orders(&items) {
-        match lay_out(&items, &order, request) {
-            Ok(sheets) => {
-                if best.as_ref().is_none_or(|best| rank(&sheets) < rank(best)) {
-                    best = Some(sheets);
+    let orders = orders(&items);
+    for stock in stock_orders(&request.stock) {
+        let request = NestRequest {
+            stock,
+            ..request.clone()
+        };
+        for order in &orders {
+            match lay_out(&items, order, &request) {
+                Ok(sheets) => {
+                    let sheets = on_smaller_sheets(sheets, &items, &request);
+                    if best.as_ref().is_none_or(|best| is_better(&sheets, best)) {
+                        best = Some(sheets);
+                    }
                 }
+                Err(why) => first_error = first_error.or(Some(why)),
             }
-            Err(why) => first_error = first_error.or(Some(why)),
         }
     }
     match (best, first_error) {
@@ -112,14 +123,63 @@ pub fn nest(
     }
 }
 
-/// Returns what makes a nest worse: the area of its sheets, of which only the used length counts
-/// on the last one.
-fn rank(sheets: &[NestedSheet]) -> f64 {
-    let whole = |sheet: &NestedSheet| sheet.size_mm[0] * sheet.size_mm[1];
-    let Some((last, others)) = sheets.split_last() else {
-        return 0.0;
+/// Returns the orders in which sheets are tried: offcuts first, and then each of the others first.
+fn stock_orders(stock: &[Stock]) -> Vec<Vec<Stock>> {
+    let (offcuts, whole): (Vec<Stock>, Vec<Stock>) =
+        stock.iter().partition(|stock| stock.count.is_some());
+    let rotated = (0..whole.len().max(1)).map(|first| {
+        let mut order = whole.clone();
+        order.rotate_left(first.min(whole.len()));
+        [offcuts.clone(), order].concat()
+    });
+    rotated.collect()
+}
+
+/// Returns the same sheets, each whole one in exchange for a smaller one where its panels fit that.
+fn on_smaller_sheets(
+    sheets: Vec<NestedSheet>,
+    items: &[Item],
+    request: &NestRequest,
+) -> Vec<NestedSheet> {
+    let mut whole: Vec<Stock> = request.stock.clone();
+    whole.retain(|stock| stock.count.is_none());
+    whole.sort_by(|a, b| area_of(a.size_mm).total_cmp(&area_of(b.size_mm)));
+    let smaller = sheets.into_iter().map(|sheet| {
+        if sheet.is_offcut {
+            return sheet;
+        }
+        let is_smaller = |stock: &&Stock| area_of(stock.size_mm) < area_of(sheet.size_mm);
+        let found = whole.iter().filter(is_smaller).find_map(|stock| {
+            let mut fresh = Laid::new(*stock);
+            let mut all = sheet.placements.iter();
+            let fits = all.all(|at| fresh.take(at.panel, &items[at.panel], request));
+            fits.then(|| fresh.done(request))
+        });
+        found.unwrap_or(sheet)
+    });
+    smaller.collect()
+}
+
+fn area_of(size_mm: [f64; 2]) -> f64 {
+    size_mm[0] * size_mm[1]
+}
+
+/// Returns true if a nest is better than another one: it takes less area of whole sheets, or else
+/// less of offcuts. Of the last whole sheet only the used length counts.
+fn is_better(sheets: &[NestedSheet], than: &[NestedSheet]) -> bool {
+    let rank = |sheets: &[NestedSheet]| {
+        let whole = sheets.iter().filter(|sheet| !sheet.is_offcut);
+        let unused = whole.clone().next_back().map_or(0.0, |last| {
+            (last.size_mm[0] - last.used_mm) * last.size_mm[1]
+        });
+        let offcuts = sheets.iter().filter(|sheet| sheet.is_offcut);
+        let areas: f64 = whole.map(|sheet| area_of(sheet.size_mm)).sum();
+        let offcuts = offcuts.map(|sheet| sheet.used_mm * sheet.size_mm[1]);
+        [areas - unused, offcuts.sum()]
     };
-    others.iter().map(whole).sum::<f64>() + last.used_mm * last.size_mm[1]
+    let [own, other] = [rank(sheets), rank(than)];
+    let by_rank = own[0].total_cmp(&other[0]);
+    by_rank.then(own[1].total_cmp(&other[1])).is_lt()
 }
 
 /// A panel as it is laid out: its hull in each direction, with half of the spacing around it.
@@ -196,8 +256,7 @@ fn lay_out(
         let fresh = request.stock.iter().enumerate().find_map(|(kind, stock)| {
             let mut sheet = Laid {
                 kind,
-                size_mm: stock.size_mm,
-                laid: Vec::new(),
+                ..Laid::new(*stock)
             };
             let fits = sheet.take(panel, item, request);
             fits_any |= fits;
@@ -218,13 +277,24 @@ fn lay_out(
 
 /// A sheet that is being filled.
 struct Laid {
+    /// The index of its size in the stock.
     kind: usize,
     size_mm: [f64; 2],
+    is_offcut: bool,
     /// The placements, with the hulls in their places.
     laid: Vec<(Placement, Vec<[f64; 2]>)>,
 }
 
 impl Laid {
+    fn new(stock: Stock) -> Self {
+        Self {
+            kind: 0,
+            size_mm: stock.size_mm,
+            is_offcut: stock.count.is_some(),
+            laid: Vec::new(),
+        }
+    }
+
     /// Lays a panel where it uses the least length, and then the least width. Returns whether
     /// there was room.
     fn take(&mut self, panel: usize, item: &Item, request: &NestRequest) -> bool {
@@ -296,6 +366,7 @@ impl Laid {
         let last_mm = ends.fold(0.0, f64::max) - 0.5 * request.spacing_mm;
         NestedSheet {
             size_mm: self.size_mm,
+            is_offcut: self.is_offcut,
             used_mm: last_mm + request.margin_mm,
             placements: self
                 .laid

@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 
 use super::Outline;
+use super::beam::beam_path;
 use super::edge::{EdgeJoint, JointStyle, PanelEdge, PanelError, PanelRequest};
 use super::fingers::{FingerJoint, FingerSide};
 use super::panel::{Hole, Panel, flat};
@@ -37,8 +38,8 @@ impl PanelSet {
     ///
     /// Each panel is its face, moved inward on all sides by the thickness and laid back on the
     /// face's plane. Panels are then disjoint, and neighbours meet in one line, so that all cuts
-    /// are at right angles to the sheet. Where fingers of two edges would meet, the shorter edge
-    /// gets brackets.
+    /// are at right angles to the sheet. Where fingers of two edges would meet, or leave a gap that
+    /// is narrower than the cut, the shorter edge gets brackets.
     ///
     /// # Errors
     /// The sheet is too thick for a face, or an edge has no room for the fingers that were ordered.
@@ -148,7 +149,7 @@ impl Layout<'_> {
             let crossed = panels
                 .iter()
                 .enumerate()
-                .find(|(_, panel)| !is_sound(panel));
+                .find(|(_, panel)| !is_sound(panel, self.request.cut_mm));
             let Some((panel, _)) = crossed else {
                 return self.set(panels, &fingers);
             };
@@ -373,7 +374,10 @@ impl Layout<'_> {
     }
 }
 
-/// Returns whether an outline goes counterclockwise and does not cross itself.
-fn is_sound(panel: &Panel) -> bool {
-    panel.outline.area_mm2() > 0.0 && panel.outline.crossing().is_none()
+/// Returns whether an outline goes counterclockwise, does not cross itself, and has no gap narrower
+/// than the cut, mm.
+fn is_sound(panel: &Panel, cut_mm: f64) -> bool {
+    let outline = &panel.outline;
+    let is_simple = outline.area_mm2() > 0.0 && outline.crossing().is_none();
+    is_simple && beam_path(outline, cut_mm).is_ok()
 }

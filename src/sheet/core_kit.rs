@@ -7,8 +7,8 @@ use serde::Serialize;
 use super::Verdict;
 use super::kind::kind_sheet;
 use crate::verify::{
-    Check, CorePartPromise, CutPromise, CutSheetPromise, FastenerPromise, GluePromise, JoinPromise,
-    PrinterLimits, UnitPromise,
+    BallastPromise, Check, CorePartPromise, CutPromise, CutSheetPromise, FastenerPromise,
+    GluePromise, JoinPromise, PegPromise, PrinterLimits, StockPromise, UnitPromise,
 };
 
 /// The version of the keys.
@@ -47,6 +47,8 @@ pub struct CoreSheet {
     pub distance_mm: f64,
     /// The gap between panels and parts, mm.
     pub gap_mm: f64,
+    /// The sheets at hand, as they lie on the bed.
+    pub stock: Vec<StockPromise>,
     /// The sheets with their panels.
     pub cut_sheets: Vec<CutSheetPromise>,
     /// The figures of each sheet, in the same order.
@@ -57,8 +59,18 @@ pub struct CoreSheet {
     pub part_rows: Vec<CorePartRow>,
     /// The screws and inserts.
     pub fasteners: Vec<FastenerPromise>,
+    /// The pins between parts.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub pins: Vec<PegPromise>,
     /// The films of glue.
     pub glue: Vec<GluePromise>,
+    /// The ballast on the lowest panel.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub ballast: Vec<BallastPromise>,
+    /// The outline of that panel, counterclockwise from outside, mm in its frame; empty without
+    /// ballast.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub ballast_panel_mm: Vec<[f64; 2]>,
     /// The units in the order in which they are joined.
     pub units: Vec<UnitPromise>,
     /// The ways in which several polyhedra come together, in their order; empty for one.
@@ -145,6 +157,8 @@ pub struct CutterRow {
     pub is_kerf_measured: bool,
     /// True if the shop's software offsets the paths.
     pub compensates_kerf: bool,
+    /// Both sides of the bed, mm.
+    pub bed_mm: Option<[f64; 2]>,
 }
 
 /// The sheet.
@@ -250,6 +264,8 @@ pub struct MassRow {
     pub fasteners_g: f64,
     /// The glue.
     pub glue_g: f64,
+    /// The ballast.
+    pub ballast_g: f64,
     /// The whole by the estimate of the supplement to CofiFab, solid down to the base.
     pub paper_g: f64,
     /// The centre of that estimate in the model frame, mm.

@@ -199,6 +199,12 @@ pub enum CheckKind {
     WayOut,
     /// Units whose way out is barred.
     WaysFree,
+    /// Parts without a path to the base.
+    Held,
+    /// Sheets that are none of the stock, or larger than the cutter's bed.
+    Stock,
+    /// Panels that lie across the grain of their sheet.
+    Grain,
 }
 
 impl CheckKind {
@@ -245,6 +251,9 @@ impl CheckKind {
             Self::Brackets => "brackets",
             Self::WayOut => "way out",
             Self::WaysFree => "free ways",
+            Self::Held => "held parts",
+            Self::Stock => "stock",
+            Self::Grain => "grain",
             _ => "check",
         }
     }
@@ -319,7 +328,10 @@ mod tests {
     use serde_json::json;
 
     /// The keys and names of all kinds without data.
-    const KEYS: [(CheckKind, &str, &str); 83] = [
+    const KEYS: [(CheckKind, &str, &str); 86] = [
+        (CheckKind::Held, "held", "held parts"),
+        (CheckKind::Stock, "stock", "stock"),
+        (CheckKind::Grain, "grain", "grain"),
         (CheckKind::Plugs, "plugs", "plugs"),
         (CheckKind::DrainHoles, "drain-holes", "drain holes"),
         (CheckKind::MatchMass, "match-mass", "mass of the match"),

@@ -94,10 +94,12 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("cutting", &["cutter", "io", "panels"]),
     // The shell around a base is cut by its faces, hollowed as voids are and screwed to its panels.
     // Parts are turned for the printer's room by the directions of poses; a room is three lengths.
+    // Pins between parts are those between the parts of a cut model.
     (
         "cladding",
         &[
             "base",
+            "cut",
             "cutter",
             "geom",
             "mesh",
@@ -150,8 +152,12 @@ const ARROWS: &[(&str, &[&str])] = &[
     (
         "core_kit",
         &[
+            // Its stock is that of ballast in prints, but it lies on a panel.
+            "ballast",
             "base",
             "cladding",
+            // A printer says how thick pins are, and how wide their sockets.
+            "cut",
             "cutter",
             "cutting",
             "draw",

@@ -9,6 +9,7 @@
 #[path = "../common/mod.rs"]
 mod common;
 mod models;
+mod pins;
 mod scenes;
 mod several;
 mod ways;
@@ -316,6 +317,7 @@ fn a_shell_is_taken_apart_in_its_order_without_a_collision() {
             crumb_mm3: 100.0,
             room_mm: Some([250.0, 210.0, 210.0]),
             kit: Some(&kit),
+            pins: None,
             up: Vector::z(),
         };
         let shell = scene.clad(&panels, &request, &Watch::silent()).unwrap();
@@ -368,6 +370,7 @@ fn one_thread_and_two_make_the_same_shell() {
         crumb_mm3: 100.0,
         room_mm: Some([250.0, 210.0, 210.0]),
         kit: Some(&kit),
+        pins: None,
         up: Vector::z(),
     };
     let [one, two] = [1, 2].map(|threads| {

@@ -104,6 +104,7 @@ fn hold(name: &str) {
         crumb_mm3: 2000.0,
         room_mm: Some(ROOM_MM),
         kit: Some(&kit),
+        pins: None,
         up: Vector::z(),
     };
     let start = Instant::now();

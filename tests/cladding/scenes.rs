@@ -87,6 +87,7 @@ pub fn panel_request() -> PanelRequest {
         sheet_mm: SHEET_MM,
         joints: JointStyle::Auto,
         press_mm: 0.0,
+        cut_mm: 0.2,
         brackets: BracketKind {
             hole_mm: 3.4,
             head_mm: 5.7,

@@ -72,6 +72,7 @@ fn clad(ground: &Ground, plan: &BasePlan) -> CladShell {
         crumb_mm3: 100.0,
         room_mm: None,
         kit: Some(&kit),
+        pins: None,
         up: Vector::z(),
     };
     let sets: Vec<PanelSet> = plan.polyhedra.iter().map(panels).collect();

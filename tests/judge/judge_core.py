@@ -41,6 +41,10 @@ MASS_RATIO = 1e-6
 CENTRE_MM = 1e-3
 TOPPLING_DEG = 0.01
 NEAR_MM = 1e-3
+# By how much less is looked for about pins, mm, and the volume that may be missing there, mm³.
+NEAR_PIN_MM = 0.05
+PIN_MM3 = 0.02
+TOUCH_MM = 5e-3
 BAND_RATIO = 0.002
 SAMPLES = 4000
 STRAY_SIDES = "sides that lie between no polyhedra"
@@ -337,13 +341,143 @@ def judge_parts(kit, model):
     clear = [base.solid(kit.sheet["gap_mm"] - 0.01, True, 0.01)[0] for base in kit.bases]
     inside = sum((kit.solids[part["id"]] ^ one).volume() for part in shell for one in clear)
     kit.check("parts within the gap, mm³", inside, inside <= IN_BASE_MM3, IN_BASE_MM3)
-    parts = math.fsum(moments(kit.parts[part["id"]])[0] + part["void_mm3"] + part["bores_mm3"] for part in shell)
+    pins = lambda part: part.get("pins_mm3", [0.0, 0.0])
+    parts = math.fsum(moments(kit.parts[part["id"]])[0] + part["void_mm3"] + part["bores_mm3"] + pins(part)[1] - pins(part)[0] for part in shell)
     whole = moments(kit.model)[0]
     off = (parts + sum((one ^ model).volume() for one in grown)) / whole - 1
     kit.check("sum of volumes, relative", off, abs(off) <= VOLUME_RATIO, VOLUME_RATIO)
 
 
-def judge_ways(kit, panels):
+def bar(peg, radius, low, high):
+    """A round bar about the axis of a pin, between two heights."""
+    place = trimesh.geometry.align_vectors([0, 0, 1], peg["direction"])
+    place[:3, 3] = np.array(peg["center_mm"]) + low * np.array(peg["direction"])
+    return manifold3d.Manifold.cylinder(high - low, radius, circular_segments=96).transform(place[:3])
+
+
+def cone(a, b, height):
+    return math.pi * height / 3 * (a * a + a * b + b * b)
+
+
+def judge_pins(kit):
+    """Every pin is there, has room in its socket, a wall about it, and stands along the way of its unit."""
+    pegs, units = kit.sheet.get("pins", []), kit.sheet["units"]
+    wall = kit.sheet["printer"]["minimum_wall_mm"]
+    wrong = []
+    unit_of = lambda name: next(at for at, unit in enumerate(units) if name in unit["parts"])
+    volumes = {name: [0.0, 0.0] for name in kit.parts}
+    for peg in pegs:
+        on, into = kit.solids[peg["on"]], kit.solids[peg["into"]]
+        thick, wide, long, deep = peg["diameter_mm"] / 2, peg["socket_diameter_mm"] / 2, peg["length_mm"], peg["socket_depth_mm"]
+        tip, mouth = peg["chamfers_mm"]
+        name = f"the pin of {peg['on']} into {peg['into']}"
+        if peg["on"] == peg["into"] or not (0 < tip < thick < wide and 0 < long < deep and mouth >= 0) or abs(np.linalg.norm(peg["direction"]) - 1) > 1e-9:
+            wrong.append(f"{name} is none")
+            continue
+        volumes[peg["on"]][0] += math.pi * thick**2 * (long - tip) + cone(thick, thick - tip, tip)
+        volumes[peg["into"]][1] += math.pi * wide**2 * (deep - mouth) + cone(wide, wide + mouth, mouth)
+        if (bar(peg, thick - NEAR_PIN_MM, NEAR_PIN_MM, long - tip) - on).volume() > PIN_MM3:
+            wrong.append(f"{name} is not there")
+        room = bar(peg, wide - NEAR_PIN_MM, NEAR_PIN_MM, deep - NEAR_PIN_MM)
+        if (room ^ into).volume() > PIN_MM3:
+            wrong.append(f"{name} has no room")
+        if ((room - bar(peg, thick + NEAR_PIN_MM, 0, deep)) ^ on).volume() > PIN_MM3:
+            wrong.append(f"{name} is thicker than listed")
+        about = bar(peg, wide + wall - NEAR_PIN_MM, mouth + NEAR_PIN_MM, deep) - bar(peg, wide + NEAR_PIN_MM, 0, deep + 1)
+        below = bar(peg, 0.9 * wide, deep + NEAR_PIN_MM, deep + wall - NEAR_PIN_MM)
+        if (about - into).volume() > PIN_MM3 or (below - into).volume() > PIN_MM3:
+            wrong.append(f"the socket of {name} lacks its wall")
+        first, second = unit_of(peg["on"]), unit_of(peg["into"])
+        if first != second:
+            way = np.dot(units[max(first, second)]["way"], peg["direction"])
+            if abs(way - (1 if second > first else -1)) > 1e-9:
+                wrong.append(f"{name} stands across the way of its unit")
+    benched, group = [peg for peg in pegs if unit_of(peg["on"]) == unit_of(peg["into"])], {name: {name} for name in kit.parts}
+    for peg in benched:
+        one, other = group[peg["on"]], group[peg["into"]]
+        if one is other:
+            continue
+        across = [pin["direction"] for pin in benched if pin["on"] in one and pin["into"] in other or pin["on"] in other and pin["into"] in one]
+        if min(abs(np.dot(peg["direction"], way)) for way in across) < 1 - 1e-9:
+            wrong.append(f"{peg['into']} cannot be joined to {peg['on']} in turn")
+        one |= other
+        group.update({name: one for name in other})
+    for part in kit.sheet["parts"]:
+        told = part.get("pins_mm3", [0.0, 0.0])
+        if any(abs(a - b) > 0.02 * b for a, b in zip(told, volumes[part["id"]])):
+            wrong.append(f"the volumes of the pins of {part['id']} are others")
+    for fault in wrong:
+        print(f"    {fault}")
+    kit.check("faults of pins", len(wrong), not wrong, f"0 of {len(pegs)} pins")
+
+
+def ballast_solid(piece):
+    place = trimesh.geometry.align_vectors([0, 0, 1], piece["axis"])
+    height, radius = piece["shape"]["thickness_mm"], piece["shape"]["diameter_mm"] / 2
+    place[:3, 3] = np.array(piece["center_mm"]) - height / 2 * np.array(piece["axis"])
+    return manifold3d.Manifold.cylinder(height, radius, circular_segments=96).transform(place[:3])
+
+
+def judge_ballast(kit, panels):
+    """Every piece lies flat on its panel, in the place that is shown, within the base, and in nothing else."""
+    pieces, wrong = kit.sheet.get("ballast", []), 0
+    bodies = [ballast_solid(piece) for piece in pieces]
+    for at, (piece, body) in enumerate(zip(pieces, bodies)):
+        panel = kit.panels[piece["panel"] - 1]
+        axes, half = np.array(panel["axes"]), piece["shape"]["thickness_mm"] / 2
+        x, y, z = axes @ (np.array(piece["center_mm"]) - panel["origin_mm"])
+        lies = abs(z + half + kit.thick) <= NEAR_MM and math.dist((x, y), piece["at_mm"]) <= NEAR_MM and np.linalg.norm(axes[2] - piece["axis"]) <= 1e-9
+        within = Polygon(panel["outline_mm"]).contains(Point(x, y).buffer(piece["shape"]["diameter_mm"] / 2))
+        base = kit.base_of(panel).solid(0.0)[0]
+        others = [*kit.solids.values(), *panels, *bodies[:at]]
+        shared = sum((body ^ other).volume() for other in others if meets(body, other))
+        density = piece["mass_g"] * 1e3 / (math.pi * half * piece["shape"]["diameter_mm"] ** 2 / 2)
+        wrong += not (lies and within and (body - base).volume() <= IN_BASE_MM3 and shared <= HEADS_MM3 and 0.5 <= density <= 20)
+    kit.check("faults of ballast", wrong, wrong == 0, f"0 of {len(pieces)} pieces")
+    return bodies
+
+
+def judge_stock(kit):
+    """Every sheet is one of those at hand and lies on the bed; panels follow the grain if they must."""
+    left = [[stock["size_mm"], math.inf if stock["count"] is None else stock["count"]] for stock in kit.sheet.get("stock", [])]
+    bed, missing = kit.sheet["cutter"].get("bed_mm"), 0
+    for sheet in kit.sheet["cut_sheets"]:
+        own = [one for one in left if one[0] == sheet["size_mm"] and one[1] > 0]
+        if left and not own:
+            missing += 1
+        if own:
+            own[0][1] -= 1
+        size = sorted(sheet["size_mm"])
+        missing += bool(bed) and any(side > room + 1e-6 for side, room in zip(size, sorted(bed)))
+    kit.check("sheets that are not at hand", missing, missing == 0, 0)
+    if kit.sheet["sheet"].get("keeps_grain"):
+        turns = [abs(math.sin(place["turn_rad"])) for sheet in kit.sheet["cut_sheets"] for place in sheet["panels"]]
+        kit.check("sine of a panel's turn against the grain", max(turns), max(turns) <= 1e-9, 1e-9)
+
+
+def judge_held(kit):
+    """Every part lies on its panel and is held there, or is joined to a part that is held."""
+    shell = [part for part in kit.sheet["parts"] if part["kind"] == "shell"]
+    screwed = {one["part"] for one in kit.sheet["fasteners"] if one["kind"] == "screw"}
+    films = [film.get("parts", []) for film in kit.sheet["glue"]]
+    screwed |= {film[0] for film in films if len(film) == 1}
+    graph = networkx.Graph()
+    graph.add_node("base")
+    for part in shell:
+        graph.add_node(part["id"])
+        panel = kit.panels[part["panel"] - 1]
+        heights = (kit.parts[part["id"]].vertices - panel["origin_mm"]) @ np.array(panel["axes"][2])
+        if part["id"] in screwed and (np.abs(heights - kit.sheet["gap_mm"]) < TOUCH_MM).sum() >= 3:
+            graph.add_edge("base", part["id"])
+    pairs = [(peg["on"], peg["into"]) for peg in kit.sheet.get("pins", [])] + [tuple(film) for film in films if len(film) == 2]
+    for a, b in set(pairs):
+        if kit.solids[a].min_gap(kit.solids[b], 1.0) < TOUCH_MM:
+            graph.add_edge(a, b)
+    loose = set(graph) - networkx.node_connected_component(graph, "base")
+    kit.check("parts without a path to the base", len(loose), not loose, 0)
+
+
+def judge_ways(kit, panels, ballast):
     """Takes the object apart: every unit, the last joined first, in steps along its way."""
     units = kit.sheet["units"]
     named = sorted(name for unit in units for name in unit["parts"])
@@ -351,7 +485,8 @@ def judge_ways(kit, panels):
     bodies = []
     for unit in units:
         own = [kit.solids[name] for name in unit["parts"]]
-        bodies.append(own + ([panels[unit["panel"] - 1]] if unit["panel"] else []))
+        laid = [body for piece, body in zip(kit.sheet.get("ballast", []), ballast) if piece["panel"] == unit["panel"]]
+        bodies.append(own + ([panels[unit["panel"] - 1]] if unit["panel"] else []) + laid)
     worst, where = 0.0, "none"
     for name, way, moving, standing in steps(kit, bodies):
         for step in STEPS_MM:
@@ -443,7 +578,7 @@ def judge_mass(kit):
         terms += [(-math.pi / 4 * hole["diameter_mm"] ** 2, put(*hole["at_mm"])) for hole in panel["holes"]]
         for area, middle in terms:
             mass, first = mass + area * kit.thick * density, first + middle * area * kit.thick * density
-    for thing in [*sheet["fasteners"], *sheet["glue"]]:
+    for thing in [*sheet["fasteners"], *sheet["glue"], *sheet.get("ballast", [])]:
         mass, first = mass + thing["mass_g"], first + np.array(thing["center_mm"]) * thing["mass_g"]
     centre = first / mass
     kit.check("mass, relative", mass / sheet["mass_g"] - 1, abs(mass / sheet["mass_g"] - 1) <= MASS_RATIO, f"{MASS_RATIO} of {sheet['mass_g']:.1f} g")
@@ -470,9 +605,13 @@ def judge_things(kit, model):
     panels = judge_panels(kit)
     cut = [panel for index, promised in enumerate(kit.sheet["cut_sheets"]) for panel in judge_sheet(kit, index, promised)]
     kit.check("panels that are cut", len(cut), sorted(cut) == list(range(1, len(kit.panels) + 1)), len(kit.panels))
+    judge_stock(kit)
     judge_parts(kit, model)
-    judge_ways(kit, panels)
-    judge_heads(kit, panels)
+    judge_pins(kit)
+    judge_held(kit)
+    ballast = judge_ballast(kit, panels)
+    judge_ways(kit, panels, ballast)
+    judge_heads(kit, [*panels, *ballast])
     judge_mass(kit)
 
 

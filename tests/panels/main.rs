@@ -34,6 +34,7 @@ fn request(joints: JointStyle) -> PanelRequest {
         sheet_mm: SHEET_MM,
         joints,
         press_mm: 0.0,
+        cut_mm: 0.2,
         brackets: BracketKind {
             hole_mm: 3.4,
             head_mm: 5.7,

@@ -118,6 +118,28 @@ fn squares_are_nested_without_a_gap_and_offcuts_come_first() {
 }
 
 #[test]
+fn of_several_sizes_those_are_cut_that_take_the_least_area() {
+    let square = |side: f64| vec![[0.0, 0.0], [side, 0.0], [side, side], [0.0, side]];
+    // Two large squares need a long sheet. The small ones beside them need no other one.
+    let panels = [square(190.0), square(190.0), square(90.0), square(90.0)];
+    let sizes = vec![
+        stock(230.0, 230.0),
+        stock(610.0, 210.0),
+        stock(120.0, 120.0),
+    ];
+    let request = nest_request(sizes.clone());
+    let sheets = nest(&panels, &request).unwrap();
+    hold_nest(&panels, &sheets, &request);
+    let found: Vec<[f64; 2]> = sheets.iter().map(|sheet| sheet.size_mm).collect();
+    assert_eq!(found, [[610.0, 210.0]]);
+    // A single small square gets the smallest sheet, wherever that is named.
+    let request = nest_request(sizes);
+    let sheets = nest(&panels[3..], &request).unwrap();
+    assert_eq!(sheets[0].size_mm, [120.0, 120.0]);
+    assert!(sheets.iter().all(|sheet| !sheet.is_offcut));
+}
+
+#[test]
 fn grain_keeps_panels_from_being_turned_and_too_large_panels_are_named() {
     let bar = vec![[0.0, 0.0], [30.0, 0.0], [30.0, 300.0], [0.0, 300.0]];
     let request = nest_request(vec![stock(400.0, 100.0)]);

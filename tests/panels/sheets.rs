@@ -30,7 +30,7 @@ fn find_python() -> Option<OsString> {
 struct Shop {
     cutter: Cutter,
     sheet: StockSheet,
-    offcuts: Vec<Stock>,
+    stock: Vec<Stock>,
 }
 
 impl Shop {
@@ -38,7 +38,7 @@ impl Shop {
         Self {
             cutter: Cutter::find(cutter).unwrap(),
             sheet: StockSheet::find(sheet).unwrap(),
-            offcuts: Vec::new(),
+            stock: Vec::new(),
         }
     }
 
@@ -46,7 +46,7 @@ impl Shop {
         SheetOrder {
             cutter: &self.cutter,
             sheet: &self.sheet,
-            offcuts: &self.offcuts,
+            stock: &self.stock,
             keeps_grain: false,
         }
     }
@@ -187,10 +187,9 @@ fn the_judge_finds_a_panel_that_is_cut_on_its_line_and_one_that_lies_too_near() 
 fn offcuts_are_used_first_and_a_sheet_without_a_size_is_refused() {
     let mut shop = Shop::of("makerspace-900x600", "birch-5");
     let set = panels_for(&shop, &cube(), JointStyle::Auto);
-    shop.offcuts = vec![Stock {
-        size_mm: [230.0, 450.0],
-        count: Some(1),
-    }];
+    let size = |size_mm: [f64; 2], count: Option<usize>| Stock { size_mm, count };
+    // Offcuts are used first, wherever they are named.
+    shop.stock = vec![size([600.0, 400.0], None), size([230.0, 450.0], Some(1))];
     let sheets = cut_sheets(&set, &shop.order()).unwrap();
     assert_eq!(sheets[0].nested.size_mm, [230.0, 450.0]);
     assert_eq!(sheets[0].nested.placements.len(), 2);
@@ -199,7 +198,11 @@ fn offcuts_are_used_first_and_a_sheet_without_a_size_is_refused() {
         .map(|sheet| sheet.nested.placements.len())
         .sum();
     assert_eq!(placed, 6);
-    shop.offcuts.clear();
+    // The offcut alone has no room for six panels.
+    shop.stock.remove(0);
+    let error = cut_sheets(&set, &shop.order()).unwrap_err().to_string();
+    assert!(error.contains("no room for panel"), "{error}");
+    shop.stock.clear();
     shop.sheet.sizes.clear();
     let error = cut_sheets(&set, &shop.order()).unwrap_err().to_string();
     assert!(

@@ -366,10 +366,7 @@ pub fn core_job() -> Vec<u8> {
         id: "prusa-mk4".to_owned(),
         material: None,
     };
-    let machines = CutChoice {
-        cutter: "makerspace-900x600".to_owned(),
-        sheet: "birch-5".to_owned(),
-    };
+    let machines = CutChoice::new("makerspace-900x600", "birch-5");
     let job = CoreJob::new(model, printer, machines);
     job.to_toml().unwrap().into_bytes()
 }

@@ -8,13 +8,14 @@ use super::beside::copy_beside;
 use super::error::ArgsError;
 use super::scaling::ScalingArgs;
 use super::values::{angle, words};
+use crate::ballast::Order as BallastOrder;
 use crate::base::units::Length;
 use crate::cli::shop::chosen_printer;
 use crate::cli::wing::Order;
 use crate::goal::Up;
-use crate::job::ModelChoice;
 use crate::job::base_choice::{BaseChoice, Polyhedra};
 use crate::job::core_kit::{CoreGoal, CoreJob, CoreJoints, CoreShell, CutChoice};
+use crate::job::{GrainChoice, ModelChoice, StockList};
 
 /// The arguments of `core`.
 #[derive(Debug, Clone, Args)]
@@ -34,6 +35,13 @@ pub struct CoreArgs {
     /// A known sheet's id, or a profile file
     #[arg(long, value_name = "ID|FILE")]
     pub sheet: Option<String>,
+    /// The sheets at hand, in mm; *2 says that there are two, which are used first [default: the
+    /// sizes of the sheet's profile]
+    #[arg(long, value_name = "900x600,…", allow_hyphen_values = true)]
+    pub stock: Option<StockList>,
+    /// Panels that follow the grain, or lie any way [default: as the sheet's profile says]
+    #[arg(long, value_parser = words::<GrainChoice>(GrainChoice::WORDS))]
+    pub grain: Option<GrainChoice>,
     /// The size of the model.
     #[command(flatten, next_help_heading = "Size")]
     pub scaling: ScalingArgs,
@@ -92,6 +100,12 @@ pub struct CoreStanceArgs {
     /// The lean at which it still stands [default: 5°]
     #[arg(long, value_name = "DEG", value_parser = angle, allow_hyphen_values = true)]
     pub least_angle: Option<f64>,
+    /// Lay steel discs on the lowest panel inside: auto, none, or a part such as disc-50-10x3
+    /// [default: none]
+    ///
+    /// Auto lays the least mass of one kind with which the object leans as far as promised.
+    #[arg(long, value_name = "auto|ID[xN]|none")]
+    pub ballast: Option<BallastOrder>,
     /// The direction of the model that points up: x, y, z, -x, -y, -z, X,Y,Z or natural
     /// [default: natural]
     #[arg(long, value_name = "UP", allow_hyphen_values = true)]
@@ -99,11 +113,13 @@ pub struct CoreStanceArgs {
 }
 
 /// The arguments that a replayed job decides.
-const DECIDED_BY_JOB: [&str; 16] = [
+const DECIDED_BY_JOB: [&str; 19] = [
     "printer",
     "material",
     "cutter",
     "sheet",
+    "stock",
+    "grain",
     "size",
     "scale",
     "unit",
@@ -115,6 +131,7 @@ const DECIDED_BY_JOB: [&str; 16] = [
     "shell",
     "goal",
     "least_angle",
+    "ballast",
     "up",
 ];
 
@@ -156,7 +173,12 @@ impl CoreArgs {
             sha256: None,
             scaling: self.scaling.scaling(),
         };
-        let default = CoreJob::new(model, printer, CutChoice { cutter, sheet });
+        let cutting = CutChoice {
+            stock: self.stock.unwrap_or_default(),
+            grain: self.grain,
+            ..CutChoice::new(cutter, sheet)
+        };
+        let default = CoreJob::new(model, printer, cutting);
         let (base, stance) = (self.base, self.stance);
         Ok(CoreJob {
             faces: base.faces.unwrap_or(default.faces),
@@ -167,6 +189,7 @@ impl CoreArgs {
             shell: base.shell.unwrap_or(default.shell),
             goal: stance.goal.unwrap_or(default.goal),
             least_angle_deg: stance.least_angle.unwrap_or(default.least_angle_deg),
+            ballast: stance.ballast.unwrap_or_default(),
             up: stance.up.unwrap_or(default.up),
             ..default
         })

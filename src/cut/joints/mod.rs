@@ -11,6 +11,7 @@ pub(crate) mod bosses;
 pub(crate) mod contact;
 pub(crate) mod cradle;
 pub(crate) mod face;
+pub(crate) mod free_joint;
 pub(crate) mod hold;
 pub(crate) mod jig;
 pub(crate) mod label;

@@ -138,7 +138,11 @@ pub(crate) fn seat_ordered(
 }
 
 /// Places the pins of a joint in one direction.
-fn place_along(scene: &PinScene, joint: &Joint, facing: Facing) -> Result<Placement, Cancelled> {
+pub(crate) fn place_along(
+    scene: &PinScene,
+    joint: &Joint,
+    facing: Facing,
+) -> Result<Placement, Cancelled> {
     let placed = facing.others;
     let face = Face::new(scene, joint, facing);
     let mut fallback = Placement {

@@ -14,7 +14,7 @@ use crate::{
         },
         ids::PartId,
     },
-    geom::{Plane, Vector},
+    geom::{Plane, Point, Vector},
     mesh::{Csg, TriMesh, bodies, shells, union_find::UnionFind},
 };
 
@@ -171,12 +171,17 @@ pub(crate) fn piece(mesh: TriMesh, tree: &CutTree) -> Piece {
     }
 }
 
+/// Returns true if a corner lies in a plane, but for rounding.
+pub(crate) fn is_on_plane(plane: &Plane, corner: &Point) -> bool {
+    plane.distance(corner).abs() <= ON_PLANE_MM
+}
+
 /// Returns the faces that the plane has left on a piece, in the order of their first triangles.
-fn caps(mesh: &TriMesh, plane: &Plane, cut: usize) -> Vec<Cap> {
+pub(crate) fn caps(mesh: &TriMesh, plane: &Plane, cut: usize) -> Vec<Cap> {
     let on_plane: Vec<bool> = mesh
         .vertices()
         .iter()
-        .map(|p| plane.distance(p).abs() <= ON_PLANE_MM)
+        .map(|p| is_on_plane(plane, p))
         .collect();
     let is_flat = |&face: &usize| mesh.triangles()[face].iter().all(|&v| on_plane[v as usize]);
     let flat: Vec<usize> = (0..mesh.triangles().len()).filter(is_flat).collect();

@@ -19,6 +19,8 @@ const PANEL_OUT_LIMIT_MM: f64 = 1e-6;
 const PATH_LIMIT_MM: f64 = 1e-3;
 /// By how much spacing and margin on a sheet may be less than promised, mm.
 const NEST_SLACK_MM: f64 = 1e-3;
+/// The greatest sine of a panel's turn against the grain: rounding.
+const GRAIN_LIMIT: f64 = 1e-9;
 /// By how much a part may be above or below the plate, mm.
 const PLATE_LIMIT_MM: f64 = 1e-3;
 /// The greatest deviation of a pose from a rigid motion.
@@ -51,8 +53,10 @@ const TOPPLING_LIMIT_DEG: f64 = 1e-3;
 pub fn core_checks(promise: &CorePromise, facts: &CoreFacts) -> Vec<Check> {
     let mut checks = of_base(facts, promise);
     checks.extend(of_sheets(promise, facts));
+    checks.extend(of_stock(facts));
     checks.extend(of_surfaces(facts));
     checks.extend(of_shell(promise, facts));
+    checks.extend(of_pins(promise, facts));
     checks.extend(of_ways(facts));
     checks.extend(of_balance(promise, facts));
     checks
@@ -144,6 +148,23 @@ fn of_sheets(promise: &CorePromise, facts: &CoreFacts) -> Vec<Check> {
     ]
 }
 
+fn of_stock(facts: &CoreFacts) -> Vec<Check> {
+    let stock = none(
+        CheckKind::Stock,
+        "every sheet is one of those at hand, and lies on the cutter's bed",
+        &facts.stock.faults,
+    );
+    let grain = facts.stock.turn_sine.map(|sine| {
+        Check::new(
+            CheckKind::Grain,
+            "panels follow the grain of their sheet",
+            Some(sine),
+            Limit::at_most(GRAIN_LIMIT, ""),
+        )
+    });
+    [stock].into_iter().chain(grain).collect()
+}
+
 fn of_surfaces(facts: &CoreFacts) -> Vec<Check> {
     let surfaces = &facts.surfaces;
     vec![
@@ -200,7 +221,7 @@ fn of_shell(promise: &CorePromise, facts: &CoreFacts) -> Vec<Check> {
         ),
         Check::new(
             CheckKind::Volumes,
-            "parts, their voids and bores, and the base with its gap add up to the model",
+            "parts less their pins, voids, bores, and the base with its gap add up to the model",
             Some(off.abs()),
             Limit::at_most(VOLUME_LIMIT_RATIO, ""),
         ),
@@ -233,6 +254,33 @@ fn of_shell(promise: &CorePromise, facts: &CoreFacts) -> Vec<Check> {
         checks.push(wall.at(shell.thinnest.clone()));
     }
     checks
+}
+
+fn of_pins(promise: &CorePromise, facts: &CoreFacts) -> Vec<Check> {
+    let pins = &facts.pins;
+    let held = none(
+        CheckKind::Held,
+        "every part is on a panel, or joined to a part that is held",
+        &pins.unheld,
+    );
+    if promise.pins.is_empty() && pins.faults.is_empty() {
+        return vec![held];
+    }
+    let wall_mm = promise.printer.minimum_wall_mm;
+    vec![
+        held,
+        none(
+            CheckKind::Pins,
+            "every pin stands in its socket with its room, along the way of its unit",
+            &pins.faults,
+        ),
+        Check::new(
+            CheckKind::SocketWall,
+            "sockets keep the printer's least wall",
+            Some(pins.wall_mm.min(2.0 * wall_mm)),
+            Limit::at_least(wall_mm - WALL_SLACK_MM, "mm"),
+        ),
+    ]
 }
 
 fn of_ways(facts: &CoreFacts) -> Vec<Check> {
@@ -277,6 +325,13 @@ fn of_balance(promise: &CorePromise, facts: &CoreFacts) -> Vec<Check> {
             Limit::at_most(CENTRE_LIMIT_MM, "mm"),
         ),
     ];
+    checks.extend(facts.ballast.as_ref().map(|faults| {
+        none(
+            CheckKind::BallastRoom,
+            "ballast lies flat on its panel, within the base and in nothing else",
+            faults,
+        )
+    }));
     if let (Some(least), Some(told)) = (promise.least_angle_deg, promise.toppling_deg) {
         checks.push(Check::new(
             CheckKind::Standing,

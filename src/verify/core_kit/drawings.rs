@@ -1,8 +1,9 @@
 //! The drawings of the sheets against the panels: what the beam leaves, and how panels lie.
 
+use super::base_files::PanelPromise;
 use super::evidence::CoreEvidence;
 use super::flat::{apart, area_mm2, between, edges, is_inside, length_mm, placed, to_ring};
-use super::promise::{CutSheetPromise, PanelPromise, PlacedPanel};
+use super::promise::{CutSheetPromise, PlacedPanel};
 use crate::io::{CutLayer, DrawnLine, DrawnShape};
 
 /// By how much lines may be off, mm: their digits in the files.
@@ -153,8 +154,28 @@ impl SheetJudge<'_> {
             );
             facts.faults.push(words);
         }
+        self.judge_edge(facts);
+    }
+
+    /// Holds that the sheet's own edge is drawn, and that all lines are within it.
+    fn judge_edge(&self, facts: &mut DrawingFacts) {
         let edge = self.closed_on(CutLayer::Sheet);
         let [width, depth] = self.sheet.size_mm;
+        let is_out = |[x, y]: [f64; 2]| {
+            let free = [x, y, width - x, depth - y];
+            free.iter().any(|free| *free < -NEAR_MM)
+        };
+        let out = self.lines.iter().filter(|line| match &line.shape {
+            DrawnShape::Closed(points) | DrawnShape::Open(points) => {
+                points.iter().any(|at| is_out(*at))
+            }
+            DrawnShape::Circle { center_mm, .. } => is_out(*center_mm),
+        });
+        let count = out.count();
+        if count > 0 {
+            let words = format!("{count} lines of {} are outside of it", self.sheet.dxf);
+            facts.faults.push(words);
+        }
         let is_whole =
             |ring: &&[[f64; 2]]| (area_mm2(ring) - width * depth).abs() < NEAR_MM * width;
         if edge.iter().filter(|ring| is_whole(ring)).count() != 1 {

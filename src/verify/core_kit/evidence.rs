@@ -1,6 +1,7 @@
 //! What the judge of an object on a base sees.
 
-use super::promise::{CoreCertificate, CorePartKind, CorePromise, PanelsFile};
+use super::base_files::{CoreCertificate, PanelsFile};
+use super::promise::{CorePartKind, CorePromise};
 use crate::geom::{Frame, Matrix, Plane, Point, Vector};
 use crate::io::DrawnLine;
 use crate::mesh::TriMesh;

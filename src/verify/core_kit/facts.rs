@@ -1,12 +1,15 @@
 //! The facts about an object on a base, all of them.
 
+use super::ballast::ballast_faults;
 use super::certificate::{BaseFacts, measure_base};
 use super::drawings::{DrawingFacts, measure_drawings};
 use super::error::CoreVerifyError;
 use super::evidence::CoreEvidence;
 use super::panels::{PanelFacts, measure_panels};
+use super::pins::{PinFacts, measure_pins};
 use super::shell::{ShellFacts, measure_shell};
 use super::standing::{StandFacts, measure_standing};
+use super::stock::{StockFacts, measure_stock};
 use super::surfaces::{SurfaceFacts, measure_surfaces};
 use super::ways::{WayFacts, measure_ways};
 use crate::base::watch::Watch;
@@ -20,12 +23,18 @@ pub struct CoreFacts {
     pub panels: PanelFacts,
     /// The drawings.
     pub drawings: DrawingFacts,
+    /// The stock and the grain.
+    pub stock: StockFacts,
     /// The surfaces of the printed parts.
     pub surfaces: SurfaceFacts,
     /// The shell.
     pub shell: ShellFacts,
+    /// The pins between parts, and the path of each part to the base.
+    pub pins: PinFacts,
     /// The ways of the units.
     pub ways: WayFacts,
+    /// What is wrong with the ballast, in words; `None` if there is none.
+    pub ballast: Option<Vec<String>>,
     /// Mass and balance.
     pub stand: StandFacts,
     /// The volume of the model, mm³.
@@ -46,9 +55,15 @@ pub fn judge_core(evidence: &CoreEvidence, watch: &Watch) -> Result<CoreFacts, C
         base,
         panels,
         drawings,
+        stock: measure_stock(&evidence.promise),
         surfaces: measure_surfaces(evidence, watch)?,
         shell: measure_shell(evidence, watch)?,
+        pins: measure_pins(evidence),
         ways: measure_ways(evidence, watch)?,
+        ballast: match evidence.promise.ballast.is_empty() {
+            true => None,
+            false => Some(ballast_faults(evidence)?),
+        },
         stand: measure_standing(evidence),
         model_mm3: evidence.model.signed_volume_mm3(),
     })

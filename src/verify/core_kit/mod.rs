@@ -5,6 +5,8 @@
 //! of the code that makes bases, panels and shells is seen here. The judge halves triangles, builds
 //! panels and finds seams by its own hand.
 
+mod ballast;
+mod base_files;
 mod certificate;
 mod checks;
 mod drawings;
@@ -16,20 +18,25 @@ mod hardware;
 mod joining;
 mod packages;
 mod panels;
+mod pins;
 mod promise;
 mod reading;
 mod shell;
 mod standing;
+mod stock;
 mod surfaces;
 mod ways;
 
+pub use base_files::{
+    BaseCertificate, CoreCertificate, EdgePromise, HolePromise, PanelPromise, PanelsFile,
+};
 pub use checks::core_checks;
 pub use error::CoreVerifyError;
 pub use evidence::CoreEvidence;
 pub use facts::{CoreFacts, judge_core};
 pub use promise::{
-    BaseCertificate, BossPromise, CoreCertificate, CorePartKind, CorePartPromise, CorePromise,
-    CutPromise, CutSheetPromise, EdgePromise, FastenerKind, FastenerPromise, GluePromise,
-    HolePromise, JoinPromise, PanelPromise, PanelsFile, PlacedPanel, UnitPromise,
+    BallastPromise, BossPromise, CorePartKind, CorePartPromise, CorePromise, CutPromise,
+    CutSheetPromise, CutterPromise, FastenerKind, FastenerPromise, GluePromise, JoinPromise,
+    PegPromise, PlacedPanel, StockPromise, UnitPromise,
 };
 pub use reading::{CORE_CERTIFICATE_FILE, MODEL_FILE, PANELS_FILE, verify_core};

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
+use crate::mass::Lump;
 use crate::verify::{Density, Pose, PrinterLimits};
 
 /// The promises of a kit, and the data needed to judge its files by them: `checklist.json`.
@@ -23,14 +24,26 @@ pub struct CorePromise {
     pub gap_mm: f64,
     /// The sheet and the cut.
     pub sheet: CutPromise,
+    /// The cutter.
+    #[serde(default)]
+    pub cutter: CutterPromise,
+    /// The sheets at hand, as they lie on the cutter's bed.
+    #[serde(default)]
+    pub stock: Vec<StockPromise>,
     /// The sheets with their panels.
     pub cut_sheets: Vec<CutSheetPromise>,
     /// The printed parts and brackets.
     pub parts: Vec<CorePartPromise>,
     /// The screws and inserts.
     pub fasteners: Vec<FastenerPromise>,
+    /// The pins between parts.
+    #[serde(default)]
+    pub pins: Vec<PegPromise>,
     /// The films of glue.
     pub glue: Vec<GluePromise>,
+    /// The ballast.
+    #[serde(default)]
+    pub ballast: Vec<BallastPromise>,
     /// The units in the order in which they are joined.
     pub units: Vec<UnitPromise>,
     /// The ways in which several polyhedra come together, in their order; empty for one.
@@ -64,6 +77,25 @@ pub struct CutPromise {
     pub spacing_mm: f64,
     /// The width that stays free along the edges of a sheet, mm.
     pub margin_mm: f64,
+    /// True if panels follow the grain of their sheet.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub keeps_grain: bool,
+}
+
+/// The cutter.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct CutterPromise {
+    /// Both sides of its bed, mm; `None` if they are not told.
+    pub bed_mm: Option<[f64; 2]>,
+}
+
+/// A size of sheets at hand.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct StockPromise {
+    /// Length and width as it lies on the bed, mm.
+    pub size_mm: [f64; 2],
+    /// The number of such sheets; `None` for any number.
+    pub count: Option<usize>,
 }
 
 /// A sheet with its panels.
@@ -107,7 +139,7 @@ pub struct CorePartPromise {
     pub id: String,
     /// Its kind.
     pub kind: CorePartKind,
-    /// The number of the panel along whose normal it leaves, from 1.
+    /// The number of the panel along whose normal it leaves, or on which a bracket stands, from 1.
     pub panel: usize,
     /// Its file, relative to the kit.
     pub file: String,
@@ -119,10 +151,36 @@ pub struct CorePartPromise {
     pub void_mm3: f64,
     /// The volume of its bores, mm³.
     pub bores_mm3: f64,
+    /// The volumes that its pins add and that its sockets take away, mm³.
+    #[serde(default, skip_serializing_if = "is_none")]
+    pub pins_mm3: [f64; 2],
     /// The planes of cuts for the printer's room along its sides: outward normal, and offset, mm.
     pub cuts: Vec<[f64; 4]>,
     /// Its bores: for inserts, and for the heads of bracket screws.
     pub bosses: Vec<BossPromise>,
+}
+
+/// A pin that stands on a part, and its socket in another one.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct PegPromise {
+    /// The part on which it stands.
+    pub on: String,
+    /// The part with its socket.
+    pub into: String,
+    /// The point of its axis in the plane in which both parts touch, mm.
+    pub center_mm: [f64; 3],
+    /// The unit direction in which it stands out.
+    pub direction: [f64; 3],
+    /// Its diameter, mm.
+    pub diameter_mm: f64,
+    /// Its length, mm.
+    pub length_mm: f64,
+    /// The diameter of its socket, mm.
+    pub socket_diameter_mm: f64,
+    /// The depth of its socket, mm.
+    pub socket_depth_mm: f64,
+    /// Width and height of the chamfers at its tip and at its socket's mouth, mm.
+    pub chamfers_mm: [f64; 2],
 }
 
 /// A bore in a part, along the normal of its panel.
@@ -181,11 +239,28 @@ pub struct FastenerPromise {
     pub shaft_mm: Option<[f64; 2]>,
 }
 
+/// A piece of ballast on the inner side of a panel.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct BallastPromise {
+    /// The id under which it is ordered.
+    pub id: String,
+    /// The number of the panel, from 1.
+    pub panel: usize,
+    /// The middle of the side on which it lies, in the frame of the panel, mm.
+    pub at_mm: [f64; 2],
+    /// The piece in its place: its axis is that of the panel.
+    #[serde(flatten)]
+    pub lump: Lump,
+}
+
 /// A film of glue, taken as a point of its mass.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct GluePromise {
     /// What it joins, in words.
     pub joint: String,
+    /// The ids of the printed parts that it joins to one another, or to a panel.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub parts: Vec<String>,
     /// Its area, mm².
     pub area_mm2: f64,
     /// Its mass, g.
@@ -247,108 +322,8 @@ fn words(numbers: &[usize]) -> String {
     }
 }
 
-/// The panels: `panels.json`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct PanelsFile {
-    /// The version of the keys.
-    pub schema: u32,
-    /// The panels in the order of their numbers.
-    pub panels: Vec<PanelPromise>,
-}
-
-/// A panel: a plane piece of sheet with its place in the model.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct PanelPromise {
-    /// Its number, from 1; it is engraved.
-    pub panel: usize,
-    /// The number of its polyhedron, from 1.
-    #[serde(default = "first", skip_serializing_if = "is_first")]
-    pub polyhedron: usize,
-    /// The index of its plane in the certificate of that polyhedron.
-    pub plane: usize,
-    /// The origin of its frame in the model, mm.
-    pub origin_mm: [f64; 3],
-    /// The axes of its frame in the model; the third points out of the base.
-    pub axes: [[f64; 3]; 3],
-    /// The outline as it comes out, counterclockwise seen from outside, mm in its frame.
-    pub outline_mm: Vec<[f64; 2]>,
-    /// The holes.
-    pub holes: Vec<HolePromise>,
-    /// The joints along its edges.
-    pub edges: Vec<EdgePromise>,
-}
-
-/// A round hole.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct HolePromise {
-    /// Its middle in the panel's frame, mm.
-    pub at_mm: [f64; 2],
-    /// Its diameter, mm.
-    pub diameter_mm: f64,
-}
-
-/// The joint along an edge of a panel.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct EdgePromise {
-    /// The number of the panel beyond it, from 1.
-    pub to: usize,
-    /// The inner angle, degrees.
-    pub angle_deg: f64,
-    /// The length of the stretch that both share, mm.
-    pub length_mm: f64,
-    /// The joint, in words: `fingers`, `brackets`, or `glue` where neither fits.
-    pub joint: String,
-}
-
-/// The certificate: `certificate.json`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct CoreCertificate {
-    /// The version of the keys.
-    pub schema: u32,
-    /// The model in single precision, relative to the kit.
-    pub model: String,
-    /// The distance that the base keeps from its surface, mm.
-    pub distance_mm: f64,
-    /// The longest edge of a piece of the surface, mm: longer triangles are halved.
-    pub longest_edge_mm: f64,
-    /// The base, or the first polyhedron of it.
-    #[serde(flatten)]
-    pub base: BaseCertificate,
-    /// Its other polyhedra.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub others: Vec<BaseCertificate>,
-}
-
-impl CoreCertificate {
-    /// Returns all polyhedra of the base in their order.
-    pub fn bases(&self) -> impl Iterator<Item = &BaseCertificate> {
-        std::iter::once(&self.base).chain(&self.others)
-    }
-}
-
-/// The certificate of a polyhedron.
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-pub struct BaseCertificate {
-    /// The planes of the polyhedron: outward unit normal, and offset, mm.
-    pub planes: Vec<[f64; 4]>,
-    /// For each piece of the surface, the index of a plane that parts it.
-    pub faces: Vec<u32>,
-    /// The planes between it and other polyhedra, which bound its part of the model. Their normals
-    /// point out of it.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub sides: Vec<[f64; 4]>,
-}
-
-fn first() -> usize {
-    1
-}
-
-#[expect(
-    clippy::trivially_copy_pass_by_ref,
-    reason = "serde asks for a reference"
-)]
-fn is_first(number: &usize) -> bool {
-    *number == first()
+fn is_none(volumes_mm3: &[f64; 2]) -> bool {
+    *volumes_mm3 == [0.0; 2]
 }
 
 #[expect(

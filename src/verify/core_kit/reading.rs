@@ -2,14 +2,13 @@
 
 use std::path::Path;
 
+use super::base_files::{BaseCertificate, CoreCertificate, PanelsFile};
 use super::checks::core_checks;
 use super::error::CoreVerifyError;
 use super::evidence::CoreEvidence;
 use super::facts::judge_core;
 use super::packages::packages_check;
-use super::promise::{
-    BaseCertificate, CoreCertificate, CorePartPromise, CorePromise, CutSheetPromise, PanelsFile,
-};
+use super::promise::{CorePartPromise, CorePromise, CutSheetPromise};
 use crate::base::watch::Watch;
 use crate::geom::Vector;
 use crate::io::{DrawnLine, decode_cut_svg, decode_dxf, read_model};

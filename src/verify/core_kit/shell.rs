@@ -3,6 +3,7 @@
 
 use rayon::prelude::*;
 
+use super::ballast::ballast_body;
 use super::certificate::{body_below, grown_base};
 use super::error::CoreVerifyError;
 use super::evidence::{CoreEvidence, plane_of};
@@ -38,7 +39,8 @@ pub struct ShellFacts {
     pub in_base_mm3: f64,
     /// The volume of brackets outside of the base, or in a panel, mm³.
     pub brackets_mm3: f64,
-    /// The sum of the volumes of parts with their listed voids and bores, mm³.
+    /// The sum of the volumes of parts with their listed voids, bores and sockets, but without
+    /// pins, mm³.
     pub parts_mm3: f64,
     /// The least distance of an inner surface from the outside, a seam or a cut, mm; infinite for
     /// parts without a hollow.
@@ -70,7 +72,8 @@ pub fn measure_shell(
     }
     let volumes = evidence.shell().map(|(index, mesh)| {
         let part = &evidence.promise.parts[index];
-        mesh.signed_volume_mm3() + part.void_mm3 + part.bores_mm3
+        let [pins_mm3, sockets_mm3] = part.pins_mm3;
+        mesh.signed_volume_mm3() + part.void_mm3 + part.bores_mm3 + sockets_mm3 - pins_mm3
     });
     Ok(ShellFacts {
         uncovered_mm: uncovered_mm(evidence),
@@ -136,7 +139,7 @@ fn brackets_mm3(evidence: &CoreEvidence) -> Result<f64, CoreVerifyError> {
     Ok(wrong_mm3)
 }
 
-/// Returns the volume of screws' heads that lies in parts, panels or brackets, mm³.
+/// Returns the volume of screws' heads that lies in parts, panels, brackets or ballast, mm³.
 fn heads_mm3(evidence: &CoreEvidence) -> Result<f64, CoreVerifyError> {
     let screws = evidence.promise.fasteners.iter();
     let heads: Vec<TriMesh> = screws
@@ -153,7 +156,8 @@ fn heads_mm3(evidence: &CoreEvidence) -> Result<f64, CoreVerifyError> {
     let panels = (0..count).map(|panel| super::panels::panel_body(evidence, panel));
     let parts = evidence.parts.iter().map(weld);
     let mut inside_mm3 = 0.0;
-    for body in parts.chain(panels) {
+    let ballast = evidence.promise.ballast.iter().map(ballast_body);
+    for body in parts.chain(panels).chain(ballast) {
         for head in &heads {
             inside_mm3 += shared_mm3(head, &body)?;
         }
@@ -253,7 +257,8 @@ impl WallJudge<'_> {
                 || is_on(&floors, at)
                 || is_on(self.seams, at)
                 || is_on(&cuts, at)
-                || self.is_in_bore(at);
+                || self.is_in_bore(at)
+                || self.is_on_pin(at);
             (!is_outer).then_some((at, depth_mm))
         });
         let all: Vec<&Plane> = self.seams.iter().chain(&cuts).collect();
@@ -264,6 +269,15 @@ impl WallJudge<'_> {
             nearest.map_or(depth_mm, |nearest| nearest.distance_squared.sqrt())
         });
         walls.fold(f64::INFINITY, f64::min)
+    }
+
+    /// Returns true if a point lies on a pin or in a socket of the part.
+    fn is_on_pin(&self, at: &Point) -> bool {
+        let id = &self.evidence.promise.parts[self.index].id;
+        let mut pins = self.evidence.promise.pins.iter();
+        pins.any(|peg| {
+            (peg.on == *id && peg.holds(at)) || (peg.into == *id && peg.is_socket_at(at))
+        })
     }
 
     /// Returns true if a point lies on a bore of the part.

@@ -42,7 +42,9 @@ pub fn measure_standing(evidence: &CoreEvidence) -> StandFacts {
         .glue
         .iter()
         .map(|film| (film.mass_g, film.center_mm));
-    let points = held.chain(glued);
+    let laid = promise.ballast.iter();
+    let laid = laid.map(|piece| (piece.lump.mass_g, piece.lump.center_mm));
+    let points = held.chain(glued).chain(laid);
     let points = points.map(|(mass_g, center)| (mass_g, Vector::from(center) * mass_g));
     let all = parts.chain(panels).chain(points);
     let (mass_g, first) = all.fold((0.0, Vector::zeros()), |(mass, first), (own, moment)| {

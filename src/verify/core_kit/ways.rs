@@ -2,10 +2,12 @@
 
 use rayon::prelude::*;
 
+use super::ballast::ballast_body;
 use super::error::CoreVerifyError;
 use super::evidence::CoreEvidence;
 use super::joining::{misjoined, polyhedron_of};
 use super::panels::{panel_body, shared_mm3};
+use super::promise::CorePartKind;
 use crate::base::watch::Watch;
 use crate::geom::{Aabb, Bvh, Point, Vector};
 use crate::mesh::{TriMesh, spread_points};
@@ -140,12 +142,19 @@ fn strays(evidence: &CoreEvidence) -> Vec<String> {
             .count();
         (count != 1).then(|| format!("part {} is in {count} units", part.id))
     });
+    let brackets = evidence.promise.parts.iter().filter_map(|part| {
+        let mut own = units.iter().filter(|unit| unit.parts.contains(&part.id));
+        let is_bracket = part.kind == CorePartKind::Bracket;
+        let is_elsewhere = is_bracket && own.any(|unit| unit.panel != Some(part.panel));
+        let words = || format!("{} stands on another panel than {}", part.id, part.panel);
+        is_elsewhere.then(words)
+    });
     let panels = evidence.panels.panels.iter().filter_map(|panel| {
         let own = units.iter().filter(|unit| unit.panel == Some(panel.panel));
         let count = own.count();
         (count != 1).then(|| format!("panel {} is in {count} units", panel.panel))
     });
-    parts.chain(panels).collect()
+    parts.chain(brackets).chain(panels).collect()
 }
 
 fn bodies(evidence: &CoreEvidence) -> Vec<UnitBodies> {
@@ -157,8 +166,13 @@ fn bodies(evidence: &CoreEvidence) -> Vec<UnitBodies> {
             let panel = unit.panel.map(|panel| panel.wrapping_sub(1));
             let panel = panel.filter(|panel| *panel < evidence.panels.panels.len());
             let panel = panel.map(|panel| panel_body(evidence, panel));
+            let ballast = evidence.promise.ballast.iter();
+            let ballast = ballast.filter(|piece| unit.panel == Some(piece.panel));
             UnitBodies {
-                bodies: parts.chain(panel).collect(),
+                bodies: parts
+                    .chain(panel)
+                    .chain(ballast.map(ballast_body))
+                    .collect(),
                 way: Vector::from(unit.way),
                 id: unit.id.clone(),
                 polyhedron: polyhedron_of(evidence, unit),

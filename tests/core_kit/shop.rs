@@ -1,0 +1,238 @@
+//! What a shop has: ballast that is laid on the lowest panel, and sheets and offcuts at hand.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use equipoise::geom::Point;
+use equipoise::io::stl;
+use equipoise::mesh::primitives;
+use serde_json::Value;
+
+use super::common::{assert_exit, checklist, copy, json, list, number, path, sum, verify};
+use super::{add, core, hold_broken, hold_broken_in_python, judge_in_python};
+
+/// The sides of the tower, mm: it topples at some 18°.
+const TOWER_MM: [f64; 3] = [160.0, 150.0, 440.0];
+/// The lean that is asked of it, degrees.
+const LEAN_DEG: f64 = 22.0;
+
+fn tower(folder: &Path) -> PathBuf {
+    let mesh = primitives::cuboid(&Point::origin(), &Point::from(TOWER_MM));
+    let file = folder.join("tower.stl");
+    fs::write(&file, stl::encode(&mesh, "tower")).unwrap();
+    file
+}
+
+#[test]
+fn a_tower_stands_with_the_ballast_that_its_answer_names_on_the_sheets_at_hand() {
+    let folder = tempfile::tempdir().unwrap();
+    let model = tower(folder.path());
+    let kit = folder.path().join("kit");
+    let usual = format!("--faces 6 --up z --least-angle {LEAN_DEG}");
+    let output = core(&model, &kit, &format!("{usual} --json"));
+    assert_exit(&output, 1);
+    let answer = json(&output);
+    let remedies = list(&answer, "remedies").iter();
+    let mut laid = remedies.filter(|remedy| remedy["settings"][0]["key"] == "ballast");
+    let remedy = laid.next().unwrap();
+    assert_eq!(remedy["settings"][0]["value"], "auto");
+    assert!(!kit.exists());
+    let stock = "--stock 600x400,450x200*1 --grain free";
+    let options = format!("{usual} --ballast auto {stock}");
+    assert_exit(&core(&model, &kit, &options), 0);
+    let sheet = checklist(&kit);
+    hold_ballast(&sheet, remedy["words"].as_str().unwrap());
+    hold_stock(&sheet);
+    let (code, said) = verify(&kit);
+    assert_eq!(code, Some(0), "{said}");
+    judge_in_python(&kit);
+    tell_lies(folder.path(), &kit);
+}
+
+/// Holds the ballast against what the answer has named.
+fn hold_ballast(sheet: &Value, named: &str) {
+    let pieces = list(sheet, "ballast");
+    let mass_g = sum(pieces, "/mass_g");
+    assert!((mass_g - number(sheet, "/masses/ballast_g")).abs() < 1e-9);
+    let id = pieces[0]["id"].as_str().unwrap();
+    assert!(
+        named.contains(&format!("lays {} of {id}", pieces.len())),
+        "{named}"
+    );
+    let toppling_deg = number(sheet, "/toppling_deg");
+    assert!(
+        (LEAN_DEG..LEAN_DEG + 4.0).contains(&toppling_deg),
+        "{toppling_deg}"
+    );
+    // Without the pieces it topples earlier: by its centre, over the nearer side.
+    let whole_g = number(sheet, "/mass_g");
+    let height_mm = number(sheet, "/centre_mm/2");
+    let low_mm: f64 = pieces
+        .iter()
+        .map(|piece| number(piece, "/mass_g") * number(piece, "/center_mm/2"))
+        .sum();
+    let bare_mm = (whole_g * height_mm - low_mm) / (whole_g - mass_g);
+    let bare_deg = (0.5 * TOWER_MM[1]).atan2(bare_mm).to_degrees();
+    assert!(bare_deg < LEAN_DEG - 1.0, "{bare_deg}");
+    // All lie on the lowest panel, within the base.
+    let distance_mm = number(sheet, "/distance_mm");
+    for piece in pieces {
+        let bottom_mm = number(piece, "/center_mm/2") - 0.5 * number(piece, "/shape/thickness_mm");
+        let floor_mm = distance_mm + number(sheet, "/sheet/thickness_mm");
+        // The base is the inset box but for a little.
+        assert!((bottom_mm - floor_mm).abs() < 3.0, "{bottom_mm} {floor_mm}");
+    }
+    let bought = list(sheet, "buy")
+        .iter()
+        .find(|row| row["id"] == id)
+        .unwrap();
+    assert_eq!(number(bought, "/count"), pieces.len() as f64);
+}
+
+/// Holds that the sheets are those at hand.
+fn hold_stock(sheet: &Value) {
+    let sizes = list(sheet, "cut_sheets").iter();
+    let sizes: Vec<[f64; 2]> = sizes
+        .map(|of| [number(of, "/size_mm/0"), number(of, "/size_mm/1")])
+        .collect();
+    assert_eq!(sizes[0], [450.0, 200.0], "the offcut comes first");
+    assert!(
+        sizes[1..].iter().all(|size| *size == [600.0, 400.0]),
+        "{sizes:?}"
+    );
+    let offcut = list(sheet, "buy").iter().filter(|row| {
+        let name = row["name"].as_str().unwrap();
+        name.contains("450 × 200 mm (an offcut at hand)")
+    });
+    assert_eq!(offcut.count(), 1);
+    assert!(sheet["sheet"]["keeps_grain"].is_null());
+}
+
+/// A lie about ballast or stock that a judge could overlook.
+struct Lie {
+    /// Words of the promise that it breaks.
+    promise: &'static str,
+    /// The check of the judge in Python that it breaks.
+    check: &'static str,
+    tell: fn(&mut Value),
+}
+
+const LIES: [Lie; 5] = [
+    // A piece that floats over its panel.
+    Lie {
+        promise: "ballast lies flat",
+        check: "faults of ballast",
+        tell: |sheet| add(&mut sheet["ballast"][0]["center_mm"][2], 1.0),
+    },
+    // A piece beside its place.
+    Lie {
+        promise: "ballast lies flat",
+        check: "faults of ballast",
+        tell: |sheet| add(&mut sheet["ballast"][0]["at_mm"][0], 1.0),
+    },
+    Lie {
+        promise: "the whole weighs",
+        check: "mass, relative",
+        tell: |sheet| {
+            sheet["ballast"].as_array_mut().unwrap().pop();
+        },
+    },
+    // More of the offcut is cut than there is.
+    Lie {
+        promise: "one of those at hand",
+        check: "sheets that are not at hand",
+        tell: |sheet| {
+            let stock = sheet["stock"].as_array_mut().unwrap();
+            stock.retain(|one| one["count"].is_null());
+        },
+    },
+    Lie {
+        promise: "one of those at hand",
+        check: "sheets that are not at hand",
+        tell: |sheet| sheet["cutter"]["bed_mm"] = vec![500.0, 300.0].into(),
+    },
+];
+
+fn tell_lies(folder: &Path, kit: &Path) {
+    for (index, lie) in LIES.iter().enumerate() {
+        let copied = folder.join(format!("lie-{index}"));
+        copy(kit, &copied);
+        let file = copied.join("checklist.json");
+        let mut value: Value = serde_json::from_slice(&fs::read(&file).unwrap()).unwrap();
+        (lie.tell)(&mut value);
+        fs::write(&file, value.to_string()).unwrap();
+        hold_broken(&copied, lie.promise);
+        hold_broken_in_python(&copied, lie.check);
+    }
+}
+
+/// Returns a base of two boxes on the plane x = 170, each with a bottom that leans towards it.
+fn leaning() -> String {
+    let face = |normal: [f64; 3], offset_mm: f64, locked: bool| {
+        let length = normal.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let normal = normal.map(|x| x / length);
+        format!(
+            "[[polyhedron.face]]\nnormal = {normal:?}\noffset_mm = {:?}\nlocked = {locked}\n",
+            offset_mm / length
+        )
+    };
+    let sides = |lean: f64| {
+        // Both bottoms are 40 mm up on the plane x = 170, and lower farther away.
+        [
+            face([0.0, 1.0, 0.0], 130.0, false),
+            face([0.0, -1.0, 0.0], -20.0, false),
+            face([0.0, 0.0, 1.0], 130.0, false),
+            face([lean, 0.0, -1.0], 170.0 * lean - 40.0, false),
+        ]
+        .concat()
+    };
+    let split =
+        "[[split]]\nnormal = [1.0, 0.0, 0.0]\noffset_mm = 170.0\nbelow = \"Q1\"\nabove = \"Q2\"\n";
+    let low = face([1.0, 0.0, 0.0], 169.95, true) + &face([-1.0, 0.0, 0.0], -20.0, false);
+    let high = face([-1.0, 0.0, 0.0], -170.05, true) + &face([1.0, 0.0, 0.0], 320.0, false);
+    format!(
+        "{split}[[polyhedron]]\n{}{low}[[polyhedron]]\n{}{high}",
+        sides(0.15),
+        sides(-0.15)
+    )
+}
+
+#[test]
+fn brackets_beside_a_common_panel_leave_with_a_panel_that_does_not_bar_them() {
+    let folder = tempfile::tempdir().unwrap();
+    let mesh = primitives::cuboid(&Point::origin(), &Point::new(340.0, 150.0, 150.0));
+    let model = folder.path().join("beam.stl");
+    fs::write(&model, stl::encode(&mesh, "beam")).unwrap();
+    let base = folder.path().join("base.toml");
+    fs::write(&base, leaning()).unwrap();
+    let kit = folder.path().join("kit");
+    let options = format!(
+        "--up z --goal none --joints brackets --base {}",
+        path(&base)
+    );
+    assert_exit(&core(&model, &kit, &options), 0);
+    let (code, said) = verify(&kit);
+    assert_eq!(code, Some(0), "{said}");
+    // Every bracket is told with the panels that it holds, and is in the unit of the first.
+    let sheet = checklist(&kit);
+    let parts = list(&sheet, "parts").iter().zip(list(&sheet, "part_rows"));
+    let brackets: Vec<(&Value, &Value)> = parts
+        .filter(|(part, _)| part["kind"] == "bracket")
+        .collect();
+    assert!(brackets.len() > 12, "{}", brackets.len());
+    let mut panels = Vec::new();
+    for (part, row) in brackets {
+        let panel = part["panel"].as_u64().unwrap();
+        let words = row["held_by"].as_str().unwrap();
+        let is_told = [format!("panel {panel},"), format!("panels {panel} ")];
+        assert!(is_told.iter().any(|told| words.contains(told)), "{words}");
+        let mut units = list(&sheet, "units").iter();
+        let unit = units
+            .find(|unit| list(unit, "parts").contains(&part["id"]))
+            .unwrap();
+        assert_eq!(unit["panel"], part["panel"]);
+        panels.push(panel);
+    }
+    // They stand on panels of both polyhedra.
+    assert!(panels.iter().any(|panel| *panel > 6) && panels.iter().any(|panel| *panel <= 6));
+}
