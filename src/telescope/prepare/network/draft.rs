@@ -13,7 +13,7 @@ use crate::base::digest::sha256_hex;
 use crate::base::units::MM3_PER_CM3;
 use crate::base::watch::Phase;
 use crate::geom::{Aabb, Point, Vector};
-use crate::io::PointsError;
+use crate::io::{PointsError, stl};
 use crate::mass::moments_of_mesh;
 use crate::mesh::TriMesh;
 use crate::printer::Support;
@@ -23,8 +23,8 @@ use crate::sheet::telescope::CurveRow;
 use crate::telescope::motion::Key;
 use crate::telescope::nest::JointState;
 use crate::verify::{
-    JuncturePromise, NetworkEvidence, NetworkKey, NetworkMotion, NetworkPromise, TelescopeEvidence,
-    asked_points, judge_network, network_checks,
+    JuncturePromise, MODEL_FILE, NetworkEvidence, NetworkKey, NetworkMotion, NetworkPromise,
+    TelescopeEvidence, asked_points, judge_network, network_checks,
 };
 use crate::wing::{Unwritable, json, read_back};
 
@@ -45,6 +45,8 @@ pub struct NetworkDraft {
     pub motion_json: String,
     /// The curve of each limb, asked and made.
     pub curves: Vec<String>,
+    /// The model in single precision, if junctures are pieces of it.
+    pub model_stl: Option<Vec<u8>>,
 }
 
 impl MadeNetwork<'_> {
@@ -124,6 +126,8 @@ pub fn draft(workshop: &Workshop, made: &MadeNetwork) -> Result<NetworkDraft, Te
         });
     }
     warnings.extend(round(workshop));
+    let skin = workshop.form.skin();
+    let model_stl = skin.map(|skin| stl::encode(skin.mesh(), &workshop.job.name()));
     let mut sheet = sheet(workshop, made, limbs)?;
     sheet.warnings = warnings;
     let motion = made.motion();
@@ -137,6 +141,7 @@ pub fn draft(workshop: &Workshop, made: &MadeNetwork) -> Result<NetworkDraft, Te
             .iter()
             .map(WrittenJuncture::in_model)
             .collect(),
+        model: model_stl.as_deref().map(stl::decode).transpose()?,
         promise,
     };
     let facts = judge_network(&evidence, workshop.watch)?;
@@ -150,6 +155,7 @@ pub fn draft(workshop: &Workshop, made: &MadeNetwork) -> Result<NetworkDraft, Te
         sheet,
         motion_json,
         curves,
+        model_stl,
     })
 }
 
@@ -202,6 +208,8 @@ fn sheet(
             length_mm: loaded.longest_mm,
         },
         glue_mm: first.least.glue_mm,
+        groove_mm: first.least.groove_mm(),
+        model: workshop.form.skin().map(|_| MODEL_FILE),
         junctures: made.junctures.iter().map(promise_of).collect(),
         juncture_rows: made
             .junctures
@@ -295,6 +303,11 @@ fn size_mm(made: &MadeNetwork, state: &[Key]) -> [f64; 3] {
 /// Returns the warning that junctures need support.
 fn round(workshop: &Workshop) -> Option<String> {
     let needs_support = workshop.shop.printer.support == Support::Breakaway;
-    let words = "Junctures are round: support them below, and in sockets that lie across.";
+    let words = match workshop.form.skin() {
+        Some(_) => {
+            "Junctures keep the model's surface: support what overhangs, and sockets that lie across."
+        }
+        None => "Junctures are round: support them below, and in sockets that lie across.",
+    };
     needs_support.then(|| words.to_owned())
 }

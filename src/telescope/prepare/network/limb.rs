@@ -1,6 +1,8 @@
 //! The telescope of a limb: its curve, its order, its design.
 
-use super::plan::{Measures, Planned, at, tip_mm};
+use super::along::at;
+use super::plan::{Measures, Planned, tip_mm};
+use super::skin::Skin;
 use crate::base::units::Length;
 use crate::base::verdict::Verdict;
 use crate::base::watch::Watch;
@@ -29,6 +31,8 @@ const SHORTER: [f64; 3] = [1.0, 0.5, 0.0];
 const MOST_TILT_MM: f64 = 0.012;
 /// Radii of the root that are tried: shares of the greatest.
 const ROOTS: [f64; 3] = [1.0, 0.75, 0.55];
+/// The same in a model, whose wall around the root decides.
+const ROOTS_IN_MODEL: [f64; 5] = [1.0, 0.9, 0.8, 0.68, 0.55];
 
 /// The order of a limb.
 #[derive(Clone)]
@@ -64,6 +68,8 @@ pub struct Studio<'a> {
     pub job: &'a TelescopeJob,
     pub shop: &'a Shop,
     pub measures: Measures,
+    /// The model's surface, if junctures keep it.
+    pub skin: Option<&'a Skin<'a>>,
     pub watch: &'a Watch,
 }
 
@@ -82,7 +88,11 @@ impl Studio<'_> {
         };
         let most_off_mm = OFF_SHARE * planned.root_mm;
         let mut why = "no number of shells nests".to_owned();
-        for share in ROOTS {
+        let roots: &[f64] = match self.skin {
+            Some(_) => &ROOTS_IN_MODEL,
+            None => &ROOTS,
+        };
+        for share in roots {
             for shells in (2..=planned.shells).rev() {
                 let thinner = Planned {
                     shells,
@@ -92,11 +102,18 @@ impl Studio<'_> {
                 match self.nest(chain, &thinner, &curve)? {
                     Verdict::No(reason) => why = reason,
                     Verdict::Found(found) => {
-                        let off_mm = found.best.design.fit.deviation.max_mm;
-                        if off_mm <= most_off_mm {
+                        let design = &found.best.design;
+                        let off_mm = design.fit.deviation.max_mm;
+                        let fault = match off_mm <= most_off_mm {
+                            true => self.skin.and_then(|skin| skin.fault(&design.telescope)),
+                            false => {
+                                Some(format!("the best telescope found is {off_mm:.1} mm off it"))
+                            }
+                        };
+                        let Some(fault) = fault else {
                             return Ok(Verdict::Found(found));
-                        }
-                        why = format!("the best telescope found is {off_mm:.1} mm off it");
+                        };
+                        why = fault;
                         // Fewer shells are farther off.
                         break;
                     }

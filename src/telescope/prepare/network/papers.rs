@@ -23,7 +23,7 @@ use crate::sheet::telescope::ShellRow;
 use crate::telescope::motion::Key;
 use crate::telescope::prepare::made::from_print;
 use crate::verify::{
-    CERTIFICATE_FILE, MODEL_FOLDER, MOTION_FILE, Pose, SHEET_FILE, limb_curve_file,
+    CERTIFICATE_FILE, MODEL_FILE, MODEL_FOLDER, MOTION_FILE, Pose, SHEET_FILE, limb_curve_file,
 };
 use crate::wing::{Papers, Prepared, Unwritable};
 
@@ -52,6 +52,9 @@ pub fn finish(
         kit.add(&file, bytes);
     }
     kit.add(MOTION_FILE, draft.motion_json.into_bytes());
+    if let Some(model) = draft.model_stl {
+        kit.add(MODEL_FILE, model);
+    }
     for (limb, curve) in draft.sheet.limbs.iter().zip(draft.curves) {
         kit.add(&limb_curve_file(&limb.id), curve.into_bytes());
     }

@@ -1,6 +1,8 @@
 //! The plan of a limb: its number of shells, and the depth of its root in its juncture.
 
-use crate::geom::{Point, Vector};
+use super::along::{at, radius_mm};
+use super::skin::Skin;
+use crate::geom::Point;
 use crate::skeleton::{Chain, Limbs, Skeleton};
 use crate::telescope::sizes::JointSizes;
 
@@ -57,6 +59,14 @@ pub struct Measures {
     pub solid_mm: f64,
 }
 
+/// What limbs are planned in.
+pub struct Ground<'a> {
+    pub skeleton: &'a Skeleton,
+    pub measures: &'a Measures,
+    /// The model's surface, if junctures keep it.
+    pub skin: Option<&'a Skin<'a>>,
+}
+
 /// A tube that lies in a juncture: points of its axis, and its radius.
 struct Tube {
     axis: Vec<Point>,
@@ -64,11 +74,12 @@ struct Tube {
 }
 
 /// Plans every limb; the error names the first that gets none, by its index, with the reason.
-pub fn plan(
-    limbs: &Limbs,
-    skeleton: &Skeleton,
-    measures: &Measures,
-) -> Result<Vec<Planned>, (usize, String)> {
+pub fn plan(limbs: &Limbs, ground: &Ground) -> Result<Vec<Planned>, (usize, String)> {
+    let Ground {
+        skeleton,
+        measures,
+        skin,
+    } = *ground;
     let mut planned: Vec<Option<Planned>> = vec![None; limbs.chains.len()];
     for juncture in 0..limbs.junctures.len() {
         let mut tubes: Vec<Tube> = limbs.junctures[juncture]
@@ -86,26 +97,32 @@ pub fn plan(
         });
         let balls = balls(limbs, skeleton, juncture);
         for (index, chain) in own {
-            let shells = count(chain, measures).map_err(|why| (index, why))?;
-            let place = Place {
+            let most = count(chain, measures).map_err(|why| (index, why))?;
+            let place = |shells: usize| Place {
                 chain,
                 measures,
                 shells,
                 balls: &balls,
+                skin,
             };
-            let Some((found, tube)) = place.free(&tubes) else {
-                let why = "its root meets another in their juncture".to_owned();
-                return Err((index, why));
+            // In the model the root may have to be thinner, and then fewer shells fit.
+            let fewest = skin.map_or(most, |_| 2);
+            let mut counts = (fewest..=most).rev();
+            let Some((found, tube)) = counts.find_map(|shells| place(shells).free(&tubes)) else {
+                let why = match skin {
+                    Some(_) => {
+                        "no place for its root: a wall would be too thin, another root too \
+                                near, or no cut across it alone"
+                    }
+                    None => "its root meets another in their juncture",
+                };
+                return Err((index, why.to_owned()));
             };
             tubes.push(tube);
             planned[index] = Some(found);
         }
     }
     Ok(planned.into_iter().flatten().collect())
-}
-
-fn radius_mm(chain: &Chain) -> f64 {
-    chain.radius_at_mm(chain.start_mm)
 }
 
 /// Returns the nodes of a juncture with their balls.
@@ -168,18 +185,23 @@ struct Place<'a> {
     measures: &'a Measures,
     shells: usize,
     balls: &'a [(Point, f64)],
+    skin: Option<&'a Skin<'a>>,
 }
 
 impl Place<'_> {
     /// Returns the deepest place in which the root meets nothing, with the tube that it takes.
     fn free(&self, tubes: &[Tube]) -> Option<(Planned, Tube)> {
-        let root_mm = root_mm(self.chain, self.measures);
         let found = self.places().into_iter().find_map(|from_mm| {
+            let root_mm = self.root_mm(from_mm)?;
             let tube = self.tube(from_mm, root_mm);
-            let is_free = self.is_inside(from_mm, &tube) && self.is_apart(&tube, tubes);
-            is_free.then_some((from_mm, tube))
+            let is_held = match self.skin {
+                Some(skin) => self.is_cut(from_mm, skin),
+                None => self.is_inside(from_mm, &tube),
+            };
+            let is_free = is_held && self.is_apart(&tube, tubes);
+            is_free.then_some((from_mm, root_mm, tube))
         });
-        let (from_mm, tube) = found?;
+        let (from_mm, root_mm, tube) = found?;
         let planned = Planned {
             nodes: self.chain.nodes.clone(),
             shells: self.shells,
@@ -189,6 +211,31 @@ impl Place<'_> {
             overlap_mm: self.overlap_mm(from_mm),
         };
         Some((planned, tube))
+    }
+
+    /// Returns the radius that the root may have in a place, mm; `None` if too little for its
+    /// shells.
+    ///
+    /// In the model it takes what the walls leave; in other junctures its share of the limb.
+    fn root_mm(&self, from_mm: f64) -> Option<f64> {
+        let least = &self.measures.least;
+        let Some(skin) = self.skin else {
+            return Some(root_mm(self.chain, self.measures));
+        };
+        let axis = self.tube(from_mm, 0.0).axis;
+        let room_mm = skin.room_mm(&axis) - least.wall_mm - least.glue_mm;
+        let root_mm = room_mm.min(self.measures.root_mm);
+        let nested_mm = (self.shells - 1) as f64 * least.pitch_mm();
+        (root_mm >= self.measures.tip_mm + MISFIT_MM + nested_mm).then_some(root_mm)
+    }
+
+    /// Returns true if the model can be cut across the branch alone at the root's mouth.
+    fn is_cut(&self, from_mm: f64, skin: &Skin) -> bool {
+        let mouth_mm = from_mm + self.visible_mm(from_mm) + 0.5 * self.overlap_mm(from_mm);
+        let step_mm = self.measures.tip_mm;
+        let [behind, mouth, ahead] =
+            [mouth_mm - step_mm, mouth_mm, mouth_mm + step_mm].map(|arc| at(self.chain, arc));
+        skin.ring_across(&mouth, &(ahead - behind)).is_some()
     }
 
     /// Returns where the root may begin, the deepest first.
@@ -262,33 +309,4 @@ impl Place<'_> {
             nearest - tube.radius_mm - other.radius_mm >= needed_mm
         })
     }
-}
-
-/// Returns the point of a limb at an arc length; behind its juncture's ball it goes on straight.
-pub fn at(chain: &Chain, arc_mm: f64) -> Point {
-    if arc_mm >= chain.start_mm {
-        return on_nodes(chain, arc_mm);
-    }
-    let from = on_nodes(chain, chain.start_mm);
-    from - direction(chain) * (chain.start_mm - arc_mm)
-}
-
-/// Returns the direction in which a limb leaves its juncture.
-///
-/// It is taken over one radius, so that a bend of the skeleton within it does not count.
-pub fn direction(chain: &Chain) -> Vector {
-    let reach_mm = radius_mm(chain).min(0.5 * chain.free_mm());
-    let from = on_nodes(chain, chain.start_mm);
-    let ahead = on_nodes(chain, chain.start_mm + reach_mm) - from;
-    ahead.try_normalize(0.0).unwrap_or_else(Vector::z)
-}
-
-/// Returns the point of the line through the nodes at an arc length; beyond its end it goes on.
-fn on_nodes(chain: &Chain, arc_mm: f64) -> Point {
-    let arcs = chain.arcs_mm();
-    let after = arcs.partition_point(|arc| *arc <= arc_mm);
-    let edge = after.clamp(1, arcs.len() - 1) - 1;
-    let span = (arcs[edge + 1] - arcs[edge]).max(f64::MIN_POSITIVE);
-    let share = (arc_mm - arcs[edge]) / span;
-    chain.points[edge] + (chain.points[edge + 1] - chain.points[edge]) * share
 }
