@@ -15,10 +15,10 @@ use common::{
     assert_exit, checklist, equipoise, judge_telescope, list, number, path, printed, text, verify,
     words,
 };
-use equipoise::geom::Point;
+use equipoise::geom::{Plane, Point, Vector};
 use equipoise::io::stl;
-use equipoise::mesh::primitives::ball;
-use equipoise::mesh::{Csg, TriMesh};
+use equipoise::mesh::primitives::{self, ball};
+use equipoise::mesh::{Csg, Solid, TriMesh, bodies};
 
 /// A ball of the figure: its centre and its radius, mm.
 type Ball = [f64; 4];
@@ -122,4 +122,72 @@ fn junctures_of_a_model_need_one() {
         assert!(said.contains(expected) && said.contains("remedy"), "{said}");
         assert!(!kit.exists());
     }
+}
+
+fn level(height_mm: f64) -> Plane {
+    Plane {
+        normal: Vector::z(),
+        offset_mm: height_mm,
+    }
+}
+
+#[test]
+fn only_the_branch_around_the_point_is_cut_through() {
+    // A ring that stands: a plane across it meets both of its sides.
+    let torus = primitives::torus(8.0, 3.0, 40, 24);
+    let standing = torus.map_vertices(|p| Point::new(p.x, -p.z, p.y));
+    let ring = standing
+        .ring_around(&level(0.1), &Point::new(8.0, 0.0, 0.1))
+        .unwrap();
+    assert!(ring.reach_mm(&Point::new(8.0, 0.0, 0.1)) < 3.01);
+    let cut = Solid::new(standing.cut_along(&ring)).unwrap();
+    // It is still one body, of the same volume, and open to the side of the cut alone.
+    assert_eq!(bodies(cut.mesh()).len(), 1);
+    let volume = [&standing, cut.mesh()].map(TriMesh::signed_volume_mm3);
+    assert!((volume[0] - volume[1]).abs() < 1e-9);
+    let ring = cut
+        .mesh()
+        .ring_around(&level(0.1), &Point::new(-8.0, 0.0, 0.1))
+        .unwrap();
+    let apart = Solid::new(cut.mesh().cut_along(&ring)).unwrap();
+    assert_eq!(bodies(apart.mesh()).len(), 2);
+}
+
+#[test]
+fn what_hangs_back_across_the_plane_stays_whole() {
+    // An L: a bar across, with a foot at one end that hangs down.
+    let part = |min: [f64; 3], max: [f64; 3]| {
+        Csg::of_mesh(&primitives::cuboid(&min.into(), &max.into())).unwrap()
+    };
+    let hook = part([0.0, 0.0, 0.0], [4.0, 4.0, 30.0])
+        .union(&part([0.0, 0.0, 28.0], [20.0, 4.0, 34.0]))
+        .unwrap();
+    let hook = hook
+        .union(&part([16.0, 0.0, 10.0], [20.0, 4.0, 30.0]))
+        .unwrap();
+    let mesh = hook.to_mesh().unwrap();
+    let ring = mesh
+        .ring_around(&level(15.0), &Point::new(2.0, 2.0, 15.0))
+        .unwrap();
+    let parts = bodies(&mesh.cut_along(&ring));
+    let mut volumes: Vec<f64> = parts.iter().map(TriMesh::signed_volume_mm3).collect();
+    volumes.sort_by(f64::total_cmp);
+    // The plane passes through the foot too, which stays with the bar.
+    let stump = 4.0 * 4.0 * 15.0;
+    let rest = mesh.signed_volume_mm3() - stump;
+    assert!((volumes[0] - stump).abs() < 1e-3 && (volumes[1] - rest).abs() < 1e-3);
+}
+
+#[test]
+fn a_ring_with_a_hole_in_it_and_a_point_outside_have_no_disc() {
+    let pipe = primitives::torus(8.0, 3.0, 40, 24);
+    // Across the axis of a lying torus the section is a ring with a hole.
+    assert!(
+        pipe.ring_around(&level(0.1), &Point::new(8.0, 0.0, 0.1))
+            .is_none()
+    );
+    assert!(
+        pipe.ring_around(&level(0.1), &Point::new(0.0, 0.0, 0.1))
+            .is_none()
+    );
 }

@@ -359,15 +359,14 @@ def judge_model(kit):
     count = len(kit.bodies) - len(kit.junctures)
     whole = manifold3d.Manifold()
     for part, solid in zip(kit.sheet["junctures"], kit.solids[count:], strict=True):
-        beyond = (solid - model).volume() / solid.surface_area()
-        kit.say(f"{part['id']} lies in the model", beyond < ON_MODEL_MM, f"{beyond:.6f} mm beyond on average")
+        beyond = max((piece.volume() / piece.surface_area() for piece in (solid - model).decompose()), default=0.0)
+        kit.say(f"{part['id']} lies in the model", beyond < ON_MODEL_MM, f"{beyond:.6f} mm beyond")
         whole += solid
     rest = (model - whole).decompose()
-    limit = ON_MODEL_MM * model.surface_area()
     lost = []
     for piece in rest:
         points = np.array(piece.to_mesh().vert_properties)[:, :3]
-        if piece.volume() < limit or any(replaces(limb, points) for limb in kit.limbs):
+        if piece.volume() < ON_MODEL_MM * piece.surface_area() or any(replaces(limb, points) for limb in kit.limbs):
             continue
         lost.append(f"{piece.volume():.1f} mm³ at {points.mean(axis=0).round(1)}")
     kit.say("nothing of the model is lost", not lost, f"{len(rest)} pieces {lost or ''}")

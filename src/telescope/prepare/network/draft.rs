@@ -10,6 +10,7 @@ use super::super::sheet::{checklist, leaning, material, printer, untried};
 use super::made::{Workshop, WrittenJuncture, prefix};
 use super::tree::Tree;
 use crate::base::digest::sha256_hex;
+use crate::base::numbers::measured_extent;
 use crate::base::units::MM3_PER_CM3;
 use crate::base::watch::Phase;
 use crate::geom::{Aabb, Point, Vector};
@@ -126,6 +127,7 @@ pub fn draft(workshop: &Workshop, made: &MadeNetwork) -> Result<NetworkDraft, Te
         });
     }
     warnings.extend(round(workshop));
+    warnings.extend(too_large(workshop, made));
     let skin = workshop.form.skin();
     let model_stl = skin.map(|skin| stl::encode(skin.mesh(), &workshop.job.name()));
     let mut sheet = sheet(workshop, made, limbs)?;
@@ -310,4 +312,21 @@ fn round(workshop: &Workshop) -> Option<String> {
         None => "Junctures are round: support them below, and in sockets that lie across.",
     };
     needs_support.then(|| words.to_owned())
+}
+
+/// Returns a warning for every juncture that the printer has no room for.
+fn too_large(workshop: &Workshop, made: &MadeNetwork) -> Vec<String> {
+    let warning = |own: &WrittenJuncture| {
+        let size_mm: [f64; 3] = own.read_back.aabb().size().into();
+        let is_too_large = workshop.shop.printer.fits(size_mm) == Some(false);
+        is_too_large.then(|| {
+            format!(
+                "{} is {}, larger than the printer's room, and junctures are not cut yet. Order a \
+                 smaller size, balls as junctures, or a larger printer.",
+                own.id,
+                measured_extent(&size_mm)
+            )
+        })
+    };
+    made.junctures.iter().filter_map(warning).collect()
 }

@@ -7,6 +7,7 @@ use crate::base::units::Length;
 use crate::base::verdict::Verdict;
 use crate::base::watch::Watch;
 use crate::curve::Curve;
+use crate::geom::Point;
 use crate::job::telescope::{ShellCount, Stance, TelescopeJob, Twists};
 use crate::skeleton::Chain;
 use crate::telescope::fastened::Fastened;
@@ -19,6 +20,9 @@ use crate::telescope::prepare::load_skeleton::Shop;
 
 /// Points through which the curve of a limb is laid: nodes are noisy, so they are few.
 const CURVE_POINTS: usize = 10;
+/// The most by which a straight limb's curve is off its chord, as a share of it: less than the
+/// noise of nodes.
+const STRAIGHT_RATIO: f64 = 0.005;
 /// Edges on which corners are looked for.
 const CORNER_EDGES: usize = 240;
 /// Share of the root's radius by which the open limb may be off its curve.
@@ -215,6 +219,27 @@ fn tilt_mm(telescope: &Telescope) -> f64 {
     tilts.fold(0.0, f64::max)
 }
 
+/// Returns points on their chord if they hardly leave it, else as they are.
+///
+/// Arcs of some hundred metres in radius bend by less than nodes are off. Their shells would have
+/// slivers, and would turn for nothing.
+fn straightened(points: Vec<Point>) -> Vec<Point> {
+    let (first, last) = (points[0], points[points.len() - 1]);
+    let chord = last - first;
+    let on_chord = |share: f64| first + chord * share;
+    let off_mm = points.iter().map(|p| {
+        let share = (p - first).dot(&chord) / chord.norm_squared().max(f64::MIN_POSITIVE);
+        (p - on_chord(share)).norm()
+    });
+    if off_mm.fold(0.0, f64::max) > STRAIGHT_RATIO * chord.norm() {
+        return points;
+    }
+    let steps = points.len() - 1;
+    (0..=steps)
+        .map(|i| on_chord(i as f64 / steps as f64))
+        .collect()
+}
+
 /// Returns the curve of a limb, from where its root begins.
 fn curve(chain: &Chain, planned: &Planned) -> Result<Curve, crate::curve::CurveError> {
     let span = chain.end_mm - planned.from_mm;
@@ -224,8 +249,8 @@ fn curve(chain: &Chain, planned: &Planned) -> Result<Curve, crate::curve::CurveE
             planned.from_mm + span * i as f64 / CURVE_POINTS as f64,
         )
     };
-    let points: Vec<_> = (0..=CURVE_POINTS).map(place).collect();
-    let curve = Curve::through(&points)?;
+    let points: Vec<Point> = (0..=CURVE_POINTS).map(place).collect();
+    let curve = Curve::through(&straightened(points))?;
     curve.refuse_corners(CORNER_EDGES)?;
     Ok(curve)
 }

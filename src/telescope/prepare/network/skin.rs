@@ -24,8 +24,8 @@ const SPARE_MM: f64 = 0.05;
 const MOST_REACH_RADII: f64 = 3.0;
 /// Places at which a branch is tried to be cut, from its end backwards, and the share of its free
 /// length that they cover.
-const ENDS: usize = 24;
-const END_SHARE: f64 = 0.6;
+const ENDS: usize = 36;
+const END_SHARE: f64 = 0.9;
 /// By how much thicker a branch must become beyond a neck that counts as one.
 const NECK_RATIO: f64 = 1.12;
 /// Length that an end piece has at least, in radii of the branch where it is cut.
@@ -71,8 +71,9 @@ impl<'a> Skin<'a> {
     /// Returns the arc length at which a limb ends, so that what is beyond stays the model's own
     /// piece, mm.
     ///
-    /// It is the last neck before something thicker, as a wrist before a hand. Without a neck an
-    /// end piece of its least length is kept. `None` if the branch can be cut nowhere.
+    /// It is the last neck before something thicker, as a wrist before a hand. Shells are thinner
+    /// than that neck, so they never stand for something thicker. Without a neck an end piece of
+    /// its least length is kept. `None` if the branch can be cut nowhere.
     pub fn end_mm(&self, chain: &Chain, skeleton: &Skeleton) -> Option<f64> {
         let span_mm = END_SHARE * chain.free_mm();
         let at_mm = |i: usize| chain.end_mm - span_mm * i as f64 / ENDS as f64;
