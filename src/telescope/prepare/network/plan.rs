@@ -339,8 +339,10 @@ mod tests {
 
     #[test]
     fn a_short_limb_gets_fewer_shells_if_more_would_hardly_come_out_farther() {
-        // Four shells on 40 mm come out by 16.2 mm, two by 15.4 mm.
-        assert_eq!(worthwhile(40.0, 4.6, 4), 2);
+        // On 40 mm four shells come out by 16.2 mm, three by 17.5 mm, two by 15.4 mm.
+        assert_eq!(worthwhile(40.0, 4.6, 4), 3);
+        // On 30 mm three come out by 10.8 mm, two by 10.4 mm.
+        assert_eq!(worthwhile(30.0, 4.6, 4), 2);
         // On 140 mm five come out by 93.6 mm, four by 91.2 mm, three by 84.1 mm.
         assert_eq!(worthwhile(140.0, 4.6, 5), 4);
     }
