@@ -143,7 +143,8 @@ fn place(p: &Point) -> String {
 struct Ends<'a> {
     root: Frame,
     first: &'a ShellMotion,
-    /// The frame at the root's mouth.
+    /// The frames at the root's tail and at its mouth.
+    root_tail: Frame,
     root_mouth: Frame,
     last: Frame,
     last_shell: &'a ShellMotion,
@@ -174,6 +175,7 @@ impl<'a> Ends<'a> {
         let bore_mm = body_mm(1) + evidence.promise.glue_mm;
         let last_mm = body_mm(motion.shells.len());
         Self {
+            root_tail: root.frame_to_model(&first.along(first.ends_mm[0])),
             root_mouth: root.frame_to_model(&first.along(first.ends_mm[1])),
             last_mouth: last.frame_to_model(&last_shell.along(last_shell.ends_mm[1])),
             root,
@@ -196,8 +198,15 @@ impl<'a> Ends<'a> {
         is_on_plane(&self.root_mouth, corners)
             || corners.iter().all(|p| {
                 let local = self.root.to_local(p);
-                is_about(self.first, &local, &bore)
+                self.is_below_tail(p) || is_about(self.first, &local, &bore)
             })
+    }
+
+    /// Returns true if a point lies in the room at a root's tail, which is straight.
+    fn is_below_tail(&self, p: &Point) -> bool {
+        let local = self.root_tail.to_local(p);
+        let is_there = local.x.abs() <= BELOW_TAIL_MM + BESIDE_MM;
+        is_there && local.y.hypot(local.z) <= self.bore_mm + self.groove_mm + BESIDE_MM
     }
 
     /// Returns true if a triangle lies in the cut at the last mouth, or on the peg in it.
