@@ -5,29 +5,19 @@
     clippy::unwrap_used,
     reason = "a test whose input cannot be had has failed"
 )]
-#![allow(clippy::print_stderr, reason = "a skipped test says so")]
 
 mod common;
 #[path = "telescopes/scene.rs"]
 mod scene;
 
-use std::ffi::OsString;
 use std::fs;
 use std::path::Path;
-use std::process::Command;
 
 use common::{
-    assert_exit, checklist, equipoise, files, json, list, number, path, printed, text, verify,
-    words,
+    assert_exit, checklist, equipoise, files, json, judge_telescope, list, number, path, printed,
+    text, verify, words,
 };
 
-/// The judge of a telescope's kit in Python.
-const JUDGE: &str = concat!(
-    env!("CARGO_MANIFEST_DIR"),
-    "/tests/judge/judge_telescope.py"
-);
-/// The packages that it imports.
-const PACKAGES: &str = "manifold3d, numpy, scipy, trimesh, networkx";
 /// A quarter of a circle of 80 mm, in three shells: small and quick.
 const SMALL: &str = "telescope arc:80,90 --printer prusa-mk4 --shells 3";
 
@@ -66,23 +56,10 @@ fn an_arc_becomes_a_kit_that_stands_and_passes_both_judges() {
     }
     let (code, said) = verify(&kit);
     assert_eq!(code, Some(0), "{said}");
-    judge_in_python(&kit);
+    judge_telescope(&kit);
     replay(folder.path(), &kit);
     scene::lie_about_the_scene(&kit);
     lie_about_a_stop(&kit);
-}
-
-/// Lets the Python judge look at a kit, if there is a Python with its packages.
-fn judge_in_python(kit: &Path) {
-    let python = std::env::var_os("EQUIPOISE_JUDGE_PYTHON").unwrap_or_else(|| "python3".into());
-    let run = |arguments: &[OsString]| Command::new(&python).args(arguments).output();
-    let import = run(&["-c".into(), format!("import {PACKAGES}").into()]);
-    if !import.is_ok_and(|output| output.status.success()) {
-        eprintln!("SKIPPED: no Python with {PACKAGES} here; pip install them");
-        return;
-    }
-    let output = run(&[JUDGE.into(), kit.into()]).unwrap();
-    assert_exit(&output, 0);
 }
 
 /// Makes the kit again from its job: the bytes are the same, but for nothing.
@@ -253,7 +230,7 @@ fn a_skeleton_becomes_limbs_on_junctures_that_both_judges_pass_and_none_that_can
     }
     let (code, said) = verify(&kit);
     assert_eq!(code, Some(0), "{said}");
-    judge_in_python(&kit);
+    judge_telescope(&kit);
     replay(folder.path(), &kit);
     lie_about_the_motion(&kit);
     move_a_juncture(&kit);

@@ -45,6 +45,14 @@
 //! farther than the gap that all pairs keep. So no collision lies between them. The first sequence
 //! that is free is taken, from the root on. What is behind a root's mouth needs no look.
 //!
+//! Junctures of a model are its own pieces. A plane across a branch cuts only the ring around that
+//! branch ([`crate::mesh::SectionRing`]). So a heel that hangs back across the plane stays with its
+//! foot. Between the mouth of its root and its last mouth a limb replaces the model, and all else
+//! stays. A root is as thick as the wall around its bore allows. A section that reaches farther
+//! than three radii of its ball belongs to more than the branch. The root is then pushed outwards,
+//! or the limb stays solid. The judge finds every triangle of a piece on the model, in a cut or in
+//! a bore. Of the model it finds nothing lost but the bands that limbs replace.
+//!
 //! # 7. The motion on a screen
 //! Between two keys, slides and turns go evenly ([`crate::telescope::JointState`]). The page moves
 //! a shell by the screw of its helix (Chasles), so it shows the true path. In `motion.glb` every

@@ -93,6 +93,8 @@ choice! {
         Ball = "ball",
         /// The convex hull of the ends that meet.
         Hull = "hull",
+        /// The model's own pieces, cut across its branches.
+        Model = "model",
     }
 }
 
@@ -156,7 +158,7 @@ pub struct TelescopeJob {
     pub least_angle_deg: f64,
     /// The radius of its foot if it stands.
     pub foot: FootSize,
-    /// The bodies of junctures; balls if `None`. A curve has none.
+    /// The bodies of junctures; pieces of a model or else balls if `None`. A curve has none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub junctures: Option<JunctureKind>,
     /// The radius below which a limb stays solid; the least that can be made if `None`.

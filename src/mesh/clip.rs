@@ -15,15 +15,15 @@ use crate::geom::{Plane, Point};
 
 /// Distance from the plane within which a vertex leaves the cut to the booleans, mm. They close the
 /// slivers that would lie in the cut face, and planned cuts keep ten times as far away.
-const VERTEX_GAP_MM: f64 = 1e-7;
+pub(super) const VERTEX_GAP_MM: f64 = 1e-7;
 
 /// An edge that crosses the plane: its vertex above and its vertex below.
-type CutEdge = (u32, u32);
+pub(super) type CutEdge = (u32, u32);
 
 /// A triangle that crosses the plane, by the edge that goes down through the plane and the edge
 /// that comes up.
 #[derive(Clone, Copy)]
-struct Crossing {
+pub(super) struct Crossing {
     down: CutEdge,
     up: CutEdge,
 }
@@ -84,7 +84,7 @@ fn find_crossings(mesh: &TriMesh, heights: &[f64]) -> Vec<Crossing> {
 }
 
 /// Returns the crossing of a triangle with the plane; `None` if it does not cross.
-fn crossing(&[a, b, c]: &[u32; 3], heights: &[f64]) -> Option<Crossing> {
+pub(super) fn crossing(&[a, b, c]: &[u32; 3], heights: &[f64]) -> Option<Crossing> {
     let [on_a, on_b, on_c] = [a, b, c].map(|v| heights[v as usize] >= 0.0);
     let (down, up) = match (on_a, on_b, on_c) {
         (true, false, false) => ((a, b), (a, c)),
@@ -99,7 +99,7 @@ fn crossing(&[a, b, c]: &[u32; 3], heights: &[f64]) -> Option<Crossing> {
 }
 
 /// Returns the crossed edges, ascending. `None` unless exactly one triangle goes down through each.
-fn sort_edges(crossings: &[Crossing]) -> Option<Vec<CutEdge>> {
+pub(super) fn sort_edges(crossings: &[Crossing]) -> Option<Vec<CutEdge>> {
     let mut edges: Vec<CutEdge> = crossings.iter().map(|crossing| crossing.down).collect();
     edges.sort_unstable();
     let is_single = edges.windows(2).all(|pair| pair[0] != pair[1]);
@@ -107,7 +107,7 @@ fn sort_edges(crossings: &[Crossing]) -> Option<Vec<CutEdge>> {
 }
 
 /// Returns the point in which an edge meets the plane.
-fn meet(mesh: &TriMesh, heights: &[f64], (above, below): CutEdge) -> Point {
+pub(super) fn meet(mesh: &TriMesh, heights: &[f64], (above, below): CutEdge) -> Point {
     let [p, q] = [above, below].map(|v| mesh.vertices()[v as usize]);
     let [a, b] = [above, below].map(|v| heights[v as usize]);
     p + (q - p) * (a / (a - b))
@@ -115,7 +115,7 @@ fn meet(mesh: &TriMesh, heights: &[f64], (above, below): CutEdge) -> Point {
 
 /// Returns the rings of the section, as indices of crossed edges. Seen from above the plane, they
 /// run counter-clockwise around the material. `None` if a ring does not close.
-fn link_rings(crossings: &[Crossing], edges: &[CutEdge]) -> Option<Vec<Vec<usize>>> {
+pub(super) fn link_rings(crossings: &[Crossing], edges: &[CutEdge]) -> Option<Vec<Vec<usize>>> {
     let mut next = vec![usize::MAX; edges.len()];
     for crossing in crossings {
         let from = edges.binary_search(&crossing.down).ok()?;
@@ -142,7 +142,11 @@ fn link_rings(crossings: &[Crossing], edges: &[CutEdge]) -> Option<Vec<Vec<usize
 
 /// Returns triangles that fill the rings, counter-clockwise seen from above the plane. `None` if
 /// they do not fit the rings edge to edge.
-fn triangulate_cap(rings: &[Vec<usize>], points: &[Point], plane: &Plane) -> Option<Vec<[u32; 3]>> {
+pub(super) fn triangulate_cap(
+    rings: &[Vec<usize>],
+    points: &[Point],
+    plane: &Plane,
+) -> Option<Vec<[u32; 3]>> {
     let (u, v) = plane.basis();
     let origin = *points.get(*rings.first()?.first()?)?;
     let corner = |&index: &usize| {

@@ -8,7 +8,8 @@
 //!   ([`Crossings`], [`Broken`]), exact distances ([`MeshDistance`]), and points spread evenly over
 //!   a surface ([`spread_points`]). [`WindingNumbers`] tell inside from outside of any triangles.
 //! * **Operations:** booleans, plane cuts and simplification ([`Csg`]); `clip` cuts by a plane for
-//!   trials; `cut_planes` keeps cuts off vertices and faces; `ear_clip` fills polygons.
+//!   trials, `rings` cuts one branch alone ([`SectionRing`]); `cut_planes` keeps cuts off vertices
+//!   and faces; `ear_clip` fills polygons.
 //! * **Shapes:** [`primitives`] for tests and tools.
 
 mod axial;
@@ -26,6 +27,7 @@ mod facts;
 pub(crate) mod fans;
 mod foot;
 pub mod primitives;
+mod rings;
 mod sampling;
 pub(crate) mod shells;
 mod solid;
@@ -44,6 +46,7 @@ pub use distance::{MeshDistance, least_distance_mm};
 pub(crate) use ear_clip::ear_clip;
 pub use facts::MeshFacts;
 pub use foot::{BRIM_MM, GOOD_FOOT_MM2, foot_area_mm2};
+pub use rings::SectionRing;
 pub use sampling::{SurfacePoint, area_mm2, spread_points, surface_mm2};
 pub use solid::Solid;
 pub(crate) use tri_mesh::smallest_first;

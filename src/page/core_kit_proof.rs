@@ -147,7 +147,10 @@ fn volume(sheet: &CoreSheet) -> Markup {
     let shell = shell.filter(|part| part.kind == CorePartKind::Shell);
     let total = |of: fn(&CorePartPromise) -> f64| shell.clone().map(of).sum::<f64>();
     let (hollows, bores) = (total(|part| part.void_mm3), total(|part| part.bores_mm3));
-    let (pins, sockets) = (total(|part| part.pins_mm3[0]), total(|part| part.pins_mm3[1]));
+    let (pins, sockets) = (
+        total(|part| part.pins_mm3[0]),
+        total(|part| part.pins_mm3[1]),
+    );
     let printed = sheet.masses.shell_g / sheet.material.density_g_cm3 * MM3_PER_CM3;
     let whole = sheet.model.volume_mm3;
     let share = |mm3: f64| {

@@ -33,6 +33,11 @@ pub struct NetworkSheet {
     pub input: CurveRow,
     /// Clearance of glued joints, mm.
     pub glue_mm: f64,
+    /// Depth of the groove that lets the air out beside a root, mm.
+    pub groove_mm: f64,
+    /// The file of the model whose pieces the junctures are; `None` if they are none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub model: Option<&'static str>,
     /// The telescopes, each after the one that carries it.
     pub limbs: Vec<LimbRow>,
     /// The junctures. The first stands still.

@@ -15,10 +15,8 @@ const BEYOND_MM: f64 = 1.0;
 const RECESS_MM: f64 = 1.0;
 /// Length by which two tools of one socket reach into each other, mm.
 const JOINED_MM: f64 = 0.5;
-/// Depth of the groove that lets the air out, in diameters of the vent.
-const GROOVE_VENTS: f64 = 0.5;
 /// Length of a peg within the body that it stands on, in its radii.
-const ROOTED_RADII: f64 = 0.5;
+pub(super) const ROOTED_RADII: f64 = 0.5;
 
 impl Telescope {
     /// Returns what a body is cut by for the root to be glued in, in the root's frame.
@@ -37,7 +35,7 @@ impl Telescope {
         let bottom = body(sweep_profile(&tail, &Helix::LINE, &bottom))?;
         let round = body(sweep_profile(&start, helix, &round))?.union(&bottom)?;
         let round = round.subtract(&self.flat(sizes.glue_mm)?)?;
-        let depth = GROOVE_VENTS * sizes.vent_mm;
+        let depth = sizes.groove_mm();
         let mouth = helix.frame_at(mouth_mm);
         let wide = radius + depth;
         let ahead = Profile::new([[-JOINED_MM, radius], [0.0, wide], [clear_mm, wide]]);

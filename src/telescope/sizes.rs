@@ -6,6 +6,9 @@ use crate::curve::TurnBound;
 /// Room that a seat has beyond what a turn takes, mm.
 pub(super) const SEAT_ROOM_MM: f64 = 0.02;
 
+/// Depth of the groove that lets the air out of a socket, in diameters of the vent.
+const GROOVE_VENTS: f64 = 0.5;
+
 /// Clearances, walls and lengths of every joint, mm. Clearances are radial, on each side.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct JointSizes {
@@ -57,6 +60,11 @@ impl JointSizes {
     /// Returns the rise of flange and lip over the tube they stand on, mm: g + h.
     pub fn rise_mm(&self) -> f64 {
         self.slide_mm + self.engagement_mm
+    }
+
+    /// Returns the depth of the groove beside a root in its socket, mm.
+    pub fn groove_mm(&self) -> f64 {
+        GROOVE_VENTS * self.vent_mm
     }
 
     /// Returns the step of the body radius between shells of one shape, mm: p = w + h + 2g.

@@ -194,6 +194,6 @@ pub use telescope::{
 pub use telescope::{CURVE_FILE, MOTION_FILE, MOTION_SCENE_FILE, OPENING, asked_points};
 // Several telescopes on junctures.
 pub use telescope::{
-    JuncturePromise, LimbPromise, NetworkEvidence, NetworkFacts, NetworkKey, NetworkMotion,
-    NetworkPromise, judge_network, limb_curve_file, network_checks,
+    JuncturePromise, LimbPromise, ModelFacts, NetworkEvidence, NetworkFacts, NetworkKey,
+    NetworkMotion, NetworkPromise, judge_network, limb_curve_file, network_checks,
 };

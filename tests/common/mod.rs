@@ -8,6 +8,7 @@
 )]
 
 use std::collections::BTreeMap;
+use std::ffi::OsString;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Output;
@@ -42,6 +43,30 @@ pub fn shared_folder() -> PathBuf {
 
 /// The options of a quick run: a small model, and few columns for the solver.
 pub const QUICK: &str = "--printer objet-connex350 --size 60mm --pitch 0.3mm";
+
+/// The judge of a telescope's kit in Python.
+const TELESCOPE_JUDGE: &str = concat!(
+    env!("CARGO_MANIFEST_DIR"),
+    "/tests/judge/judge_telescope.py"
+);
+/// The packages that it imports.
+const TELESCOPE_PACKAGES: &str = "manifold3d, numpy, scipy, trimesh, networkx";
+
+/// Lets the Python judge look at the kit of a telescope, if there is a Python with its packages.
+pub fn judge_telescope(kit: &Path) {
+    let python = std::env::var_os("EQUIPOISE_JUDGE_PYTHON").unwrap_or_else(|| "python3".into());
+    let run = |arguments: &[OsString]| {
+        let mut command = std::process::Command::new(&python);
+        command.args(arguments).output()
+    };
+    let import = run(&["-c".into(), format!("import {TELESCOPE_PACKAGES}").into()]);
+    if !import.is_ok_and(|output| output.status.success()) {
+        eprintln!("SKIPPED: no Python with {TELESCOPE_PACKAGES} here; pip install them");
+        return;
+    }
+    let output = run(&[TELESCOPE_JUDGE.into(), kit.into()]).unwrap();
+    assert_exit(&output, 0);
+}
 
 /// Runs the program.
 pub fn equipoise(arguments: &[&str]) -> Output {

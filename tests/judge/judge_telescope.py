@@ -4,7 +4,8 @@
     python3 tests/judge/judge_telescope.py KIT [KIT ...]
 
 Reads the parts (STL), motion.json (helices, joints, keys), curve.csv (the points asked for), and from checklist.json what was promised. A kit
-of several telescopes on junctures is judged limb by limb, and then as a whole: pairs of all bodies, mass, centres, boxes. Moves
+of several telescopes on junctures is judged limb by limb, and then as a whole: pairs of all bodies, mass, centres, boxes. Junctures that are
+pieces of a model are held against model.stl: none lies beyond it, nothing of it is lost, every bore has its wall. Moves
 the shells by matrix exponentials, tries the stops with solid intersections, and prints promise against measurement. Exit code 0: all agree; 1:
 something does not; 2: no kit.
 """
@@ -45,6 +46,16 @@ BOX_LIMIT_MM = 0.02
 STROKE = (0.0, 0.5, 1.0)
 BETWEEN = (0.0, 0.5)
 STEPS = 20
+# Pieces of a model lie on it within this, mm; a shell of this thickness about a body is rounding.
+ON_MODEL_MM = 0.002
+# A bore takes so much below its root's tail, and its rim widens over so much before the mouth, mm.
+BELOW_TAIL_MM = 1.0
+RIM_MM = 0.5
+# A point beside a bore by less than this is in it, mm: facets.
+BESIDE_MM = 0.02
+ANGLES = 48
+# What lies around a model is a box so much larger, mm.
+AROUND_MM = 20.0
 
 
 def screw(curvature, torsion, arc):
@@ -344,6 +355,57 @@ def judge_network(kit):
         kit.say(name, error < BOX_LIMIT_MM, f"{error:.5f} mm off")
 
 
+def judge_model(kit):
+    """Pieces of a model: none is off it, nothing of it is lost, and every bore has its wall."""
+    mesh = trimesh.load(kit.folder / kit.sheet["model"], process=True)
+    model = kit.solid([mesh])
+    count = len(kit.bodies) - len(kit.junctures)
+    whole = manifold3d.Manifold()
+    for part, solid in zip(kit.sheet["junctures"], kit.solids[count:], strict=True):
+        beyond = max((piece.volume() / piece.surface_area() for piece in (solid - model).decompose()), default=0.0)
+        kit.say(f"{part['id']} lies in the model", beyond < ON_MODEL_MM, f"{beyond:.6f} mm beyond")
+        whole += solid
+    rest = (model - whole).decompose()
+    lost = []
+    for piece in rest:
+        points = np.array(piece.to_mesh().vert_properties)[:, :3]
+        if piece.volume() < ON_MODEL_MM * piece.surface_area() or any(replaces(limb, points) for limb in kit.limbs):
+            continue
+        lost.append(f"{piece.volume():.1f} mm³ at {points.mean(axis=0).round(1)}")
+    kit.say("nothing of the model is lost", not lost, f"{len(rest)} pieces {lost or ''}")
+    low, high = mesh.bounds
+    box = manifold3d.Manifold.cube(tuple(high - low + 2 * AROUND_MM)).translate(tuple(low - AROUND_MM))
+    outside = box - model
+    wall = max(limb.sheet["wall_mm"] for limb in kit.limbs)
+    gaps = {own["id"]: bore_gap(kit, limb, outside, 2 * wall) for own, limb in zip(kit.sheet["limbs"], kit.limbs)}
+    kit.say("the model walls every root", min(gaps.values()) >= wall - BESIDE_MM, f"{min(gaps.values()):.3f} of {wall} mm {gaps}")
+
+
+def replaces(limb, points):
+    """Whether points reach from a limb's root's mouth to its last one: the band that it replaces."""
+    out = [(joint["open_mm"], joint["turn_rad"]) for joint in limb.motion["joints"]]
+    frames = limb.frames(out)
+    last = len(frames) - 1
+    mouths = [frames[shell] @ limb.along(shell, limb.motion["shells"][shell]["ends_mm"][1]) for shell in (0, last)]
+    root, end = (trimesh.transform_points(points, np.linalg.inv(mouth))[:, 0] for mouth in mouths)
+    return root.min() <= BESIDE_MM and end.max() >= -BESIDE_MM and np.ptp(root) > BESIDE_MM
+
+
+def bore_gap(kit, limb, outside, search):
+    """Returns the gap between a root's bore and what is outside of the model, mm; at most `search`."""
+    own = limb.motion["shells"][0]
+    body = next(part["body_mm"] for part in limb.sheet["parts"] if part["is_tube"] and part["shell"] == 1)
+    radius = body + kit.sheet["glue_mm"]
+    angles = np.linspace(0, 2 * np.pi, ANGLES, endpoint=False)
+    ring = np.stack([np.zeros(ANGLES), radius * np.cos(angles), radius * np.sin(angles)], axis=1)
+    ring = np.vstack([ring, [0, radius + kit.sheet["groove_mm"], 0]])
+    tail, mouth = own["ends_mm"]
+    root = np.array(limb.motion["root"])
+    rings = [trimesh.transform_points(ring, root @ limb.along(0, arc)) for arc in np.linspace(tail - BELOW_TAIL_MM, mouth - RIM_MM, STEPS)]
+    pairs = [manifold3d.Manifold.hull_points(np.vstack(pair)) for pair in zip(rings, rings[1:])]
+    return manifold3d.Manifold.batch_boolean(pairs, manifold3d.OpType.Add).min_gap(outside, search)
+
+
 def judge_all(folder):
     kit = Network(folder)
     judge_files(kit)
@@ -352,6 +414,8 @@ def judge_all(folder):
             look(limb)
         kit.faults += limb.faults
     judge_network(kit)
+    if kit.sheet.get("model"):
+        judge_model(kit)
     return kit
 
 

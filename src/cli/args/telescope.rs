@@ -99,7 +99,8 @@ pub struct ShellArgs {
 #[derive(Debug, Clone, Args)]
 #[command(next_help_heading = "Limbs")]
 pub struct LimbArgs {
-    /// The bodies in which limbs meet: balls, or hulls of the ends that meet [default: ball]
+    /// The bodies in which limbs meet: the model's own pieces, balls, or hulls [default: model for
+    /// a model, else ball]
     #[arg(long, value_parser = words::<JunctureKind>(JunctureKind::WORDS))]
     pub junctures: Option<JunctureKind>,
     /// Limbs thinner than this radius stay solid [default: those that carry no two shells]

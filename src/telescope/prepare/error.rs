@@ -11,6 +11,7 @@ use crate::error::Error;
 use crate::io::threemf::PackageError;
 use crate::io::{ContentError, LinesError, ReadError, StlError};
 use crate::job::JobError;
+use crate::job::telescope::JunctureKind;
 use crate::mesh::{ClipError, Defects};
 use crate::printer::{MaterialError, ProfileError, WallError};
 use crate::repair::NotOneBody;
@@ -70,6 +71,13 @@ pub enum TelescopeRunError {
     /// An option of skeletons and models, with a curve.
     #[error("`{0}` is for a skeleton or a model, and a curve has no limbs; remedy: leave it out")]
     OnlyLimbs(Setting),
+    /// Junctures of a model, without one.
+    #[error(
+        "`{0}` cuts junctures from a model, and this input holds none; remedy: give the model \
+         itself (STL, OBJ, PLY, 3MF), or `{ball}`",
+        ball = Setting::new(Key::Junctures, JunctureKind::Ball)
+    )]
+    NoModel(Setting),
     /// A limb of one shell.
     #[error(
         "a limb of one shell slides out of nothing; remedy: `{}`, or more",

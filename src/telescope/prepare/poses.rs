@@ -14,7 +14,7 @@ pub enum Lies {
     OnTail,
     /// Leaning by half of its bend, with support outside only.
     Leaning,
-    /// On what is round, with support below.
+    /// On its own surface, round or a model's, with support below.
     Round,
 }
 
@@ -25,7 +25,7 @@ impl Lies {
             Self::OnMouth => "mouth down",
             Self::OnTail => "tail down",
             Self::Leaning => "leaning by half of its bend, support outside only",
-            Self::Round => "on its round side, support below and in its sockets",
+            Self::Round => "on its own surface, support below and in its sockets",
         }
     }
 }

@@ -8,7 +8,7 @@ use crate::verify::{Check, CheckKind, Limit};
 /// By how much a gap may be below the clearance, mm: facets of both sides, and the file's rounding.
 pub const GAP_LIMIT_MM: f64 = 0.01;
 /// By how much a wall may be below the one ordered, mm: as for gaps.
-const WALL_LIMIT_MM: f64 = 0.01;
+pub(super) const WALL_LIMIT_MM: f64 = 0.01;
 /// By how much an outside may differ from its body, mm.
 const BODY_LIMIT_MM: f64 = 0.01;
 /// By how much a deviation may exceed the one promised, mm: another way of sampling.

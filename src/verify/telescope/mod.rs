@@ -13,6 +13,7 @@ mod motion;
 mod network;
 mod network_checks;
 mod network_facts;
+mod network_model;
 mod network_reading;
 mod network_seats;
 mod packages;
@@ -33,6 +34,7 @@ pub use network::{
 };
 pub use network_checks::network_checks;
 pub use network_facts::{NetworkFacts, judge_network};
+pub use network_model::ModelFacts;
 pub use network_reading::{limb_curve_file, verify_telescope};
 pub use promise::{
     BalancePromise, DeviationPromise, JointPromise, TelescopePartPromise, TelescopePromise,

@@ -22,6 +22,13 @@ pub struct NetworkPromise {
     pub material: Density,
     /// The clearance of glued joints, mm.
     pub glue_mm: f64,
+    /// The depth of the groove beside a root, mm.
+    #[serde(default)]
+    pub groove_mm: f64,
+    /// The file of the model whose pieces the junctures are, relative to the kit; `None` if they
+    /// are none.
+    #[serde(default)]
+    pub model: Option<String>,
     /// The telescopes, each after the one that carries it.
     pub limbs: Vec<LimbPromise>,
     /// The junctures. The first stands still.
@@ -100,6 +107,8 @@ pub struct NetworkEvidence {
     pub limbs: Vec<TelescopeEvidence>,
     /// The junctures where they are when all is out.
     pub junctures: Vec<TriMesh>,
+    /// The model whose pieces they are; `None` if they are none.
+    pub model: Option<TriMesh>,
 }
 
 /// The places of all bodies in a state.

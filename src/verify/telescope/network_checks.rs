@@ -1,11 +1,12 @@
 //! The checks of several telescopes on junctures: of every kind the worst of all telescopes.
 
 use super::checks::{
-    BOX_LIMIT_MM, CENTRE_LIMIT_MM, MASS_LIMIT_RATIO, PLACEMENT_LIMIT_MM, none, surface_checks,
-    telescope_checks,
+    BOX_LIMIT_MM, CENTRE_LIMIT_MM, MASS_LIMIT_RATIO, PLACEMENT_LIMIT_MM, WALL_LIMIT_MM, none,
+    surface_checks, telescope_checks,
 };
 use super::network::NetworkPromise;
 use super::network_facts::NetworkFacts;
+use super::network_model::ModelFacts;
 use super::surfaces::Surfaces;
 use crate::geom::Point;
 use crate::verify::{Check, CheckKind, Limit};
@@ -35,7 +36,8 @@ pub fn network_checks(promise: &NetworkPromise, facts: &NetworkFacts) -> Vec<Che
         too_large: facts.too_large.clone(),
     });
     let whole = whole(promise, facts);
-    worst(limbs.chain(junctures).chain(whole))
+    let model = facts.model.iter().flat_map(|own| of_model(promise, own));
+    worst(limbs.chain(junctures).chain(whole).chain(model))
 }
 
 /// Returns a check of a telescope with its name before the place.
@@ -69,6 +71,28 @@ fn is_worse(check: &Check, known: &Check) -> bool {
         (false, false) => room(check) > room(known),
         (true, true) => room(check) < room(known),
     }
+}
+
+/// Returns the checks of junctures that are pieces of a model.
+fn of_model(promise: &NetworkPromise, facts: &ModelFacts) -> Vec<Check> {
+    let wall = facts.wall.as_ref();
+    let walls = promise.limbs.iter().map(|limb| limb.sheet.wall_mm);
+    let least_mm = walls.fold(0.0, f64::max);
+    let faults = [&facts.off[..], &facts.lost[..]].concat();
+    vec![
+        none(
+            CheckKind::Model,
+            "the junctures keep the model's surface but for cuts and bores, and nothing of it is lost",
+            &faults,
+        ),
+        Check::new(
+            CheckKind::Wall,
+            "the model leaves a wall around every root as thick as ordered",
+            wall.map(|(wall_mm, _)| *wall_mm),
+            Limit::at_least(least_mm - WALL_LIMIT_MM, "mm"),
+        )
+        .at(wall.map(|(_, limb)| format!("root of limb {limb}"))),
+    ]
 }
 
 fn whole(promise: &NetworkPromise, facts: &NetworkFacts) -> Vec<Check> {

@@ -8,6 +8,7 @@ use super::facts::{
 };
 use super::motion::frame_of;
 use super::network::{NetworkEvidence, Places};
+use super::network_model::{ModelFacts, measure_model};
 use super::network_seats::Seats;
 use super::surfaces::{LyingPart, Surfaces};
 use crate::base::units::MM3_PER_CM3;
@@ -32,6 +33,8 @@ pub struct NetworkFacts {
     pub too_large: Vec<String>,
     /// Faults of roots in their sockets and pegs in their mouths, in words.
     pub seat_faults: Vec<String>,
+    /// What is known of junctures that are pieces of a model; `None` if they are none.
+    pub model: Option<ModelFacts>,
     /// Pairs of bodies that come too near at a state, in words.
     pub too_near: Vec<String>,
     /// The greatest difference of a written motion from the judge's own, mm.
@@ -105,6 +108,7 @@ pub fn judge_network(evidence: &NetworkEvidence, watch: &Watch) -> Result<Networ
         above_plate_mm: surfaces.above_plate_mm,
         too_large: surfaces.too_large,
         seat_faults,
+        model: measure_model(evidence, watch)?,
         too_near: too_near(evidence, &bodies, watch)?,
         placement_error_mm: placement_error_mm(evidence),
         mass_g: volume * promise.material.density_g_cm3 / MM3_PER_CM3,

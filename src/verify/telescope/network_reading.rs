@@ -18,6 +18,7 @@ use super::reading::{
 use super::scene::network_scene_check;
 use crate::base::watch::Watch;
 use crate::geom::Vector;
+use crate::io::read_model;
 use crate::mesh::TriMesh;
 use crate::verify::kit_folder::{KitFolder, all_inside_kit};
 use crate::verify::{CERTIFICATE_FILE, CHECKLIST_FILE, KindJudgement, KitFolderError, SHEET_FILE};
@@ -79,6 +80,7 @@ fn read(folder: &KitFolder) -> Result<NetworkEvidence, TelescopeVerifyError> {
         parts
             .chain(junctures)
             .chain(promise.files.keys())
+            .chain(&promise.model)
             .chain(&curves),
     )?;
     if !curves.iter().all(|curve| promise.files.contains_key(curve)) {
@@ -107,7 +109,10 @@ fn read(folder: &KitFolder) -> Result<NetworkEvidence, TelescopeVerifyError> {
     };
     let junctures: Result<Vec<TriMesh>, KitFolderError> =
         promise.junctures.iter().map(juncture).collect();
+    let model = promise.model.as_ref();
+    let model = model.map(|file| read_model(&folder.path.join(file)));
     Ok(NetworkEvidence {
+        model: model.transpose().map_err(KitFolderError::from)?,
         junctures: junctures?,
         limbs,
         promise,

@@ -9,6 +9,9 @@ use crate::geom::{Frame, Point};
 /// Stations along a shell, and angles around it, at which its wall is measured.
 const STATIONS: usize = 9;
 const ANGLES: usize = 16;
+/// Share of a step by which rays are turned about the axis, so that none meets the edges of a
+/// straight tube exactly.
+const ASKEW: f64 = 0.37;
 /// Length that is not measured: behind the mouth, for its chamfer, and before the flange and the
 /// ring, which fill the overlap, mm.
 const BEHIND_MOUTH_MM: f64 = 2.0;
@@ -44,7 +47,7 @@ pub(super) fn measure(shell: &ShellMotion, body_mm: f64, body: &Body) -> ShellFa
         let share = station as f64 / (STATIONS - 1) as f64;
         let frame = shell.along(from + span * share);
         for angle in 0..ANGLES {
-            let turn = TAU * angle as f64 / ANGLES as f64;
+            let turn = TAU * (angle as f64 + ASKEW) / ANGLES as f64;
             let [radius_mm, wall_mm] = along_ray(body, &frame, turn, body_mm);
             facts.body_error_mm = facts.body_error_mm.max((radius_mm - body_mm).abs());
             facts.wall_mm = facts.wall_mm.min(wall_mm);

@@ -1,14 +1,14 @@
-//! The solids of junctures: balls along what stays solid, or hulls.
+//! The solids of junctures: balls along what stays solid, hulls, or pieces of the model.
 //!
 //! They are bored for the roots of their telescopes. A peg fits the mouth that carries them.
 
 use std::collections::BTreeSet;
 
+use super::ends::{last, on_root};
 use super::tree::Tree;
 use crate::geom::{Frame, Plane, Point, Vector};
-use crate::job::telescope::JunctureKind;
 use crate::mesh::primitives::ball;
-use crate::mesh::{ClipError, Csg, Solid};
+use crate::mesh::{ClipError, Csg, Solid, TriMesh};
 use crate::telescope::nest::Telescope;
 
 /// Subdivisions of balls: facets of the largest are a tenth of a mm off.
@@ -21,6 +21,8 @@ const COLLAR_WALLS: f64 = 2.0;
 const HELD_RADII: f64 = 0.6;
 /// Length ahead of a root's mouth that is bored for what comes out of it, in its radii.
 const CLEAR_RADII: f64 = 2.0;
+/// The same in a piece of the model, mm: it ends at the mouth.
+const CLEAR_IN_MODEL_MM: f64 = 1.0;
 /// Least radius of a ball, in walls: thinner ends snap.
 const LEAST_BALL_WALLS: f64 = 1.5;
 
@@ -31,34 +33,44 @@ struct Ball {
     radius_mm: f64,
 }
 
-/// Returns the solid of a juncture where it lies when all is out.
-pub fn body(tree: &Tree, juncture: usize, kind: JunctureKind) -> Result<Solid, ClipError> {
+/// Returns the solid of a juncture where it lies when all is out: balls, or a hull.
+pub fn body(tree: &Tree, juncture: usize, is_hull: bool) -> Result<Solid, ClipError> {
     let shape = Shape { tree, juncture };
     let mut whole = joined(&shape.links())?;
     if !shape.outgoing().is_empty() {
-        let holder = match kind {
-            JunctureKind::Ball => joined(&shape.collars())?,
-            JunctureKind::Hull => Csg::convex_hull(&shape.hull())?,
+        let holder = match is_hull {
+            false => joined(&shape.collars())?,
+            true => Csg::convex_hull(&shape.hull())?,
         };
         whole = whole.union(&holder)?;
     }
-    for limb in shape.outgoing() {
-        let telescope = &tree.network.limbs[limb].telescope;
-        let start = telescope.start;
-        let clear_mm = CLEAR_RADII * telescope.shells[0].body_mm;
-        let socket = telescope.socket(clear_mm)?.to_mesh()?;
-        let socket = Csg::of_mesh(&socket.map_vertices(|p| start.to_model(p)))?;
-        whole = whole.subtract(&socket)?;
-    }
+    let whole = shape.bored(whole, |root_mm| CLEAR_RADII * root_mm)?;
     let Some(parent) = shape.incoming() else {
         return largest(&whole)?.to_solid();
     };
-    let (frame, mouth) = last(parent);
+    let (_, mouth) = last(parent);
     let along: Vector = mouth.axes.column(0).into();
     let (ahead, _) = whole.split_by_plane(&Plane::through(&mouth.origin, &along))?;
+    largest(&pegged(&ahead, parent)?)?.to_solid()
+}
+
+/// Returns the solid of a juncture that is a piece of the model.
+pub fn body_of_model(tree: &Tree, juncture: usize, piece: &TriMesh) -> Result<Solid, ClipError> {
+    let shape = Shape { tree, juncture };
+    // Ahead of the mouth nothing of the piece is in the way, or the limb does not open.
+    let whole = shape.bored(Csg::of_mesh(piece)?, |_| CLEAR_IN_MODEL_MM)?;
+    let whole = match shape.incoming() {
+        Some(parent) => pegged(&whole, parent)?,
+        None => whole,
+    };
+    largest(&whole)?.to_solid()
+}
+
+/// Returns a body with the peg that fits the last mouth of a telescope.
+fn pegged(body: &Csg, parent: &Telescope) -> Result<Csg, ClipError> {
+    let (frame, _) = last(parent);
     let peg = parent.peg()?.to_mesh()?;
-    let peg = Csg::of_mesh(&peg.map_vertices(|p| frame.to_model(p)))?;
-    largest(&ahead.union(&peg)?)?.to_solid()
+    body.union(&Csg::of_mesh(&peg.map_vertices(|p| frame.to_model(p)))?)
 }
 
 /// Returns the greatest piece: what a cut leaves elsewhere is none of the juncture.
@@ -73,22 +85,6 @@ fn largest(whole: &Csg) -> Result<Csg, ClipError> {
     Ok(best.map_or_else(|| whole.clone(), |(_, piece)| piece))
 }
 
-/// Returns the frame of the last shell when all is out, and that of its mouth.
-pub fn last(telescope: &Telescope) -> (Frame, Frame) {
-    let frames = telescope.frames(&telescope.open());
-    let frame = frames.last().copied().unwrap_or(telescope.start);
-    let helix = &telescope.shells[telescope.shells.len() - 1].helix;
-    let mouth = frame.frame_to_model(&helix.frame_at(telescope.ends_mm()[1]));
-    (frame, mouth)
-}
-
-/// Returns the frame at an arc of the root, in the model's frame.
-fn on_root(telescope: &Telescope, arc_mm: f64) -> Frame {
-    telescope
-        .start
-        .frame_to_model(&telescope.shells[0].helix.frame_at(arc_mm))
-}
-
 /// The shape of a juncture.
 struct Shape<'a> {
     tree: &'a Tree<'a>,
@@ -96,6 +92,19 @@ struct Shape<'a> {
 }
 
 impl Shape<'_> {
+    /// Returns a body without the sockets of the roots. `clear_mm` tells from a root's radius how
+    /// far ahead of its mouth the body is cleared.
+    fn bored(&self, mut body: Csg, clear_mm: impl Fn(f64) -> f64) -> Result<Csg, ClipError> {
+        for limb in self.outgoing() {
+            let telescope = &self.tree.network.limbs[limb].telescope;
+            let start = telescope.start;
+            let socket = telescope.socket(clear_mm(telescope.shells[0].body_mm))?;
+            let socket = socket.to_mesh()?.map_vertices(|p| start.to_model(p));
+            body = body.subtract(&Csg::of_mesh(&socket)?)?;
+        }
+        Ok(body)
+    }
+
     fn outgoing(&self) -> Vec<usize> {
         let limbs = self.tree.network.limbs.iter().enumerate();
         let own = limbs.filter(|(_, limb)| limb.from == self.juncture);

@@ -10,10 +10,11 @@ use super::super::sheet::{checklist, leaning, material, printer, untried};
 use super::made::{Workshop, WrittenJuncture, prefix};
 use super::tree::Tree;
 use crate::base::digest::sha256_hex;
+use crate::base::numbers::measured_extent;
 use crate::base::units::MM3_PER_CM3;
 use crate::base::watch::Phase;
 use crate::geom::{Aabb, Point, Vector};
-use crate::io::PointsError;
+use crate::io::{PointsError, stl};
 use crate::mass::moments_of_mesh;
 use crate::mesh::TriMesh;
 use crate::printer::Support;
@@ -23,8 +24,8 @@ use crate::sheet::telescope::CurveRow;
 use crate::telescope::motion::Key;
 use crate::telescope::nest::JointState;
 use crate::verify::{
-    JuncturePromise, NetworkEvidence, NetworkKey, NetworkMotion, NetworkPromise, TelescopeEvidence,
-    asked_points, judge_network, network_checks,
+    JuncturePromise, MODEL_FILE, NetworkEvidence, NetworkKey, NetworkMotion, NetworkPromise,
+    TelescopeEvidence, asked_points, judge_network, network_checks,
 };
 use crate::wing::{Unwritable, json, read_back};
 
@@ -45,6 +46,8 @@ pub struct NetworkDraft {
     pub motion_json: String,
     /// The curve of each limb, asked and made.
     pub curves: Vec<String>,
+    /// The model in single precision, if junctures are pieces of it.
+    pub model_stl: Option<Vec<u8>>,
 }
 
 impl MadeNetwork<'_> {
@@ -124,6 +127,9 @@ pub fn draft(workshop: &Workshop, made: &MadeNetwork) -> Result<NetworkDraft, Te
         });
     }
     warnings.extend(round(workshop));
+    warnings.extend(too_large(workshop, made));
+    let skin = workshop.form.skin();
+    let model_stl = skin.map(|skin| stl::encode(skin.mesh(), &workshop.job.name()));
     let mut sheet = sheet(workshop, made, limbs)?;
     sheet.warnings = warnings;
     let motion = made.motion();
@@ -137,6 +143,7 @@ pub fn draft(workshop: &Workshop, made: &MadeNetwork) -> Result<NetworkDraft, Te
             .iter()
             .map(WrittenJuncture::in_model)
             .collect(),
+        model: model_stl.as_deref().map(stl::decode).transpose()?,
         promise,
     };
     let facts = judge_network(&evidence, workshop.watch)?;
@@ -150,6 +157,7 @@ pub fn draft(workshop: &Workshop, made: &MadeNetwork) -> Result<NetworkDraft, Te
         sheet,
         motion_json,
         curves,
+        model_stl,
     })
 }
 
@@ -202,6 +210,8 @@ fn sheet(
             length_mm: loaded.longest_mm,
         },
         glue_mm: first.least.glue_mm,
+        groove_mm: first.least.groove_mm(),
+        model: workshop.form.skin().map(|_| MODEL_FILE),
         junctures: made.junctures.iter().map(promise_of).collect(),
         juncture_rows: made
             .junctures
@@ -295,6 +305,28 @@ fn size_mm(made: &MadeNetwork, state: &[Key]) -> [f64; 3] {
 /// Returns the warning that junctures need support.
 fn round(workshop: &Workshop) -> Option<String> {
     let needs_support = workshop.shop.printer.support == Support::Breakaway;
-    let words = "Junctures are round: support them below, and in sockets that lie across.";
+    let words = match workshop.form.skin() {
+        Some(_) => {
+            "Junctures keep the model's surface: support what overhangs, and sockets that lie across."
+        }
+        None => "Junctures are round: support them below, and in sockets that lie across.",
+    };
     needs_support.then(|| words.to_owned())
+}
+
+/// Returns a warning for every juncture that the printer has no room for.
+fn too_large(workshop: &Workshop, made: &MadeNetwork) -> Vec<String> {
+    let warning = |own: &WrittenJuncture| {
+        let size_mm: [f64; 3] = own.read_back.aabb().size().into();
+        let is_too_large = workshop.shop.printer.fits(size_mm) == Some(false);
+        is_too_large.then(|| {
+            format!(
+                "{} is {}, larger than the printer's room, and junctures are not cut yet. Order a \
+                 smaller size, balls as junctures, or a larger printer.",
+                own.id,
+                measured_extent(&size_mm)
+            )
+        })
+    };
+    made.junctures.iter().filter_map(warning).collect()
 }

@@ -1,10 +1,13 @@
 //! The telescope of a limb: its curve, its order, its design.
 
-use super::plan::{Measures, Planned, at, tip_mm};
+use super::along::at;
+use super::plan::{Measures, Planned, tip_mm};
+use super::skin::Skin;
 use crate::base::units::Length;
 use crate::base::verdict::Verdict;
 use crate::base::watch::Watch;
 use crate::curve::Curve;
+use crate::geom::Point;
 use crate::job::telescope::{ShellCount, Stance, TelescopeJob, Twists};
 use crate::skeleton::Chain;
 use crate::telescope::fastened::Fastened;
@@ -17,6 +20,9 @@ use crate::telescope::prepare::load_skeleton::Shop;
 
 /// Points through which the curve of a limb is laid: nodes are noisy, so they are few.
 const CURVE_POINTS: usize = 10;
+/// The most by which a straight limb's curve is off its chord, as a share of it: less than the
+/// noise of nodes.
+const STRAIGHT_RATIO: f64 = 0.005;
 /// Edges on which corners are looked for.
 const CORNER_EDGES: usize = 240;
 /// Share of the root's radius by which the open limb may be off its curve.
@@ -29,6 +35,8 @@ const SHORTER: [f64; 3] = [1.0, 0.5, 0.0];
 const MOST_TILT_MM: f64 = 0.012;
 /// Radii of the root that are tried: shares of the greatest.
 const ROOTS: [f64; 3] = [1.0, 0.75, 0.55];
+/// The same in a model, whose wall around the root decides.
+const ROOTS_IN_MODEL: [f64; 5] = [1.0, 0.9, 0.8, 0.68, 0.55];
 
 /// The order of a limb.
 #[derive(Clone)]
@@ -64,6 +72,8 @@ pub struct Studio<'a> {
     pub job: &'a TelescopeJob,
     pub shop: &'a Shop,
     pub measures: Measures,
+    /// The model's surface, if junctures keep it.
+    pub skin: Option<&'a Skin<'a>>,
     pub watch: &'a Watch,
 }
 
@@ -82,7 +92,11 @@ impl Studio<'_> {
         };
         let most_off_mm = OFF_SHARE * planned.root_mm;
         let mut why = "no number of shells nests".to_owned();
-        for share in ROOTS {
+        let roots: &[f64] = match self.skin {
+            Some(_) => &ROOTS_IN_MODEL,
+            None => &ROOTS,
+        };
+        for share in roots {
             for shells in (2..=planned.shells).rev() {
                 let thinner = Planned {
                     shells,
@@ -92,11 +106,18 @@ impl Studio<'_> {
                 match self.nest(chain, &thinner, &curve)? {
                     Verdict::No(reason) => why = reason,
                     Verdict::Found(found) => {
-                        let off_mm = found.best.design.fit.deviation.max_mm;
-                        if off_mm <= most_off_mm {
+                        let design = &found.best.design;
+                        let off_mm = design.fit.deviation.max_mm;
+                        let fault = match off_mm <= most_off_mm {
+                            true => self.skin.and_then(|skin| skin.fault(&design.telescope)),
+                            false => {
+                                Some(format!("the best telescope found is {off_mm:.1} mm off it"))
+                            }
+                        };
+                        let Some(fault) = fault else {
                             return Ok(Verdict::Found(found));
-                        }
-                        why = format!("the best telescope found is {off_mm:.1} mm off it");
+                        };
+                        why = fault;
                         // Fewer shells are farther off.
                         break;
                     }
@@ -198,6 +219,27 @@ fn tilt_mm(telescope: &Telescope) -> f64 {
     tilts.fold(0.0, f64::max)
 }
 
+/// Returns points on their chord if they hardly leave it, else as they are.
+///
+/// Arcs of some hundred metres in radius bend by less than nodes are off. Their shells would have
+/// slivers, and would turn for nothing.
+fn straightened(points: Vec<Point>) -> Vec<Point> {
+    let (first, last) = (points[0], points[points.len() - 1]);
+    let chord = last - first;
+    let on_chord = |share: f64| first + chord * share;
+    let off_mm = points.iter().map(|p| {
+        let share = (p - first).dot(&chord) / chord.norm_squared().max(f64::MIN_POSITIVE);
+        (p - on_chord(share)).norm()
+    });
+    if off_mm.fold(0.0, f64::max) > STRAIGHT_RATIO * chord.norm() {
+        return points;
+    }
+    let steps = points.len() - 1;
+    (0..=steps)
+        .map(|i| on_chord(i as f64 / steps as f64))
+        .collect()
+}
+
 /// Returns the curve of a limb, from where its root begins.
 fn curve(chain: &Chain, planned: &Planned) -> Result<Curve, crate::curve::CurveError> {
     let span = chain.end_mm - planned.from_mm;
@@ -207,8 +249,8 @@ fn curve(chain: &Chain, planned: &Planned) -> Result<Curve, crate::curve::CurveE
             planned.from_mm + span * i as f64 / CURVE_POINTS as f64,
         )
     };
-    let points: Vec<_> = (0..=CURVE_POINTS).map(place).collect();
-    let curve = Curve::through(&points)?;
+    let points: Vec<Point> = (0..=CURVE_POINTS).map(place).collect();
+    let curve = Curve::through(&straightened(points))?;
     curve.refuse_corners(CORNER_EDGES)?;
     Ok(curve)
 }

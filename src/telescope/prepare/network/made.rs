@@ -6,12 +6,15 @@ use super::super::error::TelescopeRunError;
 use super::super::load_skeleton::{LoadedSkeleton, Shop};
 use super::super::made::{Made, Printing, make};
 use super::super::poses::{Laid, Lies, lay_juncture};
-use super::bodies::{body, last};
+use super::bodies::{body, body_of_model};
+use super::ends::last;
+use super::pieces::{NoPieces, pieces};
+use super::skin::Skin;
 use super::tree::Tree;
 use crate::base::verdict::Verdict;
 use crate::base::watch::{Phase, Watch};
 use crate::geom::{Vector, orthonormal_basis};
-use crate::job::telescope::{JunctureKind, TelescopeJob};
+use crate::job::telescope::TelescopeJob;
 use crate::mesh::{ClipError, Solid, TriMesh};
 use crate::verify::Pose;
 
@@ -34,11 +37,31 @@ impl WrittenJuncture {
     }
 }
 
+/// The shape of junctures.
+#[derive(Clone, Copy)]
+pub enum Form<'a> {
+    Balls,
+    Hulls,
+    /// Pieces of the model with this surface.
+    Model(&'a Skin<'a>),
+}
+
+impl<'a> Form<'a> {
+    /// Returns the model's surface, if junctures keep it.
+    pub fn skin(self) -> Option<&'a Skin<'a>> {
+        match self {
+            Self::Model(skin) => Some(skin),
+            Self::Balls | Self::Hulls => None,
+        }
+    }
+}
+
 /// Everything for the making of a network.
 pub struct Workshop<'a> {
     pub job: &'a TelescopeJob,
     pub shop: &'a Shop,
     pub loaded: &'a LoadedSkeleton,
+    pub form: Form<'a>,
     pub watch: &'a Watch,
 }
 
@@ -59,14 +82,29 @@ impl Workshop<'_> {
         Ok(Verdict::Found(all))
     }
 
-    /// Makes the junctures.
-    pub fn junctures(&self, tree: &Tree) -> Result<Vec<WrittenJuncture>, TelescopeRunError> {
+    /// Cuts the model into the pieces of its junctures; there are none of other forms.
+    pub fn pieces(&self, tree: &Tree) -> Result<Result<Vec<TriMesh>, NoPieces>, TelescopeRunError> {
+        match self.form.skin() {
+            Some(skin) => Ok(pieces(tree, skin, self.watch)?),
+            None => Ok(Ok(Vec::new())),
+        }
+    }
+
+    /// Makes the junctures; `pieces` are those of the model.
+    pub fn junctures(
+        &self,
+        tree: &Tree,
+        pieces: &[TriMesh],
+    ) -> Result<Vec<WrittenJuncture>, TelescopeRunError> {
         self.watch.enter(Phase::Parts);
-        let kind = self.job.junctures.unwrap_or(JunctureKind::Ball);
         let count = 0..tree.network.junctures;
         let solids: Vec<Solid> = count
             .into_par_iter()
-            .map(|juncture| body(tree, juncture, kind))
+            .map(|juncture| match self.form {
+                Form::Balls => body(tree, juncture, false),
+                Form::Hulls => body(tree, juncture, true),
+                Form::Model(_) => body_of_model(tree, juncture, &pieces[juncture]),
+            })
             .collect::<Result<_, ClipError>>()?;
         let printing = Printing {
             shop: self.shop,

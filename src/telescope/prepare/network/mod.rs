@@ -4,20 +4,25 @@
 //! juncture it grows from, and its last shell carries the next juncture on a peg. A limb that
 //! cannot be made stays solid, and the search begins again without it.
 
+mod along;
 mod bodies;
 mod draft;
+mod ends;
 mod film;
 mod limb;
 mod made;
 mod papers;
+mod pieces;
 mod plan;
+mod skin;
 mod sweep;
 mod tree;
 
 use self::draft::{MadeNetwork, draft};
 use self::limb::Studio;
-use self::made::Workshop;
+use self::made::{Form, Workshop};
 use self::plan::Measures;
+use self::skin::Skin;
 use self::sweep::{Bodies, Hit, Item};
 use self::tree::{Kept, Search, Tree};
 use super::advise::Tried;
@@ -28,7 +33,7 @@ use crate::base::setting::{Key, Setting};
 use crate::base::units::Length;
 use crate::base::verdict::Verdict;
 use crate::base::watch::Watch;
-use crate::job::telescope::{ShellCount, Stance, TelescopeJob};
+use crate::job::telescope::{JunctureKind, ShellCount, Stance, TelescopeJob};
 use crate::mesh::TriMesh;
 use crate::sheet::network::NetworkSheet;
 use crate::skeleton::ShellSizes;
@@ -48,13 +53,20 @@ pub fn prepare(
     if job.shells == ShellCount::Given(1) {
         return Err(TelescopeRunError::OneShell);
     }
-    let studio = studio(job, shop, loaded, watch)?;
+    let skin = skin(job, loaded)?;
+    let form = match (&skin, job.junctures) {
+        (Some(skin), _) => Form::Model(skin),
+        (None, Some(JunctureKind::Hull)) => Form::Hulls,
+        (None, _) => Form::Balls,
+    };
     let workshop = Workshop {
         job,
         shop,
         loaded,
+        form,
         watch,
     };
+    let studio = studio(&workshop)?;
     let mut search = search(&studio, loaded);
     loop {
         let round = match search.find()? {
@@ -72,9 +84,37 @@ pub fn prepare(
                 let prepared = papers::finish(&workshop, &made, draft)?;
                 return Ok(Outcome::Prepared(Box::new(prepared)));
             }
-            Verdict::No((limb, why)) => search.keep(Search::nodes_of(&round, limb), why),
+            Verdict::No(barred) => {
+                let is_shorter = barred.by_end && search.shorten_limb(&round, barred.limb);
+                if !is_shorter {
+                    search.keep(Search::nodes_of(&round, barred.limb), barred.why);
+                }
+            }
         }
     }
+}
+
+/// Returns the model's surface if junctures keep it: as ordered, or as is usual for a model.
+fn skin<'a>(
+    job: &TelescopeJob,
+    loaded: &'a LoadedSkeleton,
+) -> Result<Option<Skin<'a>>, TelescopeRunError> {
+    match (job.junctures, &loaded.solid) {
+        (Some(JunctureKind::Model) | None, Some(solid)) => Ok(Some(Skin::new(solid))),
+        (Some(kind @ JunctureKind::Model), None) => {
+            let setting = Setting::new(Key::Junctures, kind);
+            Err(TelescopeRunError::NoModel(setting))
+        }
+        _ => Ok(None),
+    }
+}
+
+/// A limb that cannot be made, from 0, and why.
+struct Barred {
+    limb: usize,
+    why: String,
+    /// True if what it carries is in the way, so that it may end earlier.
+    by_end: bool,
 }
 
 /// Makes the parts of a network and finds a sequence that is free; else names the limb to keep
@@ -83,12 +123,21 @@ fn attempt<'a>(
     workshop: &Workshop,
     tree: Tree<'a>,
     kept: &[Kept],
-) -> Result<Verdict<MadeNetwork<'a>, (usize, String)>, TelescopeRunError> {
+) -> Result<Verdict<MadeNetwork<'a>, Barred>, TelescopeRunError> {
+    let barred = |limb: usize, why: String| Barred {
+        limb,
+        why,
+        by_end: false,
+    };
+    let pieces = match workshop.pieces(&tree)? {
+        Ok(pieces) => pieces,
+        Err((limb, why)) => return Ok(Verdict::No(barred(limb, why))),
+    };
     let limbs = match workshop.limbs(&tree)? {
         Verdict::Found(limbs) => limbs,
-        Verdict::No(refused) => return Ok(Verdict::No((refused.limb, refused.why))),
+        Verdict::No(refused) => return Ok(Verdict::No(barred(refused.limb, refused.why))),
     };
-    let junctures = workshop.junctures(&tree)?;
+    let junctures = workshop.junctures(&tree, &pieces)?;
     let meshes: Vec<TriMesh> = junctures.iter().map(|own| own.in_model()).collect();
     let refs: Vec<_> = limbs.iter().collect();
     let bodies = Bodies::new(&tree.network, &refs, meshes);
@@ -103,8 +152,13 @@ fn attempt<'a>(
             sequence,
         })),
         Err(hit) => {
+            let end = Item::Juncture(tree.network.limbs[hit.limb].to);
+            let by_end = workshop.form.skin().is_some() && hit.items.contains(&end);
             let why = hit_words(&tree, &hit);
-            Ok(Verdict::No((hit.limb, why)))
+            Ok(Verdict::No(Barred {
+                by_end,
+                ..barred(hit.limb, why)
+            }))
         }
     }
 }
@@ -128,13 +182,9 @@ fn hit_words(tree: &Tree, hit: &Hit) -> String {
 }
 
 /// Returns the measures for the limbs of a skeleton.
-fn studio<'a>(
-    job: &'a TelescopeJob,
-    shop: &'a Shop,
-    loaded: &LoadedSkeleton,
-    watch: &'a Watch,
-) -> Result<Studio<'a>, TelescopeRunError> {
-    let basics = basics(job, shop, loaded.longest_mm)?;
+fn studio<'a>(workshop: &Workshop<'a>) -> Result<Studio<'a>, TelescopeRunError> {
+    let (job, shop) = (workshop.job, workshop.shop);
+    let basics = basics(job, shop, workshop.loaded.longest_mm)?;
     let measures = Measures {
         least: basics.least,
         tip_mm: basics.tip_mm,
@@ -149,7 +199,8 @@ fn studio<'a>(
         job,
         shop,
         measures,
-        watch,
+        skin: workshop.form.skin(),
+        watch: workshop.watch,
     })
 }
 
@@ -176,6 +227,7 @@ fn search<'a>(studio: &'a Studio<'a>, loaded: &LoadedSkeleton) -> Search<'a> {
         kept: kept.collect(),
         skeleton,
         ends: Vec::new(),
+        cut_ends: Vec::new(),
         known: Vec::new(),
     }
 }

@@ -25,7 +25,7 @@ use crate::sheet::telescope::ShellRow;
 use crate::telescope::motion::Key;
 use crate::telescope::prepare::made::from_print;
 use crate::verify::{
-    CERTIFICATE_FILE, MODEL_FOLDER, MOTION_FILE, MOTION_SCENE_FILE, Pose, SHEET_FILE,
+    CERTIFICATE_FILE, MODEL_FILE, MODEL_FOLDER, MOTION_FILE, MOTION_SCENE_FILE, Pose, SHEET_FILE,
     limb_curve_file,
 };
 use crate::wing::{Papers, Prepared, Unwritable};
@@ -59,6 +59,9 @@ pub fn finish(
     kit.add(MOTION_FILE, draft.motion_json.into_bytes());
     let scene = motion_scene(&workshop.job.name(), &moving)?;
     kit.add(MOTION_SCENE_FILE, scene);
+    if let Some(model) = draft.model_stl {
+        kit.add(MODEL_FILE, model);
+    }
     for (limb, curve) in draft.sheet.limbs.iter().zip(draft.curves) {
         kit.add(&limb_curve_file(&limb.id), curve.into_bytes());
     }

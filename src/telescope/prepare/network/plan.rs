@@ -1,6 +1,8 @@
 //! The plan of a limb: its number of shells, and the depth of its root in its juncture.
 
-use crate::geom::{Point, Vector};
+use super::along::{at, radius_mm};
+use super::skin::Skin;
+use crate::geom::Point;
 use crate::skeleton::{Chain, Limbs, Skeleton};
 use crate::telescope::sizes::JointSizes;
 
@@ -12,6 +14,8 @@ const TIP_SHARE: f64 = 0.85;
 const STAGE_RATIO: f64 = 1.6;
 /// The most shells of a limb if nothing else is said: with more there are too many parts to glue.
 const MOST_AUTO: usize = 5;
+/// Share of the longest stroke that fewer shells must have.
+const STROKE_SHARE: f64 = 0.9;
 /// Share of a stage that stays inside, so that it does not wobble.
 const OVERLAP_SHARE: f64 = 0.3;
 /// Room for walls that grow by misfit, mm.
@@ -57,6 +61,14 @@ pub struct Measures {
     pub solid_mm: f64,
 }
 
+/// What limbs are planned in.
+pub struct Ground<'a> {
+    pub skeleton: &'a Skeleton,
+    pub measures: &'a Measures,
+    /// The model's surface, if junctures keep it.
+    pub skin: Option<&'a Skin<'a>>,
+}
+
 /// A tube that lies in a juncture: points of its axis, and its radius.
 struct Tube {
     axis: Vec<Point>,
@@ -64,11 +76,12 @@ struct Tube {
 }
 
 /// Plans every limb; the error names the first that gets none, by its index, with the reason.
-pub fn plan(
-    limbs: &Limbs,
-    skeleton: &Skeleton,
-    measures: &Measures,
-) -> Result<Vec<Planned>, (usize, String)> {
+pub fn plan(limbs: &Limbs, ground: &Ground) -> Result<Vec<Planned>, (usize, String)> {
+    let Ground {
+        skeleton,
+        measures,
+        skin,
+    } = *ground;
     let mut planned: Vec<Option<Planned>> = vec![None; limbs.chains.len()];
     for juncture in 0..limbs.junctures.len() {
         let mut tubes: Vec<Tube> = limbs.junctures[juncture]
@@ -86,26 +99,32 @@ pub fn plan(
         });
         let balls = balls(limbs, skeleton, juncture);
         for (index, chain) in own {
-            let shells = count(chain, measures).map_err(|why| (index, why))?;
-            let place = Place {
+            let most = count(chain, measures).map_err(|why| (index, why))?;
+            let place = |shells: usize| Place {
                 chain,
                 measures,
                 shells,
                 balls: &balls,
+                skin,
             };
-            let Some((found, tube)) = place.free(&tubes) else {
-                let why = "its root meets another in their juncture".to_owned();
-                return Err((index, why));
+            // In the model the root may have to be thinner, and then fewer shells fit.
+            let fewest = skin.map_or(most, |_| 2);
+            let mut counts = (fewest..=most).rev();
+            let Some((found, tube)) = counts.find_map(|shells| place(shells).free(&tubes)) else {
+                let why = match skin {
+                    Some(_) => {
+                        "no place for its root: a wall would be too thin, another root too \
+                                near, or no cut across it alone"
+                    }
+                    None => "its root meets another in their juncture",
+                };
+                return Err((index, why.to_owned()));
             };
             tubes.push(tube);
             planned[index] = Some(found);
         }
     }
     Ok(planned.into_iter().flatten().collect())
-}
-
-fn radius_mm(chain: &Chain) -> f64 {
-    chain.radius_at_mm(chain.start_mm)
 }
 
 /// Returns the nodes of a juncture with their balls.
@@ -145,8 +164,28 @@ fn count(chain: &Chain, measures: &Measures) -> Result<usize, String> {
     match (by_radius, by_length) {
         (0 | 1, _) => Err(words("thin")),
         (_, 0 | 1) => Err(words("short")),
-        (by_radius, by_length) => Ok(wanted.min(by_radius).min(by_length).max(2)),
+        (by_radius, by_length) => {
+            let most = wanted.min(by_radius).min(by_length).max(2);
+            let is_free = measures.shells.is_none();
+            Ok(if is_free {
+                worthwhile(chain.free_mm(), least.closed_mm(), most)
+            } else {
+                most
+            })
+        }
     }
+}
+
+/// Returns the fewest shells whose stroke is nearly the greatest of up to so many. More of them are
+/// thinner, and more parts to glue.
+///
+/// On a length l, n shells that stand out by c each when all in have a stroke of (n − 1)(l/n − c).
+fn worthwhile(length_mm: f64, closed_mm: f64, most: usize) -> usize {
+    let stroke_mm = |n: usize| (n - 1) as f64 * (length_mm / n as f64 - closed_mm);
+    let longest_mm = (2..=most).map(stroke_mm).fold(0.0, f64::max);
+    let mut counts = 2..=most;
+    let is_worth = |n: &usize| stroke_mm(*n) >= STROKE_SHARE * longest_mm;
+    counts.find(is_worth).unwrap_or(most)
 }
 
 fn root_mm(chain: &Chain, measures: &Measures) -> f64 {
@@ -168,18 +207,23 @@ struct Place<'a> {
     measures: &'a Measures,
     shells: usize,
     balls: &'a [(Point, f64)],
+    skin: Option<&'a Skin<'a>>,
 }
 
 impl Place<'_> {
     /// Returns the deepest place in which the root meets nothing, with the tube that it takes.
     fn free(&self, tubes: &[Tube]) -> Option<(Planned, Tube)> {
-        let root_mm = root_mm(self.chain, self.measures);
         let found = self.places().into_iter().find_map(|from_mm| {
+            let root_mm = self.root_mm(from_mm)?;
             let tube = self.tube(from_mm, root_mm);
-            let is_free = self.is_inside(from_mm, &tube) && self.is_apart(&tube, tubes);
-            is_free.then_some((from_mm, tube))
+            let is_held = match self.skin {
+                Some(skin) => self.is_cut(from_mm, skin),
+                None => self.is_inside(from_mm, &tube),
+            };
+            let is_free = is_held && self.is_apart(&tube, tubes);
+            is_free.then_some((from_mm, root_mm, tube))
         });
-        let (from_mm, tube) = found?;
+        let (from_mm, root_mm, tube) = found?;
         let planned = Planned {
             nodes: self.chain.nodes.clone(),
             shells: self.shells,
@@ -189,6 +233,31 @@ impl Place<'_> {
             overlap_mm: self.overlap_mm(from_mm),
         };
         Some((planned, tube))
+    }
+
+    /// Returns the radius that the root may have in a place, mm; `None` if too little for its
+    /// shells.
+    ///
+    /// In the model it takes what the walls leave; in other junctures its share of the limb.
+    fn root_mm(&self, from_mm: f64) -> Option<f64> {
+        let least = &self.measures.least;
+        let Some(skin) = self.skin else {
+            return Some(root_mm(self.chain, self.measures));
+        };
+        let axis = self.tube(from_mm, 0.0).axis;
+        let room_mm = skin.room_mm(&axis) - least.wall_mm - least.glue_mm;
+        let root_mm = room_mm.min(self.measures.root_mm);
+        let nested_mm = (self.shells - 1) as f64 * least.pitch_mm();
+        (root_mm >= self.measures.tip_mm + MISFIT_MM + nested_mm).then_some(root_mm)
+    }
+
+    /// Returns true if the model can be cut across the branch alone at the root's mouth.
+    fn is_cut(&self, from_mm: f64, skin: &Skin) -> bool {
+        let mouth_mm = from_mm + self.visible_mm(from_mm) + 0.5 * self.overlap_mm(from_mm);
+        let step_mm = self.measures.tip_mm;
+        let [behind, mouth, ahead] =
+            [mouth_mm - step_mm, mouth_mm, mouth_mm + step_mm].map(|arc| at(self.chain, arc));
+        skin.ring_across(&mouth, &(ahead - behind)).is_some()
     }
 
     /// Returns where the root may begin, the deepest first.
@@ -264,31 +333,17 @@ impl Place<'_> {
     }
 }
 
-/// Returns the point of a limb at an arc length; behind its juncture's ball it goes on straight.
-pub fn at(chain: &Chain, arc_mm: f64) -> Point {
-    if arc_mm >= chain.start_mm {
-        return on_nodes(chain, arc_mm);
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_short_limb_gets_fewer_shells_if_more_would_hardly_come_out_farther() {
+        // On 40 mm four shells come out by 16.2 mm, three by 17.5 mm, two by 15.4 mm.
+        assert_eq!(worthwhile(40.0, 4.6, 4), 3);
+        // On 30 mm three come out by 10.8 mm, two by 10.4 mm.
+        assert_eq!(worthwhile(30.0, 4.6, 4), 2);
+        // On 140 mm five come out by 93.6 mm, four by 91.2 mm, three by 84.1 mm.
+        assert_eq!(worthwhile(140.0, 4.6, 5), 4);
     }
-    let from = on_nodes(chain, chain.start_mm);
-    from - direction(chain) * (chain.start_mm - arc_mm)
-}
-
-/// Returns the direction in which a limb leaves its juncture.
-///
-/// It is taken over one radius, so that a bend of the skeleton within it does not count.
-pub fn direction(chain: &Chain) -> Vector {
-    let reach_mm = radius_mm(chain).min(0.5 * chain.free_mm());
-    let from = on_nodes(chain, chain.start_mm);
-    let ahead = on_nodes(chain, chain.start_mm + reach_mm) - from;
-    ahead.try_normalize(0.0).unwrap_or_else(Vector::z)
-}
-
-/// Returns the point of the line through the nodes at an arc length; beyond its end it goes on.
-fn on_nodes(chain: &Chain, arc_mm: f64) -> Point {
-    let arcs = chain.arcs_mm();
-    let after = arcs.partition_point(|arc| *arc <= arc_mm);
-    let edge = after.clamp(1, arcs.len() - 1) - 1;
-    let span = (arcs[edge + 1] - arcs[edge]).max(f64::MIN_POSITIVE);
-    let share = (arc_mm - arcs[edge]) / span;
-    chain.points[edge] + (chain.points[edge + 1] - chain.points[edge]) * share
 }

@@ -2,7 +2,7 @@
 
 use super::super::error::TelescopeRunError;
 use super::limb::{Designed, Studio};
-use super::plan::{Planned, plan};
+use super::plan::{Ground, Planned, plan};
 use crate::base::verdict::Verdict;
 use crate::base::watch::Phase;
 use crate::skeleton::{Chain, Limbs, NotATree, ShellSizes, Skeleton, StaysSolid};
@@ -52,6 +52,8 @@ pub struct Search<'a> {
     pub kept: Vec<Kept>,
     /// Limbs that end earlier than their skeleton, each by its nodes and where it ends, mm.
     pub ends: Vec<(Vec<usize>, f64)>,
+    /// Where limbs end in the model, mm, as found before.
+    pub cut_ends: Vec<(Chain, f64)>,
     /// Limbs that were designed before, with how they were planned.
     pub known: Vec<(Planned, Designed)>,
 }
@@ -72,6 +74,7 @@ impl Search<'_> {
                 Ok(limbs) => limbs,
                 Err(rings) => return Ok(Err(rings)),
             };
+            self.end_in_model(&mut limbs);
             for chain in &mut limbs.chains {
                 let own = self
                     .ends
@@ -83,7 +86,12 @@ impl Search<'_> {
             if limbs.chains.is_empty() {
                 return Ok(Ok(None));
             }
-            match plan(&limbs, &self.skeleton, &self.studio.measures) {
+            let ground = Ground {
+                skeleton: &self.skeleton,
+                measures: &self.studio.measures,
+                skin: self.studio.skin,
+            };
+            match plan(&limbs, &ground) {
                 Err((index, why)) => self.keep(&limbs.chains[index].nodes, why),
                 Ok(plans) => {
                     if self.design(&limbs, &plans)? {
@@ -91,6 +99,23 @@ impl Search<'_> {
                     }
                 }
             }
+        }
+    }
+
+    /// Ends limbs where the model is to be cut, if junctures keep its surface.
+    fn end_in_model(&mut self, limbs: &mut Limbs) {
+        let Some(skin) = self.studio.skin else { return };
+        for chain in &mut limbs.chains {
+            let mut known = self.cut_ends.iter();
+            let known = known.find(|(own, _)| own == chain).map(|(_, end)| *end);
+            let end_mm = known.unwrap_or_else(|| {
+                let found = skin.end_mm(chain, &self.skeleton);
+                // A branch that can be cut nowhere is refused when its root is placed.
+                let end_mm = found.unwrap_or(chain.end_mm);
+                self.cut_ends.push((chain.clone(), end_mm));
+                end_mm
+            });
+            chain.end_mm = end_mm;
         }
     }
 
@@ -134,6 +159,11 @@ impl Search<'_> {
             return Ok(false);
         }
         Ok(true)
+    }
+
+    /// Lets the limb of a round end earlier, as [`Self::shorten`] does.
+    pub fn shorten_limb(&mut self, round: &Round, limb: usize) -> bool {
+        self.shorten(&round.limbs.chains[limb])
     }
 
     /// Lets a limb end earlier; what bends at its end, as a foot does, stays solid. It is false if

@@ -213,7 +213,7 @@ fn spreads_that_miss_along_other_edges_tell_of_no_scale() {
             spread_ratio,
             ..part.clone()
         };
-        super::super::causes::is_scaled(&part, &evidence.promise)
+        causes::is_scaled(&part, &evidence.promise)
     };
     let shrunk = [0.985, 1.0, 1.0];
     assert!(is_scaled(shrunk, [0.985, 1.0, 1.0]));

@@ -1,0 +1,279 @@
+//! Junctures that are pieces of a model: what lies on its surface, what of it is lost, and the wall
+//! around every root.
+
+use std::collections::BTreeMap;
+use std::f64::consts::TAU;
+
+use rayon::prelude::*;
+
+use super::motion::{ShellMotion, frame_of};
+use super::network::NetworkEvidence;
+use crate::base::watch::{Cancelled, Watch};
+use crate::geom::{Frame, Point};
+use crate::mesh::union_find::UnionFind;
+use crate::mesh::{MeshDistance, TriMesh};
+use crate::repair::weld;
+use crate::verify::cover::{Lie, ON_SHEET_MM, Sheet, Sheets, Whose};
+
+/// By how much a point may be beside a plane, a bore or a peg, mm: facets and rounding.
+const BESIDE_MM: f64 = 0.01;
+/// Depth below a root's tail that its bore may take, mm.
+const BELOW_TAIL_MM: f64 = 1.0;
+/// Length before a root's mouth in which its bore may widen to a rim, mm.
+const RIM_MM: f64 = 0.5;
+/// Stations along a bore, and angles around it, at which the wall is measured.
+const STATIONS: usize = 24;
+const ANGLES: usize = 24;
+/// Steps in which the nearest place of an axis is looked for, and refined.
+const STEPS: usize = 32;
+const REFINED: usize = 6;
+
+/// The facts about junctures that are pieces of a model.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ModelFacts {
+    /// Junctures with triangles that lie neither on the model, nor in a cut, a bore or a peg.
+    pub off: Vec<String>,
+    /// Places of the model that no juncture has, though no limb replaces them.
+    pub lost: Vec<String>,
+    /// The least wall around a root in its juncture, mm, with the name of the limb.
+    pub wall: Option<(f64, String)>,
+}
+
+/// Measures the junctures against the model; `None` if the kit has none.
+pub(super) fn measure_model(
+    evidence: &NetworkEvidence,
+    watch: &Watch,
+) -> Result<Option<ModelFacts>, Cancelled> {
+    let Some(model) = &evidence.model else {
+        return Ok(None);
+    };
+    let model = weld(model);
+    let ends: Vec<Ends> = (0..evidence.limbs.len())
+        .map(|limb| Ends::of(evidence, limb))
+        .collect();
+    watch.check()?;
+    let off = off_model(evidence, &model, &ends);
+    watch.check()?;
+    let lost = lost(evidence, &model, &ends);
+    watch.check()?;
+    let distance = MeshDistance::new(&model);
+    let walls = ends.iter().zip(&evidence.promise.limbs);
+    let walls = walls.map(|(ends, limb)| (ends.wall_mm(&distance), limb.id.clone()));
+    Ok(Some(ModelFacts {
+        off,
+        lost,
+        wall: walls.min_by(|a, b| a.0.total_cmp(&b.0)),
+    }))
+}
+
+fn sheets_of<'a>(meshes: impl Iterator<Item = &'a TriMesh>) -> Sheets {
+    let whose = Whose::Any;
+    let corners = meshes.flat_map(TriMesh::iter_corners);
+    Sheets::new(corners.map(|corners| Sheet { corners, whose }).collect())
+}
+
+/// Returns the junctures that are off the model, each with a place.
+fn off_model(evidence: &NetworkEvidence, model: &TriMesh, ends: &[Ends]) -> Vec<String> {
+    let sheets = sheets_of([model].into_iter());
+    let junctures = evidence.promise.junctures.iter().zip(&evidence.junctures);
+    let found = junctures.enumerate().filter_map(|(index, (own, mesh))| {
+        let is_made = |corners: &[Point; 3]| {
+            let mut limbs = evidence.promise.limbs.iter().zip(ends);
+            limbs.any(|(limb, ends)| {
+                let as_root = limb.from == index + 1 && ends.is_in_root(corners);
+                as_root || (limb.to == index + 1 && ends.is_on_last(corners))
+            })
+        };
+        let corners: Vec<[Point; 3]> = mesh.iter_corners().collect();
+        let off = corners.par_iter().map(|corners| {
+            if is_made(corners) {
+                return None;
+            }
+            match sheets.lie(corners, None) {
+                Lie::On(_) => None,
+                Lie::Off(at) => Some(at),
+            }
+        });
+        let off: Vec<Point> = off.collect::<Vec<_>>().into_iter().flatten().collect();
+        let first = off.first()?;
+        Some(format!(
+            "{} in {} triangles, the first at {}",
+            own.id,
+            off.len(),
+            place(first)
+        ))
+    });
+    found.collect()
+}
+
+/// Returns the patches of the model that are lost, each with a place.
+///
+/// A limb replaces a band of the model from its root's mouth to its last one. Every patch that no
+/// juncture has must be such a band.
+fn lost(evidence: &NetworkEvidence, model: &TriMesh, ends: &[Ends]) -> Vec<String> {
+    let sheets = sheets_of(evidence.junctures.iter());
+    let bare = model.triangles().par_iter().enumerate();
+    let bare = bare.map(|(index, triangle)| {
+        let lies = sheets.lie(&model.corners(index), None);
+        matches!(lies, Lie::Off(_)).then_some(*triangle)
+    });
+    let bare: Vec<[u32; 3]> = bare.collect::<Vec<_>>().into_iter().flatten().collect();
+    let mut sets = UnionFind::new(model.vertices().len());
+    for [a, b, c] in &bare {
+        sets.merge(*a, *b);
+        sets.merge(*b, *c);
+    }
+    let mut patches: BTreeMap<u32, Vec<Point>> = BTreeMap::new();
+    for vertex in bare.iter().flatten() {
+        let patch = patches.entry(sets.root(*vertex)).or_default();
+        patch.push(model.vertices()[*vertex as usize]);
+    }
+    let lost = patches
+        .into_values()
+        .filter(|patch| !ends.iter().any(|ends| ends.reaches_both(patch)));
+    lost.map(|patch| format!("{} corners around {}", patch.len(), place(&patch[0])))
+        .collect()
+}
+
+fn place(p: &Point) -> String {
+    format!("{:.1},{:.1},{:.1} mm", p.x, p.y, p.z)
+}
+
+/// The ends of a limb where they are when all is out.
+struct Ends<'a> {
+    root: Frame,
+    first: &'a ShellMotion,
+    /// The frames at the root's tail and at its mouth.
+    root_tail: Frame,
+    root_mouth: Frame,
+    last: Frame,
+    last_shell: &'a ShellMotion,
+    /// The frame at the last mouth.
+    last_mouth: Frame,
+    /// Radius of the last body, mm.
+    last_mm: f64,
+    /// Radius of the bore, mm.
+    bore_mm: f64,
+    /// Depth of the groove beside it, mm.
+    groove_mm: f64,
+}
+
+impl<'a> Ends<'a> {
+    fn of(evidence: &'a NetworkEvidence, limb: usize) -> Self {
+        let motion = &evidence.motion.limbs[limb];
+        let sheet = &evidence.promise.limbs[limb].sheet;
+        let open = motion.joints.iter();
+        let open: Vec<[f64; 2]> = open.map(|joint| [joint.open_mm, joint.turn_rad]).collect();
+        let root = frame_of(&motion.root);
+        let last = motion.frames(&open).last().copied().unwrap_or(root);
+        let (first, last_shell) = (&motion.shells[0], &motion.shells[motion.shells.len() - 1]);
+        let body_mm = |shell: usize| {
+            let mut tubes = sheet.parts.iter().filter(|part| part.is_tube);
+            let own = tubes.find(|part| part.shell == shell);
+            own.map_or(0.0, |part| part.body_mm)
+        };
+        let bore_mm = body_mm(1) + evidence.promise.glue_mm;
+        let last_mm = body_mm(motion.shells.len());
+        Self {
+            root_tail: root.frame_to_model(&first.along(first.ends_mm[0])),
+            root_mouth: root.frame_to_model(&first.along(first.ends_mm[1])),
+            last_mouth: last.frame_to_model(&last_shell.along(last_shell.ends_mm[1])),
+            root,
+            first,
+            last,
+            last_shell,
+            last_mm,
+            bore_mm,
+            groove_mm: evidence.promise.groove_mm,
+        }
+    }
+
+    /// Returns true if a triangle lies in the cut at the root's mouth, or in its bore.
+    fn is_in_root(&self, corners: &[Point; 3]) -> bool {
+        let [tail_mm, mouth_mm] = self.first.ends_mm;
+        let bore = Within {
+            arcs_mm: [tail_mm - BELOW_TAIL_MM, mouth_mm],
+            radius_mm: self.bore_mm + self.groove_mm,
+        };
+        is_on_plane(&self.root_mouth, corners)
+            || corners.iter().all(|p| {
+                let local = self.root.to_local(p);
+                self.is_below_tail(p) || is_about(self.first, &local, &bore)
+            })
+    }
+
+    /// Returns true if a point lies in the room at a root's tail, which is straight.
+    fn is_below_tail(&self, p: &Point) -> bool {
+        let local = self.root_tail.to_local(p);
+        let is_there = local.x.abs() <= BELOW_TAIL_MM + BESIDE_MM;
+        is_there && local.y.hypot(local.z) <= self.bore_mm + self.groove_mm + BESIDE_MM
+    }
+
+    /// Returns true if a triangle lies in the cut at the last mouth, or on the peg in it.
+    fn is_on_last(&self, corners: &[Point; 3]) -> bool {
+        let peg = Within {
+            arcs_mm: self.last_shell.ends_mm,
+            radius_mm: self.last_mm,
+        };
+        is_on_plane(&self.last_mouth, corners)
+            || corners.iter().all(|p| {
+                let local = self.last.to_local(p);
+                is_about(self.last_shell, &local, &peg)
+            })
+    }
+
+    /// Returns true if points reach from behind the root's mouth to ahead of the last one.
+    fn reaches_both(&self, points: &[Point]) -> bool {
+        let behind = |p: &Point| self.root_mouth.to_local(p).x <= ON_SHEET_MM;
+        let ahead = |p: &Point| self.last_mouth.to_local(p).x >= -ON_SHEET_MM;
+        points.iter().any(behind) && points.iter().any(ahead)
+    }
+
+    /// Returns the least depth of the bore below the model's surface, mm.
+    fn wall_mm(&self, model: &MeshDistance) -> f64 {
+        let [tail_mm, mouth_mm] = self.first.ends_mm;
+        let from_mm = tail_mm - BELOW_TAIL_MM;
+        let span_mm = mouth_mm - RIM_MM - from_mm;
+        let depths = (0..=STATIONS).flat_map(|i| {
+            let arc_mm = from_mm + span_mm * i as f64 / STATIONS as f64;
+            let frame = self.root.frame_to_model(&self.first.along(arc_mm));
+            let at = move |turn_rad: f64, radius_mm: f64| {
+                let (sin, cos) = turn_rad.sin_cos();
+                frame.to_model(&Point::new(0.0, radius_mm * cos, radius_mm * sin))
+            };
+            let bore_mm = self.bore_mm;
+            let around = (0..ANGLES).map(move |i| at(TAU * i as f64 / ANGLES as f64, bore_mm));
+            around.chain([at(0.0, bore_mm + self.groove_mm)])
+        });
+        depths
+            .map(|p| model.signed(&p))
+            .fold(f64::INFINITY, f64::min)
+    }
+}
+
+fn is_on_plane(mouth: &Frame, corners: &[Point; 3]) -> bool {
+    corners
+        .iter()
+        .all(|p| mouth.to_local(p).x.abs() <= ON_SHEET_MM)
+}
+
+/// A stretch about the axis of a shell.
+struct Within {
+    arcs_mm: [f64; 2],
+    radius_mm: f64,
+}
+
+/// Returns true if a point in a shell's frame lies within a radius of its axis, between two arcs.
+fn is_about(shell: &ShellMotion, p: &Point, within: &Within) -> bool {
+    let [from_mm, to_mm] = within.arcs_mm;
+    let off = |arc_mm: f64| (shell.along(arc_mm).origin - p).norm();
+    let at = |i: usize| from_mm + (to_mm - from_mm) * i as f64 / STEPS as f64;
+    let nearest = (0..=STEPS).min_by(|a, b| off(at(*a)).total_cmp(&off(at(*b))));
+    let mut arc_mm = at(nearest.unwrap_or_default());
+    for _ in 0..REFINED {
+        arc_mm += shell.along(arc_mm).to_local(p).x;
+    }
+    let local = shell.along(arc_mm).to_local(p);
+    let is_between = arc_mm >= from_mm - BESIDE_MM && arc_mm <= to_mm + BESIDE_MM;
+    is_between && local.y.hypot(local.z) <= within.radius_mm + BESIDE_MM
+}

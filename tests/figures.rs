@@ -1,0 +1,193 @@
+//! Models become figures whose junctures are the model's own pieces. Nothing of a hand or a foot is
+//! lost, and two judges hold every piece against the model.
+
+#![allow(
+    clippy::unwrap_used,
+    reason = "a test whose input cannot be had has failed"
+)]
+
+mod common;
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use common::{
+    assert_exit, checklist, equipoise, judge_telescope, list, number, path, printed, text, verify,
+    words,
+};
+use equipoise::geom::{Plane, Point, Vector};
+use equipoise::io::stl;
+use equipoise::mesh::primitives::{self, ball};
+use equipoise::mesh::{Csg, Solid, TriMesh, bodies};
+
+/// A ball of the figure: its centre and its radius, mm.
+type Ball = [f64; 4];
+
+/// The figure as hulls of two balls each: a trunk, a leg with a foot whose heel hangs back, an arm
+/// with a hand.
+const FIGURE: [[Ball; 2]; 6] = [
+    [[0.0, 0.0, 0.0, 22.0], [0.0, 0.0, 45.0, 22.0]],
+    [[0.0, 0.0, 0.0, 13.0], [0.0, 0.0, -85.0, 9.0]],
+    [[-8.0, 0.0, -98.0, 11.0], [26.0, 0.0, -100.0, 8.0]],
+    [[-8.0, 0.0, -98.0, 11.0], [-19.0, 0.0, -88.0, 6.0]],
+    [[0.0, 0.0, 38.0, 12.0], [80.0, 0.0, 48.0, 9.0]],
+    [[92.0, 0.0, 50.0, 13.0], [96.0, 0.0, 56.0, 12.0]],
+];
+
+/// Writes the figure as a file.
+fn write_figure(folder: &Path) -> (PathBuf, TriMesh) {
+    let hull = |pair: &[Ball; 2]| {
+        let balls = pair.map(|[x, y, z, radius]| ball(&Point::new(x, y, z), radius, 3));
+        let points = balls.iter().flat_map(|mesh| mesh.vertices()).copied();
+        Csg::convex_hull(&points.collect::<Vec<_>>()).unwrap()
+    };
+    let (first, others) = FIGURE.split_first().unwrap();
+    let whole = others
+        .iter()
+        .fold(hull(first), |whole, pair| whole.union(&hull(pair)).unwrap());
+    let mesh = whole.without_slivers().to_mesh().unwrap();
+    let file = folder.join("figure.stl");
+    fs::write(&file, stl::encode(&mesh, "figure")).unwrap();
+    (file, mesh)
+}
+
+#[test]
+fn a_figure_keeps_its_hand_and_foot_and_both_judges_pass_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let (model, mesh) = write_figure(folder.path());
+    let kit = folder.path().join("kit");
+    let order = ["telescope", path(&model), "--printer", "formlabs-form4"];
+    let output = equipoise(&[&order[..], &["--out", path(&kit)]].concat());
+    assert_exit(&output, 0);
+    let sheet = checklist(&kit);
+    assert_eq!(sheet["model"], "model.stl");
+    assert!(list(&sheet, "limbs").len() >= 2, "{}", printed(&output));
+    // All out it is as large as the model: no toe, no heel and no finger is lost.
+    let size = mesh.aabb().size();
+    for (axis, side) in [size.x, size.y, size.z].into_iter().enumerate() {
+        let made = number(&sheet, &format!("/extended_mm/{axis}"));
+        assert!((made - side).abs() < 0.05, "{made} of {side} along {axis}");
+    }
+    let (code, said) = verify(&kit);
+    assert_eq!(code, Some(0), "{said}");
+    judge_telescope(&kit);
+    lie_about_the_model(&kit);
+}
+
+/// Puts a model into the kit that is a little thicker: the judge must find that the pieces are not
+/// of it.
+fn lie_about_the_model(kit: &Path) {
+    let file = kit.join("model.stl");
+    let right = stl::decode(&fs::read(&file).unwrap()).unwrap();
+    let thicker = right.map_vertices(|p| Point::from(p.coords * 1.001));
+    fs::write(&file, stl::encode(&thicker, "model")).unwrap();
+    let (code, said) = verify(kit);
+    assert_eq!(code, Some(1), "{said}");
+    assert!(said.contains("keep the model's surface"), "{said}");
+}
+
+#[test]
+fn a_model_still_gets_balls_if_they_are_ordered() {
+    let folder = tempfile::tempdir().unwrap();
+    let (model, _) = write_figure(folder.path());
+    let kit = folder.path().join("kit");
+    let order = ["telescope", path(&model), "--printer", "formlabs-form4"];
+    let balls = ["--junctures", "ball", "--out", path(&kit)];
+    assert_exit(&equipoise(&[&order[..], &balls].concat()), 0);
+    assert!(checklist(&kit).get("model").is_none());
+    assert!(!kit.join("model.stl").exists());
+}
+
+#[test]
+fn junctures_of_a_model_need_one() {
+    let folder = tempfile::tempdir().unwrap();
+    let skeleton = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/examples/models/figure-skeleton.toml"
+    );
+    let lines = folder.path().join("y.obj");
+    let branching = "v 0 0 0\nv 0 0 70\nv 60 0 110\nv -60 0 110\nl 1 2\nl 2 3\nl 2 4\n";
+    fs::write(&lines, branching).unwrap();
+    for (source, expected) in [
+        (skeleton, "--junctures=ball"),
+        (path(&lines), "--junctures=ball"),
+        ("arc:80,90", "has no limbs"),
+    ] {
+        let kit = folder.path().join("kit");
+        let order = ["telescope", source, "--printer", "formlabs-form4"];
+        let more = words("--junctures model");
+        let output = equipoise(&[&order[..], &more, &["--out", path(&kit)]].concat());
+        assert_exit(&output, 2);
+        let said = text(&output.stderr);
+        assert!(said.contains(expected) && said.contains("remedy"), "{said}");
+        assert!(!kit.exists());
+    }
+}
+
+fn level(height_mm: f64) -> Plane {
+    Plane {
+        normal: Vector::z(),
+        offset_mm: height_mm,
+    }
+}
+
+#[test]
+fn only_the_branch_around_the_point_is_cut_through() {
+    // A ring that stands: a plane across it meets both of its sides.
+    let torus = primitives::torus(8.0, 3.0, 40, 24);
+    let standing = torus.map_vertices(|p| Point::new(p.x, -p.z, p.y));
+    let ring = standing
+        .ring_around(&level(0.1), &Point::new(8.0, 0.0, 0.1))
+        .unwrap();
+    assert!(ring.reach_mm(&Point::new(8.0, 0.0, 0.1)) < 3.01);
+    let cut = Solid::new(standing.cut_along(&ring)).unwrap();
+    // It is still one body, of the same volume, and open to the side of the cut alone.
+    assert_eq!(bodies(cut.mesh()).len(), 1);
+    let volume = [&standing, cut.mesh()].map(TriMesh::signed_volume_mm3);
+    assert!((volume[0] - volume[1]).abs() < 1e-9);
+    let ring = cut
+        .mesh()
+        .ring_around(&level(0.1), &Point::new(-8.0, 0.0, 0.1))
+        .unwrap();
+    let apart = Solid::new(cut.mesh().cut_along(&ring)).unwrap();
+    assert_eq!(bodies(apart.mesh()).len(), 2);
+}
+
+#[test]
+fn what_hangs_back_across_the_plane_stays_whole() {
+    // An L: a bar across, with a foot at one end that hangs down.
+    let part = |min: [f64; 3], max: [f64; 3]| {
+        Csg::of_mesh(&primitives::cuboid(&min.into(), &max.into())).unwrap()
+    };
+    let hook = part([0.0, 0.0, 0.0], [4.0, 4.0, 30.0])
+        .union(&part([0.0, 0.0, 28.0], [20.0, 4.0, 34.0]))
+        .unwrap();
+    let hook = hook
+        .union(&part([16.0, 0.0, 10.0], [20.0, 4.0, 30.0]))
+        .unwrap();
+    let mesh = hook.to_mesh().unwrap();
+    let ring = mesh
+        .ring_around(&level(15.0), &Point::new(2.0, 2.0, 15.0))
+        .unwrap();
+    let parts = bodies(&mesh.cut_along(&ring));
+    let mut volumes: Vec<f64> = parts.iter().map(TriMesh::signed_volume_mm3).collect();
+    volumes.sort_by(f64::total_cmp);
+    // The plane passes through the foot too, which stays with the bar.
+    let stump = 4.0 * 4.0 * 15.0;
+    let rest = mesh.signed_volume_mm3() - stump;
+    assert!((volumes[0] - stump).abs() < 1e-3 && (volumes[1] - rest).abs() < 1e-3);
+}
+
+#[test]
+fn a_ring_with_a_hole_in_it_and_a_point_outside_have_no_disc() {
+    let pipe = primitives::torus(8.0, 3.0, 40, 24);
+    // Across the axis of a lying torus the section is a ring with a hole.
+    assert!(
+        pipe.ring_around(&level(0.1), &Point::new(8.0, 0.0, 0.1))
+            .is_none()
+    );
+    assert!(
+        pipe.ring_around(&level(0.1), &Point::new(0.0, 0.0, 0.1))
+            .is_none()
+    );
+}
