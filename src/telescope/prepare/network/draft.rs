@@ -71,7 +71,7 @@ impl MadeNetwork<'_> {
         parts
     }
 
-    fn motion(&self) -> NetworkMotion {
+    fn motion(&self, up: &Vector) -> NetworkMotion {
         let limbs = &self.tree.network.limbs;
         let key = |state: &Vec<Key>| NetworkKey {
             states: state.iter().map(written).collect(),
@@ -86,6 +86,7 @@ impl MadeNetwork<'_> {
         };
         NetworkMotion {
             schema: MOTION_SCHEMA,
+            up: (*up).into(),
             limbs: self.limbs.iter().map(motion).collect(),
             order: self
                 .sequence
@@ -126,7 +127,7 @@ pub fn draft(workshop: &Workshop, made: &MadeNetwork) -> Result<NetworkDraft, Te
     warnings.extend(round(workshop));
     let mut sheet = sheet(workshop, made, limbs)?;
     sheet.warnings = warnings;
-    let motion = made.motion();
+    let motion = made.motion(&workshop.loaded.up);
     let motion_json = json("motion.json", &motion)?;
     let promise: NetworkPromise = read_back("checklist.json", &json("checklist.json", &sheet)?)?;
     let evidence = NetworkEvidence {
