@@ -5,6 +5,7 @@ use std::path::Path;
 use super::{Check, CheckKind, Limit};
 use crate::geom::{Aabb, Vector};
 use crate::io::threemf::{PlacedObject, decode_objects};
+use crate::mass::moments_of_mesh;
 use crate::mesh::TriMesh;
 
 /// The beginning of the names of plates.
@@ -80,14 +81,28 @@ fn placed_faults(file: &str, objects: &[PlacedObject], bodies: &[Named]) -> Vec<
     faults
 }
 
-/// Returns whether two bodies have the same box and volume, up to single precision.
+/// Returns whether two bodies have the same box and the same ten moments, up to single precision.
+///
+/// A box and a volume alone are those of a body mirrored in its box, too.
 pub(super) fn is_same(a: &TriMesh, b: &TriMesh) -> bool {
     let [own, other] = [a, b].map(TriMesh::aabb);
-    let side = |mesh: &TriMesh| mesh.signed_volume_mm3().cbrt();
     let is_near = |a: &Vector, b: &Vector| (a - b).amax() < SAME_MM;
     is_near(&own.min.coords, &other.min.coords)
         && is_near(&own.max.coords, &other.max.coords)
-        && (side(a) - side(b)).abs() < SAME_MM
+        && has_same_moments([a, b], &other)
+}
+
+/// Returns whether bodies in a box have the same volume, centre and second moments.
+fn has_same_moments(bodies: [&TriMesh; 2], bounds: &Aabb) -> bool {
+    let middle = bounds.center().coords;
+    let [a, b] = bodies.map(|body| moments_of_mesh(body).translated(&-middle));
+    let off = (a.volume().cbrt() - b.volume().cbrt()).abs();
+    // A shift of the surface moves the square of a radius by twice that radius at most.
+    let reach_mm = bounds.size().norm();
+    let second = (a.second() - b.second()).amax();
+    off < SAME_MM
+        && (a.first() - b.first()).amax() < SAME_MM * b.volume().abs()
+        && second < SAME_MM * reach_mm * b.volume().abs()
 }
 
 /// Returns the parts that are not on the plates just once, in print pose.

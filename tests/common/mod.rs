@@ -52,8 +52,16 @@ const TELESCOPE_JUDGE: &str = concat!(
 /// The packages that it imports.
 const TELESCOPE_PACKAGES: &str = "manifold3d, numpy, scipy, trimesh, networkx";
 
-/// Lets the Python judge look at the kit of a telescope, if there is a Python with its packages.
+/// Lets the Python judge look at the kit of a telescope, which must be right.
 pub fn judge_telescope(kit: &Path) {
+    if let Some(output) = telescope_judge_says(kit) {
+        assert_exit(&output, 0);
+    }
+}
+
+/// Returns what the Python judge says of the kit of a telescope, if there is a Python with its
+/// packages.
+pub fn telescope_judge_says(kit: &Path) -> Option<Output> {
     let python = std::env::var_os("EQUIPOISE_JUDGE_PYTHON").unwrap_or_else(|| "python3".into());
     let run = |arguments: &[OsString]| {
         let mut command = std::process::Command::new(&python);
@@ -62,10 +70,9 @@ pub fn judge_telescope(kit: &Path) {
     let import = run(&["-c".into(), format!("import {TELESCOPE_PACKAGES}").into()]);
     if !import.is_ok_and(|output| output.status.success()) {
         eprintln!("SKIPPED: no Python with {TELESCOPE_PACKAGES} here; pip install them");
-        return;
+        return None;
     }
-    let output = run(&[TELESCOPE_JUDGE.into(), kit.into()]).unwrap();
-    assert_exit(&output, 0);
+    Some(run(&[TELESCOPE_JUDGE.into(), kit.into()]).unwrap())
 }
 
 /// Runs the program.

@@ -10,6 +10,7 @@
 #![allow(clippy::print_stdout, reason = "the counts are shown with --nocapture")]
 
 mod damage;
+mod scenes;
 mod seeds;
 mod volumes;
 
@@ -25,6 +26,7 @@ use equipoise::cutter::AnyProfile;
 use equipoise::field::read_text;
 use equipoise::geom::Point;
 use equipoise::io::gcode::{Options, read_plates};
+use equipoise::io::glb::decode_glb;
 use equipoise::io::layers::read_layers;
 use equipoise::io::threemf::{decode_orders, decode_plate};
 use equipoise::io::{
@@ -107,6 +109,23 @@ fn models_as_stl_obj_ply_and_3mf() {
         &[seeds::package(), seeds::package_of_components()],
         reads_model,
     );
+}
+
+#[test]
+fn moving_scenes_as_glb() {
+    let reads = |bytes: &[u8]| {
+        decode_glb(bytes).is_ok_and(|scene| {
+            let still = scene.nodes.iter().map(|node| node.place);
+            let moved = scene.animations.iter();
+            let moved = moved.flat_map(|own| scene.places(own, 0.5));
+            for place in still.chain(moved) {
+                assert!(place.axes.iter().all(|x| x.is_finite()));
+                assert!((place.axes.determinant() - 1.0).abs() < 1e-6);
+            }
+            true
+        })
+    };
+    fuzz("glb", &[scenes::glb()], reads);
 }
 
 /// Returns true for a volume mesh whose moments are finite, and whose densities are some.

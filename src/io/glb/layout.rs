@@ -1,4 +1,6 @@
 //! The JSON of a glTF file as far as it is used, and the frame of the binary file.
+//!
+//! Other keys are refused: a viewer would obey a stride or an offset that this reader knows not.
 
 use serde::{Deserialize, Serialize};
 
@@ -20,6 +22,8 @@ pub const INT: u32 = 5125;
 pub const VERTICES: u32 = 34962;
 /// The target of a view that holds vertex numbers.
 pub const INDICES: u32 = 34963;
+/// By how much the norm of a turn may be off 1: single precision, and more than that.
+pub const NORM_LIMIT: f64 = 1e-3;
 /// A metre in the unit of the nodes, mm.
 pub const MM_PER_M: f64 = 1000.0;
 
@@ -40,6 +44,7 @@ pub enum GlbError {
 
 /// The whole JSON.
 #[derive(Debug, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Gltf {
     pub asset: Asset,
     pub scene: usize,
@@ -60,6 +65,7 @@ pub struct Gltf {
 }
 
 #[derive(Debug, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Asset {
     pub version: String,
     #[serde(default)]
@@ -67,6 +73,7 @@ pub struct Asset {
 }
 
 #[derive(Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct SceneRow {
     #[serde(default)]
     pub name: String,
@@ -75,6 +82,7 @@ pub struct SceneRow {
 }
 
 #[derive(Debug, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct NodeRow {
     #[serde(default)]
     pub name: String,
@@ -94,6 +102,7 @@ pub struct NodeRow {
 }
 
 #[derive(Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct MeshRow {
     #[serde(default)]
     pub name: String,
@@ -101,6 +110,7 @@ pub struct MeshRow {
 }
 
 #[derive(Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Primitive {
     pub attributes: Attributes,
     pub indices: usize,
@@ -109,12 +119,14 @@ pub struct Primitive {
 }
 
 #[derive(Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Attributes {
     #[serde(rename = "POSITION")]
     pub position: usize,
 }
 
 #[derive(Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct MaterialRow {
     #[serde(default)]
     pub name: String,
@@ -123,7 +135,7 @@ pub struct MaterialRow {
 }
 
 #[derive(Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "camelCase", default)]
+#[serde(rename_all = "camelCase", default, deny_unknown_fields)]
 pub struct Surface {
     pub base_color_factor: [f64; 4],
     pub metallic_factor: f64,
@@ -131,6 +143,7 @@ pub struct Surface {
 }
 
 #[derive(Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct AnimationRow {
     #[serde(default)]
     pub name: String,
@@ -139,18 +152,21 @@ pub struct AnimationRow {
 }
 
 #[derive(Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Channel {
     pub sampler: usize,
     pub target: Target,
 }
 
 #[derive(Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Target {
     pub node: usize,
     pub path: String,
 }
 
 #[derive(Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Sampler {
     pub input: usize,
     pub output: usize,
@@ -164,7 +180,7 @@ pub fn linear() -> String {
 }
 
 #[derive(Debug, Serialize, Deserialize)]
-#[serde(rename_all = "camelCase")]
+#[serde(rename_all = "camelCase", deny_unknown_fields)]
 pub struct Accessor {
     pub buffer_view: usize,
     pub component_type: u32,
@@ -178,7 +194,7 @@ pub struct Accessor {
 }
 
 #[derive(Debug, Serialize, Deserialize)]
-#[serde(rename_all = "camelCase")]
+#[serde(rename_all = "camelCase", deny_unknown_fields)]
 pub struct BufferView {
     pub buffer: usize,
     #[serde(default)]
@@ -189,7 +205,7 @@ pub struct BufferView {
 }
 
 #[derive(Debug, Serialize, Deserialize)]
-#[serde(rename_all = "camelCase")]
+#[serde(rename_all = "camelCase", deny_unknown_fields)]
 pub struct Buffer {
     pub byte_length: usize,
 }

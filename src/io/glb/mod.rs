@@ -5,10 +5,12 @@
 
 mod layout;
 mod read;
+mod scene;
 mod write;
 
 pub use layout::GlbError;
-pub use read::{ReadAnimation, ReadNode, ReadScene, ReadTrack, decode_glb};
+pub use read::decode_glb;
+pub use scene::{ReadAnimation, ReadNode, ReadScene, ReadTrack, Values};
 pub use write::{Animation, MovingScene, Painted, SceneNode, Track};
 
 #[cfg(test)]

@@ -1,111 +1,24 @@
 //! Reads binary glTF with rigid nodes and linear animations.
 
+use std::cell::Cell;
+
 use nalgebra::{Quaternion, UnitQuaternion};
 
 use super::layout::{
-    Accessor, AnimationRow, BIN_CHUNK, FLOAT, GlbError, Gltf, INT, JSON_CHUNK, MAGIC, NodeRow,
-    SHORT, VERSION,
+    Accessor, AnimationRow, BIN_CHUNK, Channel, FLOAT, GlbError, Gltf, INT, JSON_CHUNK, MAGIC,
+    NORM_LIMIT, NodeRow, SHORT, VERSION,
 };
+use super::scene::{ReadAnimation, ReadNode, ReadScene, ReadTrack, Values};
 use crate::geom::{Frame, Point};
 use crate::mesh::TriMesh;
-
-/// A scene as it was read. The one root stands for the unit and the direction up; all is told in
-/// its frame, mm.
-#[derive(Debug, Clone, PartialEq)]
-pub struct ReadScene {
-    /// The scale of the root: 0.001 if its nodes are in mm.
-    pub scale: f64,
-    /// The nodes but the root; each after its parent.
-    pub nodes: Vec<ReadNode>,
-    /// The animations.
-    pub animations: Vec<ReadAnimation>,
-}
-
-/// A node.
-#[derive(Debug, Clone, PartialEq)]
-pub struct ReadNode {
-    /// Its name.
-    pub name: String,
-    /// The index of the node that carries it.
-    pub parent: Option<usize>,
-    /// Its place in its parent's frame.
-    pub place: Frame,
-    /// Its body, in its own frame.
-    pub mesh: Option<TriMesh>,
-}
-
-/// An animation.
-#[derive(Debug, Clone, PartialEq)]
-pub struct ReadAnimation {
-    /// Its name.
-    pub name: String,
-    /// The motions of single nodes.
-    pub tracks: Vec<ReadTrack>,
-}
-
-/// The motion of a node.
-#[derive(Debug, Clone, PartialEq)]
-pub struct ReadTrack {
-    /// The index of the node.
-    pub node: usize,
-    /// The times, s.
-    pub times_s: Vec<f64>,
-    /// The values at these times.
-    pub values: Values,
-}
-
-/// The values of a track.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Values {
-    /// Places of the node's origin.
-    Places(Vec<Point>),
-    /// Turns of the node.
-    Turns(Vec<UnitQuaternion<f64>>),
-}
-
-impl ReadScene {
-    /// Returns the places of all nodes in the root's frame at a time of an animation, s.
-    ///
-    /// It is as the format has it: linear between keys, along the great arc for turns.
-    pub fn places(&self, animation: &ReadAnimation, time_s: f64) -> Vec<Frame> {
-        let mut own: Vec<Frame> = self.nodes.iter().map(|node| node.place).collect();
-        for track in &animation.tracks {
-            let after = track.times_s.partition_point(|time| *time <= time_s);
-            let last = track.times_s.len() - 1;
-            let [from, to] = [after.saturating_sub(1), after.min(last)];
-            let [start, end] = [from, to].map(|at| track.times_s[at]);
-            let share = if end > start {
-                ((time_s - start) / (end - start)).clamp(0.0, 1.0)
-            } else {
-                0.0
-            };
-            let place = &mut own[track.node];
-            match &track.values {
-                Values::Places(all) => place.origin = all[from] + (all[to] - all[from]) * share,
-                Values::Turns(all) => {
-                    let turn = all[from].try_slerp(&all[to], share, 1e-9);
-                    let turn = turn.unwrap_or(all[from]);
-                    place.axes = turn.to_rotation_matrix().into_inner();
-                }
-            }
-        }
-        let mut places: Vec<Frame> = Vec::with_capacity(own.len());
-        for (node, own) in self.nodes.iter().zip(&own) {
-            let placed = match node.parent {
-                Some(parent) => places[parent].frame_to_model(own),
-                None => *own,
-            };
-            places.push(placed);
-        }
-        places
-    }
-}
 
 /// Reads a binary glTF file with one root and rigid nodes below it.
 ///
 /// # Errors
 /// The file is broken, or has what such a file does not: another scale, a matrix, a node with two
-/// parents, several primitives, other interpolations.
+/// parents, several primitives, other interpolations. A key that is not known here is refused, too.
+///
+/// Time and memory grow with the length of the file alone.
 pub fn decode_glb(bytes: &[u8]) -> Result<ReadScene, GlbError> {
     let (json, bin) = chunks(bytes)?;
     let gltf: Gltf =
@@ -113,9 +26,20 @@ pub fn decode_glb(bytes: &[u8]) -> Result<ReadScene, GlbError> {
     if gltf.asset.version != "2.0" {
         return Err(GlbError::Frame("its version is not 2.0"));
     }
-    let reader = Reader { gltf: &gltf, bin };
+    let is_whole = |length: usize| length == bin.len();
+    if gltf.buffers.len() != 1 || !gltf.buffers.iter().all(|own| is_whole(own.byte_length)) {
+        return Err(broken("the list of buffers"));
+    }
+    let reader = Reader {
+        gltf: &gltf,
+        bin,
+        left: Cell::new(bin.len().saturating_mul(READS)),
+    };
     reader.scene()
 }
+
+/// Readings of a byte: two tracks of a node share their times.
+const READS: usize = 2;
 
 fn broken(what: &str) -> GlbError {
     GlbError::Broken(what.to_owned())
@@ -141,32 +65,46 @@ fn chunks(bytes: &[u8]) -> Result<(&[u8], &[u8]), GlbError> {
     };
     let json = chunk(12, JSON_CHUNK, "its JSON is cut off")?;
     let bin = chunk(20 + json.len(), BIN_CHUNK, "its bytes are cut off")?;
+    if 28 + json.len() + bin.len() != bytes.len() {
+        return Err(GlbError::Frame("it has more than two chunks"));
+    }
     Ok((json, bin))
 }
 
 struct Reader<'a> {
     gltf: &'a Gltf,
     bin: &'a [u8],
+    /// The bytes that may still be read, so that no file makes much of a few bytes.
+    left: Cell<usize>,
 }
 
 impl Reader<'_> {
     fn scene(&self) -> Result<ReadScene, GlbError> {
         let gltf = self.gltf;
-        let scene = gltf.scenes.get(gltf.scene);
-        let roots = scene.map(|scene| scene.nodes.as_slice());
-        let Some([root]) = roots else {
+        let ([scene], 0) = (gltf.scenes.as_slice(), gltf.scene) else {
+            return Err(broken("the list of scenes"));
+        };
+        let [root] = scene.nodes.as_slice() else {
             return Err(broken("the list of roots"));
         };
         let order = self.order(*root)?;
-        let scale = gltf.nodes[*root].scale.unwrap_or([1.0; 3]);
-        if scale.iter().any(|side| *side != scale[0]) {
-            return Err(broken("the scale of the root"));
+        let row = &gltf.nodes[*root];
+        let scale = row.scale.unwrap_or([1.0; 3]);
+        if scale.iter().any(|side| *side != scale[0]) || row.mesh.is_some() {
+            return Err(broken("the root"));
         }
         let mut place_of = vec![None; gltf.nodes.len()];
+        let mut is_used = vec![false; gltf.meshes.len()];
         let mut nodes = Vec::new();
         for step in &order {
             place_of[step.node] = Some(nodes.len());
             let row = &gltf.nodes[step.node];
+            if row.scale.is_some_and(|scale| scale != [1.0; 3]) {
+                return Err(broken("the scale of a node"));
+            }
+            if row.mesh.is_some_and(|mesh| is_taken(&mut is_used, mesh)) {
+                return Err(broken("a mesh's number"));
+            }
             nodes.push(ReadNode {
                 name: row.name.clone(),
                 parent: step.parent.and_then(|parent| place_of[parent]),
@@ -178,6 +116,7 @@ impl Reader<'_> {
         let animations = animations.map(|row| self.animation(row, &place_of));
         Ok(ReadScene {
             scale: scale[0],
+            root: place(row)?,
             nodes,
             animations: animations.collect::<Result<_, GlbError>>()?,
         })
@@ -186,24 +125,25 @@ impl Reader<'_> {
     /// Returns the nodes below the root, each once and after its parent.
     fn order(&self, root: usize) -> Result<Vec<Step>, GlbError> {
         let nodes = &self.gltf.nodes;
-        let mut is_known = vec![false; nodes.len()];
-        let mut found: Vec<Step> = Vec::new();
-        let mut open = vec![root];
-        while let Some(parent) = open.pop() {
-            let row = nodes.get(parent).ok_or_else(|| broken("a node's number"))?;
-            if std::mem::replace(&mut is_known[parent], true) {
+        let mut is_child = vec![false; nodes.len()];
+        for &child in nodes.iter().flat_map(|row| &row.children) {
+            if is_taken(&mut is_child, child) {
                 return Err(broken("the tree of nodes"));
             }
-            for &node in row.children.iter().rev() {
-                open.push(node);
-            }
-            let carrier = nodes.iter().position(|row| row.children.contains(&parent));
-            if parent != root {
-                found.push(Step {
-                    node: parent,
-                    parent: carrier.filter(|carrier| *carrier != root),
-                });
-            }
+        }
+        // With one parent each, and none of the root, no way comes back to a node.
+        if is_taken(&mut is_child, root) {
+            return Err(broken("the tree of nodes"));
+        }
+        let below = |node: usize, parent: Option<usize>| {
+            let children = nodes[node].children.iter().rev();
+            children.map(move |&node| Step { node, parent })
+        };
+        let mut open: Vec<Step> = below(root, None).collect();
+        let mut found: Vec<Step> = Vec::new();
+        while let Some(step) = open.pop() {
+            open.extend(below(step.node, Some(step.node)));
+            found.push(step);
         }
         Ok(found)
     }
@@ -240,42 +180,62 @@ impl Reader<'_> {
         row: &AnimationRow,
         place_of: &[Option<usize>],
     ) -> Result<ReadAnimation, GlbError> {
+        let mut is_used = vec![false; row.samplers.len()];
         let tracks = row.channels.iter().map(|channel| {
-            let sampler = row.samplers.get(channel.sampler);
-            let sampler = sampler.ok_or_else(|| broken("a sampler's number"))?;
+            if is_taken(&mut is_used, channel.sampler) {
+                return Err(broken("a sampler's number"));
+            }
             let node = place_of.get(channel.target.node).copied().flatten();
             let node = node.ok_or_else(|| broken("the node of an animation"))?;
-            let times = self.floats::<1>(sampler.input, "SCALAR")?;
-            let times_s: Vec<f64> = times.into_iter().map(|[time]| time).collect();
-            let values = match channel.target.path.as_str() {
-                "translation" => {
-                    let all = self.floats::<3>(sampler.output, "VEC3")?;
-                    Values::Places(all.into_iter().map(Point::from).collect())
-                }
-                "rotation" => {
-                    let all = self.floats::<4>(sampler.output, "VEC4")?;
-                    Values::Turns(all.into_iter().map(turn).collect())
-                }
-                _ => return Err(broken("the path of an animation")),
-            };
-            let count = match &values {
-                Values::Places(all) => all.len(),
-                Values::Turns(all) => all.len(),
-            };
-            let rises = times_s.windows(2).all(|pair| pair[0] < pair[1]);
-            let is_sound = count == times_s.len() && count > 0 && rises;
-            if !is_sound || sampler.interpolation != "LINEAR" {
-                return Err(broken("a sampler"));
-            }
-            Ok(ReadTrack {
-                node,
-                times_s,
-                values,
-            })
+            self.track(row, channel, node)
         });
+        let tracks: Vec<ReadTrack> = tracks.collect::<Result<_, GlbError>>()?;
+        let key = |track: &ReadTrack| (track.node, matches!(track.values, Values::Turns(_)));
+        let mut moved: Vec<_> = tracks.iter().map(key).collect();
+        moved.sort_unstable();
+        if moved.windows(2).any(|pair| pair[0] == pair[1]) {
+            return Err(broken("an animation that moves a node twice"));
+        }
         Ok(ReadAnimation {
             name: row.name.clone(),
-            tracks: tracks.collect::<Result<_, GlbError>>()?,
+            tracks,
+        })
+    }
+
+    /// Returns the motion of a node by a channel whose sampler is there.
+    fn track(
+        &self,
+        row: &AnimationRow,
+        channel: &Channel,
+        node: usize,
+    ) -> Result<ReadTrack, GlbError> {
+        let sampler = &row.samplers[channel.sampler];
+        let times = self.floats::<1>(sampler.input, "SCALAR")?;
+        let times_s: Vec<f64> = times.into_iter().map(|[time]| time).collect();
+        let values = match channel.target.path.as_str() {
+            "translation" => {
+                let all = self.floats::<3>(sampler.output, "VEC3")?;
+                Values::Places(all.into_iter().map(Point::from).collect())
+            }
+            "rotation" => {
+                let all = self.floats::<4>(sampler.output, "VEC4")?;
+                Values::Turns(all.into_iter().map(turn).collect::<Result<_, GlbError>>()?)
+            }
+            _ => return Err(broken("the path of an animation")),
+        };
+        let count = match &values {
+            Values::Places(all) => all.len(),
+            Values::Turns(all) => all.len(),
+        };
+        let rises = times_s.windows(2).all(|pair| pair[0] < pair[1]);
+        let is_sound = count == times_s.len() && count > 0 && rises;
+        if !is_sound || sampler.interpolation != "LINEAR" {
+            return Err(broken("a sampler"));
+        }
+        Ok(ReadTrack {
+            node,
+            times_s,
+            values,
         })
     }
 
@@ -306,12 +266,18 @@ impl Reader<'_> {
     ) -> Result<impl Iterator<Item = [u8; N]> + use<'_, N>, GlbError> {
         let view = self.gltf.views.get(accessor.buffer_view);
         let own = view.and_then(|view| {
+            if view.buffer != 0 || !view.byte_offset.is_multiple_of(N) {
+                return None;
+            }
             let end = view.byte_offset.checked_add(view.byte_length)?;
             self.bin.get(view.byte_offset..end)
         });
         let length = accessor.count.checked_mul(N * each);
         let own = own.zip(length).and_then(|(own, length)| own.get(..length));
         let own = own.ok_or_else(|| broken("a view of bytes"))?;
+        let left = self.left.get().checked_sub(own.len());
+        self.left
+            .set(left.ok_or_else(|| broken("bytes that are used again and again"))?);
         Ok(own.as_chunks::<N>().0.iter().copied())
     }
 }
@@ -322,17 +288,28 @@ struct Step {
     parent: Option<usize>,
 }
 
-fn turn([x, y, z, w]: [f64; 4]) -> UnitQuaternion<f64> {
-    UnitQuaternion::from_quaternion(Quaternion::new(w, x, y, z))
+/// Takes a number; returns true if there is none such, or it was taken before.
+fn is_taken(taken: &mut [bool], number: usize) -> bool {
+    let own = taken.get_mut(number);
+    own.is_none_or(|own| std::mem::replace(own, true))
+}
+
+fn turn([x, y, z, w]: [f64; 4]) -> Result<UnitQuaternion<f64>, GlbError> {
+    let turn = Quaternion::new(w, x, y, z);
+    // What is no number is not near, either.
+    let is_unit = (turn.norm() - 1.0).abs() <= NORM_LIMIT;
+    let unit = is_unit.then(|| UnitQuaternion::from_quaternion(turn));
+    unit.ok_or_else(|| broken("the length of a turn"))
 }
 
 fn place(row: &NodeRow) -> Result<Frame, GlbError> {
-    if row.scale.is_some_and(|scale| scale != [1.0; 3]) || row.matrix.is_some() {
+    let origin = row.translation.unwrap_or_default();
+    if row.matrix.is_some() || !origin.iter().all(|side| side.is_finite()) {
         return Err(broken("the place of a node"));
     }
-    let turn = turn(row.rotation.unwrap_or([0.0, 0.0, 0.0, 1.0]));
+    let turn = turn(row.rotation.unwrap_or([0.0, 0.0, 0.0, 1.0]))?;
     Ok(Frame {
-        origin: Point::from(row.translation.unwrap_or_default()),
+        origin: Point::from(origin),
         axes: turn.to_rotation_matrix().into_inner(),
     })
 }

@@ -79,6 +79,8 @@ pub struct JuncturePromise {
 pub struct NetworkMotion {
     /// The version of the keys.
     pub schema: u32,
+    /// The direction in which the model stands, of length 1.
+    pub up: [f64; 3],
     /// The motion of each telescope alone, in the model's frame with all out.
     pub limbs: Vec<TelescopeMotion>,
     /// The ids of the telescopes in the order in which they open.

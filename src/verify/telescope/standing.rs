@@ -44,7 +44,7 @@ pub(super) fn stands(
 }
 
 /// Returns the frame whose z is up: along the root's tangent at its tail.
-fn upright(motion: &TelescopeMotion) -> Frame {
+pub(super) fn upright(motion: &TelescopeMotion) -> Frame {
     let root = &motion.shells[0];
     let tail = frame_of(&motion.root).frame_to_model(&root.along(root.ends_mm[0]));
     let column = |axis: usize| tail.axes.column(axis).into_owned();

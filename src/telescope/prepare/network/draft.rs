@@ -74,7 +74,7 @@ impl MadeNetwork<'_> {
         parts
     }
 
-    fn motion(&self) -> NetworkMotion {
+    fn motion(&self, up: &Vector) -> NetworkMotion {
         let limbs = &self.tree.network.limbs;
         let key = |state: &Vec<Key>| NetworkKey {
             states: state.iter().map(written).collect(),
@@ -89,6 +89,7 @@ impl MadeNetwork<'_> {
         };
         NetworkMotion {
             schema: MOTION_SCHEMA,
+            up: (*up).into(),
             limbs: self.limbs.iter().map(motion).collect(),
             order: self
                 .sequence
@@ -132,7 +133,7 @@ pub fn draft(workshop: &Workshop, made: &MadeNetwork) -> Result<NetworkDraft, Te
     let model_stl = skin.map(|skin| stl::encode(skin.mesh(), &workshop.job.name()));
     let mut sheet = sheet(workshop, made, limbs)?;
     sheet.warnings = warnings;
-    let motion = made.motion();
+    let motion = made.motion(&workshop.loaded.up);
     let motion_json = json("motion.json", &motion)?;
     let promise: NetworkPromise = read_back("checklist.json", &json("checklist.json", &sheet)?)?;
     let evidence = NetworkEvidence {
