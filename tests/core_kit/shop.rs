@@ -149,7 +149,7 @@ struct Lie {
     tell: fn(&mut Value),
 }
 
-const LIES: [Lie; 6] = [
+const LIES: [Lie; 7] = [
     // A piece that floats over its panel.
     Lie {
         promise: "ballast lies flat",
@@ -188,6 +188,12 @@ const LIES: [Lie; 6] = [
         promise: "one of those at hand",
         check: "sheets that are not at hand",
         tell: |sheet| sheet["cutter"]["bed_mm"] = vec![500.0, 300.0].into(),
+    },
+    // A sheet that is told to lie the other way.
+    Lie {
+        promise: "one of those at hand",
+        check: "sheets that are not at hand",
+        tell: |sheet| sheet["cut_sheets"][0]["is_turned"] = true.into(),
     },
 ];
 
