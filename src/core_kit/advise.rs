@@ -140,7 +140,9 @@ pub fn falls(
         });
     }
     answer.remedies.extend(solid_shell(asked, made, goal));
-    match laid_in(asked, made, weighed)? {
+    let is_free = asked.job.ballast.is_none();
+    let laid = is_free.then(|| laid_in(asked, made, weighed));
+    match laid.transpose()?.flatten() {
         Some(remedy) => answer.remedies.push(remedy),
         None => {
             answer.tried.push("ballast on the lowest panel".to_owned());
@@ -156,11 +158,54 @@ pub fn falls(
     Ok(Some(answer))
 }
 
-/// Returns the remedy of ballast that is laid in, if the object then stands as asked.
-fn laid_in(asked: &Asked, made: &Made, weighed: &Weighed) -> Result<Option<Remedy>, BallastError> {
-    if !asked.job.ballast.is_none() {
+/// Tells that fewer pieces of ballast find room than are ordered, and what helps; `None` if all do.
+///
+/// # Errors
+/// The catalogue of ballast is at fault.
+pub fn too_few(
+    asked: &Asked,
+    made: &Made,
+    weighed: &Weighed,
+) -> Result<Option<Impossible>, BallastError> {
+    let (Some(goal), Order::Parts { id, count }) = (asked.goal.as_ref(), &asked.job.ballast) else {
+        return Ok(None);
+    };
+    let (laid, lean_deg) = (weighed.ballast.len(), toppling_deg(goal, weighed));
+    let stands = lean_deg >= asked.job.least_angle_deg;
+    // Of the fewest that suffice there is at least one, or else it falls.
+    let ordered = count.map_or(usize::from(stands), |count| count as usize);
+    if laid >= ordered {
         return Ok(None);
     }
+    let mut answer = Impossible::new(format!(
+        "the lowest panel has room for {laid} of {ordered} pieces of {id}, in the places tried"
+    ));
+    if laid > 0 && stands {
+        let order = Order::Parts {
+            id: id.clone(),
+            count: u32::try_from(laid).ok(),
+        };
+        answer.remedies.push(Remedy {
+            settings: vec![Setting::new(Key::Ballast, order)],
+            words: format!("lays them: topples at {}", measured(lean_deg, "°")),
+        });
+    }
+    let bare = weigh(asked, made);
+    let bare_deg = toppling_deg(goal, &bare);
+    if bare_deg >= asked.job.least_angle_deg {
+        answer.remedies.push(Remedy {
+            settings: vec![Setting::new(Key::Ballast, Order::None)],
+            words: format!("stands without: topples at {}", measured(bare_deg, "°")),
+        });
+    }
+    answer.remedies.extend(laid_in(asked, made, &bare)?);
+    let smaller = "order fewer or smaller pieces, or make the model larger";
+    answer.hints.push(smaller.to_owned());
+    Ok(Some(answer))
+}
+
+/// Returns the remedy of ballast that is laid in, if the object then stands as asked.
+fn laid_in(asked: &Asked, made: &Made, weighed: &Weighed) -> Result<Option<Remedy>, BallastError> {
     let heavier = ballasted(asked, made, weighed.clone(), &Order::Auto)?;
     let goal = asked.goal.as_ref();
     Ok(goal

@@ -221,16 +221,17 @@ fn stock(job: &CoreJob, shop: &Shop) -> Result<Vec<Stock>, CoreRunError> {
     let (cutter, sheet) = (&shop.cutter, &shop.sheet);
     let named = job.cutting.stock.0.iter().map(|item| {
         let [length, width] = item.size_mm;
-        let on_bed = cutter.on_bed_mm(item.size_mm);
-        if on_bed != [length, width] && on_bed != [width, length] {
+        let on_bed = cutter.on_bed(item.size_mm);
+        if on_bed.size_mm != [length, width] && on_bed.size_mm != [width, length] {
             return Err(CoreRunError::StockTooLarge {
                 item: *item,
                 bed_mm: cutter.bed_mm.value,
             });
         }
         Ok(Stock {
-            size_mm: on_bed,
+            size_mm: on_bed.size_mm,
             count: item.count,
+            is_turned: on_bed.is_turned,
         })
     });
     let named: Vec<Stock> = named.collect::<Result<_, CoreRunError>>()?;

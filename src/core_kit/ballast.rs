@@ -1,7 +1,7 @@
 //! Ballast on the inner side of the lowest panel: which pieces, how many, and where.
 
 use super::asked::Asked;
-use super::hardware::wood_film;
+use super::hardware::epoxy_film;
 use super::made::Made;
 use super::mass::{Weighed, lean_deg, point};
 use crate::ballast::{BallastError, MOST_PARTS, Order, Part, catalogue, find};
@@ -16,7 +16,8 @@ use crate::verify::BallastPromise;
 const APART_MM: f64 = 1.0;
 
 /// Returns the object with the ballast that is ordered, as far as that finds room. It stays as it
-/// is if none is ordered, or if it stands without.
+/// is if none is ordered, or if it stands without. Too little room is told by
+/// [`too_few`](super::advise::too_few).
 ///
 /// All pieces are of one kind. Each goes to the place at which the object then leans the farthest.
 /// Of all kinds, those are taken that weigh the least together. They do even if each is lighter by
@@ -217,7 +218,7 @@ impl<'a> Floor<'a> {
         let area_mm2 = std::f64::consts::PI * part.shape.radius_mm().powi(2);
         let foot = Point::new(x, y, -self.asked.panels.sheet_mm);
         let joint = format!("ballast and panel {}", self.panel + 1);
-        wood_film(joint, area_mm2, self.frame().to_model(&foot))
+        epoxy_film(joint, area_mm2, self.frame().to_model(&foot))
     }
 
     /// Adds pieces to what is weighed.

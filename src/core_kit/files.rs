@@ -138,6 +138,7 @@ pub fn cut_sheets(made: &Made) -> Vec<CutSheetPromise> {
             dxf: format!("sheets/sheet-{}.dxf", index + 1),
             svg: format!("sheets/sheet-{}.svg", index + 1),
             size_mm: sheet.nested.size_mm,
+            is_turned: sheet.nested.is_turned,
             panels: sheet
                 .nested
                 .placements

@@ -10,6 +10,7 @@
 mod advise;
 mod asked;
 mod ballast;
+mod ballast_rows;
 mod build;
 mod error;
 mod files;
@@ -59,6 +60,9 @@ pub fn prepare(job: &CoreJob, watch: &Watch) -> Result<Outcome<CoreSheet>, CoreR
     let made = made::make(&asked, built, watch)?;
     let weighed = mass::weigh(&asked, &made);
     let weighed = ballast::ballasted(&asked, &made, weighed, &job.ballast)?;
+    if let Some(impossible) = advise::too_few(&asked, &made, &weighed)? {
+        return Ok(Outcome::Impossible(Box::new(impossible)));
+    }
     if let Some(impossible) = advise::falls(&asked, &made, &weighed)? {
         return Ok(Outcome::Impossible(Box::new(impossible)));
     }

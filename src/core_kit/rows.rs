@@ -3,15 +3,16 @@
 use std::collections::BTreeSet;
 
 use super::asked::Asked;
+use super::hardware::EPOXY_FILM_MM;
 use super::home::home_panel;
 use super::made::{Made, WrittenPart};
 use super::mass::Weighed;
 use crate::base::digest::sha256_hex;
-use crate::base::units::format_count;
+use crate::base::units::{MM3_PER_CM3, format_count};
 use crate::cladding::Holding;
 use crate::cutting::CutSheet;
 use crate::mass::moments_of_mesh;
-use crate::sheet::core_kit::{BuyRow, CorePartRow, CutSheetRow};
+use crate::sheet::core_kit::{BALLAST_GLUE, BuyRow, CorePartRow, CutSheetRow};
 use crate::verify::CorePartPromise;
 
 /// Returns the figures of all sheets.
@@ -87,15 +88,29 @@ fn size_words(sheet: &CutSheet) -> String {
     format!("{length} × {width} mm{offcut}")
 }
 
-/// Returns the pieces of ballast, all of one kind.
-fn ballast(weighed: &Weighed) -> Option<BuyRow> {
+/// Returns the pieces of ballast, all of one kind, and their glue.
+fn ballast(weighed: &Weighed) -> Option<[BuyRow; 2]> {
     let first = weighed.ballast.first()?;
+    let radii = weighed
+        .ballast
+        .iter()
+        .map(|piece| piece.lump.shape.radius_mm());
+    let area_mm2: f64 = radii
+        .map(|radius| std::f64::consts::PI * radius.powi(2))
+        .sum();
+    let glue_ml = (area_mm2 * EPOXY_FILM_MM / MM3_PER_CM3).ceil();
     let name = crate::ballast::find(&first.id).map_or_else(|_| first.id.clone(), |part| part.name);
-    Some(BuyRow {
+    let pieces = BuyRow {
         id: first.id.clone(),
         name,
         count: weighed.ballast.len(),
-    })
+    };
+    let glue = BuyRow {
+        id: "epoxy".to_owned(),
+        name: format!("{BALLAST_GLUE} for metal and wood, at least {glue_ml} ml"),
+        count: 1,
+    };
+    Some([pieces, glue])
 }
 
 /// Words what holds a part of the shell.
@@ -157,5 +172,6 @@ pub fn buy(asked: &Asked, made: &Made, weighed: &Weighed) -> Vec<BuyRow> {
             count: weighed.fasteners.iter().filter(|one| one.id == *id).count(),
         }
     });
-    sheets.chain(fasteners).chain(ballast(weighed)).collect()
+    let ballast = ballast(weighed).into_iter().flatten();
+    sheets.chain(fasteners).chain(ballast).collect()
 }

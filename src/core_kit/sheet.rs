@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::asked::{Asked, margin_mm};
+use super::ballast_rows::{ballast_edges, ballast_panel, ballast_rows};
 use super::files::{cut_sheets, joint_word};
 use super::hardware::pins;
 use super::made::Made;
@@ -25,6 +26,7 @@ use crate::verify::{CutPromise, PrinterLimits, StockPromise};
 /// Returns the checklist, but for its checks and the hashes of other files.
 pub fn checklist(asked: &Asked, made: &Made, weighed: &Weighed) -> CoreSheet {
     let goal = asked.goal.as_ref();
+    let ballast_edges = ballast_edges(made, weighed);
     CoreSheet {
         schema: CORE_SHEET_SCHEMA,
         kind: "core",
@@ -51,6 +53,8 @@ pub fn checklist(asked: &Asked, made: &Made, weighed: &Weighed) -> CoreSheet {
         glue: weighed.glue.clone(),
         ballast: weighed.ballast.clone(),
         ballast_panel_mm: ballast_panel(made, weighed),
+        ballast_rows: ballast_rows(&ballast_edges, weighed),
+        ballast_edges,
         units: units(made),
         joins: joins(made),
         buy: buy(asked, made, weighed),
@@ -112,7 +116,7 @@ fn cutter(asked: &Asked) -> CutterRow {
         kerf_source: kerf.provenance.clone(),
         is_kerf_measured: kerf.sure == Sure::Measured,
         compensates_kerf: cutter.compensates_kerf.value,
-        bed_mm: Some(cutter.bed_mm.value),
+        bed_mm: cutter.bed_mm.value,
     }
 }
 
@@ -135,18 +139,11 @@ fn sheet(asked: &Asked) -> SheetRow {
     }
 }
 
-/// Returns the outline of the panel with the ballast; empty without any.
-fn ballast_panel(made: &Made, weighed: &Weighed) -> Vec<[f64; 2]> {
-    let panels = &made.built.shell.panels.panels;
-    let piece = weighed.ballast.first();
-    let panel = piece.and_then(|piece| panels.get(piece.panel - 1));
-    panel.map_or_else(Vec::new, |panel| panel.outline.corners().to_vec())
-}
-
 fn stock_rows(asked: &Asked) -> Vec<StockPromise> {
     let stock = asked.stock.iter().map(|stock| StockPromise {
         size_mm: stock.size_mm,
         count: stock.count,
+        is_turned: stock.is_turned,
     });
     stock.collect()
 }

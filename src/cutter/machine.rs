@@ -146,6 +146,16 @@ pub enum CannotCut {
     },
 }
 
+/// A sheet as it lies on the bed of a cutter.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct OnBed {
+    /// Both sides along those of the bed, mm.
+    pub size_mm: [f64; 2],
+    /// True if it lies turned by a quarter: its first side, and its grain, run along the second
+    /// side of the bed.
+    pub is_turned: bool,
+}
+
 impl Cutter {
     /// Returns the kerf in a sheet: between two listed thicknesses in proportion, beyond them that
     /// of the nearest.
@@ -202,21 +212,24 @@ impl Cutter {
         let margin = self.numbers.get(&CutterNumber::MarginMm);
         let margin_mm = margin.map_or(0.0, |margin| margin.value);
         let room = |size: [f64; 2]| {
-            let on_bed = self.on_bed_mm(size);
+            let on_bed = self.on_bed(size).size_mm;
             on_bed.map(|side| (side - 2.0 * margin_mm).max(0.0))
         };
         let sizes = sheet.sizes.iter();
         sizes.map(|stock| room(stock.size_mm.value)).collect()
     }
 
-    /// Returns what of a sheet with these sides lies on the bed, mm: as it is, or turned if that is
-    /// larger.
-    pub fn on_bed_mm(&self, sheet_mm: [f64; 2]) -> [f64; 2] {
+    /// Returns what of a sheet with these sides, mm, lies on the bed: as it is, or turned if that
+    /// is larger.
+    pub fn on_bed(&self, sheet_mm: [f64; 2]) -> OnBed {
         let bed = self.bed_mm.value;
         let fitted = |[x, y]: [f64; 2]| [x.min(bed[0]), y.min(bed[1])];
         let [lying, turned] = [fitted(sheet_mm), fitted([sheet_mm[1], sheet_mm[0]])];
         let is_larger = lying[0] * lying[1] >= turned[0] * turned[1];
-        if is_larger { lying } else { turned }
+        OnBed {
+            size_mm: if is_larger { lying } else { turned },
+            is_turned: !is_larger,
+        }
     }
 
     /// Returns the least distance of two outlines on a sheet, mm, where the cut has this width: the

@@ -46,6 +46,6 @@ pub use calibrate::{
 pub use error::{Fault, Faults, Problem, ProfileError};
 pub use fastener::{Fastener, Provenance};
 pub use fastener_shape::FastenerShape;
-pub use machine::{CannotCut, Cutter, CutterNumber, Dialect, Kerf, KerfAt, Thickest};
+pub use machine::{CannotCut, Cutter, CutterNumber, Dialect, Kerf, KerfAt, OnBed, Thickest};
 pub use material::SheetMaterial;
 pub use stock::{Grain, StockSheet, StockSize};

@@ -20,7 +20,7 @@ pub struct SheetOrder<'a> {
     /// The sheets at hand, as they lie on the bed; empty for any number of each size of the sheet's
     /// profile. Those with a number are offcuts, which are used first.
     pub stock: &'a [Stock],
-    /// True if panels may only be turned by half a turn, as their grain must run the same way.
+    /// True if panels may only be turned by half a turn against the grain of their sheet.
     pub keeps_grain: bool,
 }
 
@@ -106,14 +106,16 @@ pub fn cut_sheets(set: &PanelSet, order: &SheetOrder) -> Result<Vec<CutSheet>, S
 /// Returns the sizes of a sheet's profile as they lie on the bed, each once.
 pub fn whole_sheets(cutter: &Cutter, sheet: &StockSheet) -> Vec<Stock> {
     let sizes = sheet.sizes.iter();
-    let sizes = sizes.map(|size| cutter.on_bed_mm(size.size_mm.value));
+    let sizes = sizes.map(|size| cutter.on_bed(size.size_mm.value));
     let mut stock: Vec<Stock> = Vec::new();
-    for size_mm in sizes {
-        if stock.iter().all(|known| known.size_mm != size_mm) {
-            stock.push(Stock {
-                size_mm,
-                count: None,
-            });
+    for on_bed in sizes {
+        let fresh = Stock {
+            size_mm: on_bed.size_mm,
+            count: None,
+            is_turned: on_bed.is_turned,
+        };
+        if !stock.contains(&fresh) {
+            stock.push(fresh);
         }
     }
     stock

@@ -250,7 +250,7 @@ fn cut_sheet(of: &CutSheetPromise, row: &CutSheetRow) -> Markup {
     html! {
         h3 { "☐ " (file_name(&of.dxf)) }
         p {
-            (measured(length, "mm")) " × " (measured(width, "mm")) ", panels " (panels.join(", ")) ". Cut "
+            (measured(length, "mm")) " × " (measured(width, "mm")) @if of.is_turned { " (the sheet lies turned by a quarter)" } ", panels " (panels.join(", ")) ". Cut "
             (measured(row.cut_mm / 1000.0, "m")) " in " (row.pierces) " pieces, engrave "
             (measured(row.engraved_mm / 1000.0, "m")) ". Panels fill " (measured(100.0 * row.sheet_ratio, "%")) " of it."
             @if let Some(seconds) = row.cut_s { " About " (measured(seconds / 60.0, "min")) " of cutting, as an estimate." }

@@ -6,10 +6,12 @@ use maud::{Markup, PreEscaped, html};
 
 use crate::base::numbers::measured;
 use crate::base::units::format_count;
-use crate::sheet::core_kit::CoreSheet;
+use crate::sheet::core_kit::{BALLAST_GLUE, BallastRow, CoreSheet};
 
 /// Margin of the picture, mm.
-const MARGIN_MM: f64 = 4.0;
+const MARGIN_MM: f64 = 18.0;
+/// Distance of an edge's words from it, and their height, mm.
+const WORDS_MM: [f64; 2] = [9.0, 8.0];
 
 /// Returns how ballast is laid; nothing without any.
 pub(super) fn lay(sheet: &CoreSheet) -> Markup {
@@ -20,12 +22,55 @@ pub(super) fn lay(sheet: &CoreSheet) -> Markup {
         div class="together" {
             p {
                 "☐ Glue " (format_count(sheet.ballast.len(), "piece")) " of " code { (first.id) } " on the inside of panel " (first.panel)
-                " with strong glue for metal and wood, before it is joined: " (measured(sheet.masses.ballast_g, "g"))
-                " in all. Weigh them first. The picture shows the panel from inside, true to scale in itself."
+                " with " (BALLAST_GLUE) ", before it is joined: " (measured(sheet.masses.ballast_g, "g"))
+                " in all. Weigh them first. Roughen both sides with emery cloth, wipe them clean, and wear gloves: the glue harms skin until it is hard. "
+                "The picture shows the panel from inside. Each edge has the number of the panel that comes there. "
+                "Measure square to a ruler that lies along the tips of an edge's fingers."
+            }
+            ul class="ticks" {
+                @for (index, row) in sheet.ballast_rows.iter().enumerate() {
+                    li { "Piece " (index + 1) ": its centre is " (places(row)) "." }
+                }
             }
             (PreEscaped(picture(sheet)))
         }
     }
+}
+
+/// Words the distances of a piece from its edges.
+fn places(row: &BallastRow) -> String {
+    let distances = row.from.iter();
+    let words: Vec<String> = distances
+        .map(|edge| {
+            format!(
+                "{} from the edge to panel {}",
+                measured(edge.distance_mm, "mm"),
+                edge.to
+            )
+        })
+        .collect();
+    words.join(" and ")
+}
+
+/// Writes the number of the next panel beside each edge.
+fn edge_words(sheet: &CoreSheet) -> String {
+    let [apart_mm, high_mm] = WORDS_MM;
+    let mut words = String::new();
+    for edge in &sheet.ballast_edges {
+        let [start, end] = edge.ends_mm;
+        let way = [end[0] - start[0], end[1] - start[1]];
+        let length_mm = way[0].hypot(way[1]);
+        let out = [way[1] / length_mm, -way[0] / length_mm];
+        let at = [0, 1].map(|k| f64::midpoint(start[k], end[k]) + out[k] * apart_mm);
+        let [x, y] = seen_inside(at);
+        let _ = write!(
+            words,
+            "<text x=\"{x:.1}\" y=\"{y:.1}\" font-size=\"{high_mm}\" text-anchor=\"middle\" \
+             dominant-baseline=\"central\" stroke=\"none\" fill=\"currentColor\">panel {}</text>",
+            edge.to
+        );
+    }
+    words
 }
 
 /// Draws the panel from inside: mirrored, with its pieces.
@@ -44,7 +89,7 @@ fn picture(sheet: &CoreSheet) -> String {
     for [x, y] in &corners {
         let _ = write!(path, "{x:.1},{y:.1} ");
     }
-    let mut pieces = String::new();
+    let mut pieces = edge_words(sheet);
     for (index, piece) in sheet.ballast.iter().enumerate() {
         let [x, y] = seen_inside(piece.at_mm);
         let radius = piece.lump.shape.radius_mm();

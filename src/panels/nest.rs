@@ -14,6 +14,8 @@ use crate::geom::hull::convex_hull;
 const TOUCH_MM: f64 = 1e-7;
 /// Number of directions in which a panel is tried where the grain does not matter.
 const TURNS: usize = 12;
+/// Number of directions where it does: two for sheets that lie along their grain, two for others.
+const QUARTERS: usize = 4;
 /// Number of orders that are tried.
 const ORDERS: usize = 24;
 
@@ -24,6 +26,8 @@ pub struct Stock {
     pub size_mm: [f64; 2],
     /// Number of such sheets at hand; `None` for any number.
     pub count: Option<usize>,
+    /// True if it lies turned by a quarter, and its grain with it.
+    pub is_turned: bool,
 }
 
 /// The order for a nest.
@@ -36,7 +40,8 @@ pub struct NestRequest {
     pub margin_mm: f64,
     /// The least distance of two panels, mm.
     pub spacing_mm: f64,
-    /// True if panels may only be turned by half a turn.
+    /// True if panels keep to the grain of their sheet: they may only be turned by half a turn
+    /// against it.
     pub keeps_grain: bool,
 }
 
@@ -66,6 +71,8 @@ pub struct NestedSheet {
     pub size_mm: [f64; 2],
     /// True if it is one of a number of offcuts.
     pub is_offcut: bool,
+    /// True if it lies turned by a quarter, and its grain with it.
+    pub is_turned: bool,
     /// The panels.
     pub placements: Vec<Placement>,
     /// The length of the sheet up to the last panel with its margin, mm.
@@ -199,7 +206,7 @@ struct Turned {
 impl Item {
     fn of(corners: &[[f64; 2]], request: &NestRequest) -> Self {
         let hull = grown(&convex_hull(corners.to_vec()), 0.5 * request.spacing_mm);
-        let count = if request.keeps_grain { 2 } else { TURNS };
+        let count = if request.keeps_grain { QUARTERS } else { TURNS };
         let turn = |index: usize| {
             let turn_rad = std::f64::consts::TAU * index as f64 / count as f64;
             Turned {
@@ -281,6 +288,7 @@ struct Laid {
     kind: usize,
     size_mm: [f64; 2],
     is_offcut: bool,
+    is_turned: bool,
     /// The placements, with the hulls in their places.
     laid: Vec<(Placement, Vec<[f64; 2]>)>,
 }
@@ -291,6 +299,7 @@ impl Laid {
             kind: 0,
             size_mm: stock.size_mm,
             is_offcut: stock.count.is_some(),
+            is_turned: stock.is_turned,
             laid: Vec::new(),
         }
     }
@@ -298,7 +307,10 @@ impl Laid {
     /// Lays a panel where it uses the least length, and then the least width. Returns whether
     /// there was room.
     fn take(&mut self, panel: usize, item: &Item, request: &NestRequest) -> bool {
-        let places = item.turns.iter().filter_map(|turned| {
+        let first = usize::from(request.keeps_grain && self.is_turned);
+        let step = if request.keeps_grain { 2 } else { 1 };
+        let turns = item.turns.iter().skip(first).step_by(step);
+        let places = turns.filter_map(|turned| {
             let at_mm = self.place(&turned.hull, request)?;
             let [_, high] = bounds(&turned.hull);
             Some((at_mm[0] + high[0], at_mm[1] + high[1], turned, at_mm))
@@ -367,6 +379,7 @@ impl Laid {
         NestedSheet {
             size_mm: self.size_mm,
             is_offcut: self.is_offcut,
+            is_turned: self.is_turned,
             used_mm: last_mm + request.margin_mm,
             placements: self
                 .laid

@@ -71,6 +71,12 @@ pub struct CoreSheet {
     /// ballast.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub ballast_panel_mm: Vec<[f64; 2]>,
+    /// The edges of that panel; empty without ballast.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub ballast_edges: Vec<BallastEdge>,
+    /// Where each piece of ballast lies, in the same order.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub ballast_rows: Vec<BallastRow>,
     /// The units in the order in which they are joined.
     pub units: Vec<UnitPromise>,
     /// The ways in which several polyhedra come together, in their order; empty for one.
@@ -158,7 +164,7 @@ pub struct CutterRow {
     /// True if the shop's software offsets the paths.
     pub compensates_kerf: bool,
     /// Both sides of the bed, mm.
-    pub bed_mm: Option<[f64; 2]>,
+    pub bed_mm: [f64; 2],
 }
 
 /// The sheet.
@@ -173,6 +179,35 @@ pub struct SheetRow {
     pub cut: CutPromise,
     /// The source of its thickness.
     pub thickness_source: String,
+}
+
+/// The glue of ballast, as a shop names it.
+pub const BALLAST_GLUE: &str = "two-part epoxy glue";
+
+/// An edge of the panel with the ballast.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct BallastEdge {
+    /// The number of the panel that comes there.
+    pub to: usize,
+    /// The ends of the line along the tips of its fingers, counterclockwise from outside, mm in the
+    /// panel's frame.
+    pub ends_mm: [[f64; 2]; 2],
+}
+
+/// The place of a piece of ballast, as a worker measures it.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct BallastRow {
+    /// The distances of its centre from two edges.
+    pub from: Vec<EdgeDistance>,
+}
+
+/// A distance from an edge.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct EdgeDistance {
+    /// The number of the panel that comes there.
+    pub to: usize,
+    /// The distance, square to the line along the tips of its fingers, mm.
+    pub distance_mm: f64,
 }
 
 /// The base of an object.

@@ -87,6 +87,38 @@ fn hold_ballast(sheet: &Value, named: &str) {
         .find(|row| row["id"] == id)
         .unwrap();
     assert_eq!(number(bought, "/count"), pieces.len() as f64);
+    hold_places(sheet, pieces);
+    // Its glue is bought and weighed: 0.2 mm of 1.15 g/cm³.
+    assert!(list(sheet, "buy").iter().any(|row| row["id"] == "epoxy"));
+    let films = list(sheet, "glue").iter();
+    let films = films.filter(|film| film["joint"].as_str().unwrap().starts_with("ballast"));
+    for film in films {
+        let expected_g = number(film, "/area_mm2") * 0.2 * 1.15e-3;
+        assert!((number(film, "/mass_g") - expected_g).abs() < 1e-9);
+    }
+}
+
+/// Holds that every piece is told by its distances from two edges of its panel.
+fn hold_places(sheet: &Value, pieces: &[Value]) {
+    let edges = list(sheet, "ballast_edges");
+    assert!(edges.len() >= 3);
+    let rows = list(sheet, "ballast_rows");
+    assert_eq!(rows.len(), pieces.len());
+    for (row, piece) in rows.iter().zip(pieces) {
+        let from = list(row, "from");
+        assert_eq!(from.len(), 2);
+        assert_ne!(from[0]["to"], from[1]["to"]);
+        for told in from {
+            let edge = edges.iter().find(|edge| edge["to"] == told["to"]).unwrap();
+            let end = |k: usize, axis: usize| number(edge, &format!("/ends_mm/{k}/{axis}"));
+            let [x, y] = [0, 1].map(|axis| end(1, axis) - end(0, axis));
+            let [dx, dy] =
+                [0, 1].map(|axis| number(piece, &format!("/at_mm/{axis}")) - end(0, axis));
+            let expected_mm = (x * dy - y * dx) / x.hypot(y);
+            assert!(expected_mm > 0.5 * number(piece, "/shape/diameter_mm"));
+            assert!((number(told, "/distance_mm") - expected_mm).abs() < 1e-6);
+        }
+    }
 }
 
 /// Holds that the sheets are those at hand.
@@ -105,7 +137,7 @@ fn hold_stock(sheet: &Value) {
         name.contains("450 × 200 mm (an offcut at hand)")
     });
     assert_eq!(offcut.count(), 1);
-    assert!(sheet["sheet"]["keeps_grain"].is_null());
+    assert_eq!(sheet["sheet"]["keeps_grain"], false);
 }
 
 /// A lie about ballast or stock that a judge could overlook.
@@ -117,7 +149,7 @@ struct Lie {
     tell: fn(&mut Value),
 }
 
-const LIES: [Lie; 5] = [
+const LIES: [Lie; 7] = [
     // A piece that floats over its panel.
     Lie {
         promise: "ballast lies flat",
@@ -129,6 +161,12 @@ const LIES: [Lie; 5] = [
         promise: "ballast lies flat",
         check: "faults of ballast",
         tell: |sheet| add(&mut sheet["ballast"][0]["at_mm"][0], 1.0),
+    },
+    // A piece of another mass than its name has.
+    Lie {
+        promise: "ballast lies flat",
+        check: "faults of ballast",
+        tell: |sheet| add(&mut sheet["ballast"][0]["mass_g"], 1.0),
     },
     Lie {
         promise: "the whole weighs",
@@ -151,6 +189,12 @@ const LIES: [Lie; 5] = [
         check: "sheets that are not at hand",
         tell: |sheet| sheet["cutter"]["bed_mm"] = vec![500.0, 300.0].into(),
     },
+    // A sheet that is told to lie the other way.
+    Lie {
+        promise: "one of those at hand",
+        check: "sheets that are not at hand",
+        tell: |sheet| sheet["cut_sheets"][0]["is_turned"] = true.into(),
+    },
 ];
 
 fn tell_lies(folder: &Path, kit: &Path) {
@@ -164,6 +208,50 @@ fn tell_lies(folder: &Path, kit: &Path) {
         hold_broken(&copied, lie.promise);
         hold_broken_in_python(&copied, lie.check);
     }
+    hold_damaged(folder, kit);
+}
+
+/// Takes away what stock and grain are measured by: the kit is then damaged, not right.
+fn hold_damaged(folder: &Path, kit: &Path) {
+    for (index, (of, key)) in [
+        ("", "stock"),
+        ("/cutter", "bed_mm"),
+        ("/sheet", "keeps_grain"),
+    ]
+    .into_iter()
+    .enumerate()
+    {
+        let copied = folder.join(format!("without-{index}"));
+        copy(kit, &copied);
+        let file = copied.join("checklist.json");
+        let mut value: Value = serde_json::from_slice(&fs::read(&file).unwrap()).unwrap();
+        let table = value.pointer_mut(of).unwrap().as_object_mut().unwrap();
+        assert!(table.remove(key).is_some());
+        fs::write(&file, value.to_string()).unwrap();
+        let (code, said) = verify(&copied);
+        assert_eq!(code, Some(2), "{said}");
+        assert!(said.contains(key), "{said}");
+        hold_broken_in_python(&copied, &format!("checklist.json lacks {key}"));
+    }
+}
+
+#[test]
+fn more_ballast_than_finds_room_is_answered_with_what_does() {
+    let folder = tempfile::tempdir().unwrap();
+    let kit = folder.path().join("kit");
+    let options = "--faces 6 --up z --least-angle 5 --ballast disc-100-20x9 --json";
+    let output = core(&tower(folder.path()), &kit, options);
+    assert_exit(&output, 1);
+    let answer = json(&output);
+    let said = answer.to_string();
+    assert!(said.contains("of 9 pieces of disc-100-20"), "{said}");
+    let remedies = list(&answer, "remedies").iter();
+    let ordered = remedies.filter(|remedy| remedy["settings"][0]["key"] == "ballast");
+    let values: Vec<&str> = ordered
+        .filter_map(|remedy| remedy["settings"][0]["value"].as_str())
+        .collect();
+    assert!(values.contains(&"none"), "{values:?}");
+    assert!(!kit.exists());
 }
 
 /// Returns a base of two boxes on the plane x = 170, each with a bottom that leans towards it.

@@ -14,6 +14,7 @@ import hashlib
 import json
 import math
 import sys
+import tomllib
 from pathlib import Path
 
 import manifold3d
@@ -47,6 +48,12 @@ PIN_MM3 = 0.02
 TOUCH_MM = 5e-3
 BAND_RATIO = 0.002
 SAMPLES = 4000
+# The catalogue of ballast: what a part of a name is and weighs.
+STOCK = {
+    part["id"]: part
+    for file in (Path(__file__).parents[2] / "profiles/ballast").glob("*.toml")
+    for part in tomllib.loads(file.read_text())["part"]
+}
 STRAY_SIDES = "sides that lie between no polyhedra"
 
 
@@ -431,27 +438,28 @@ def judge_ballast(kit, panels):
         base = kit.base_of(panel).solid(0.0)[0]
         others = [*kit.solids.values(), *panels, *bodies[:at]]
         shared = sum((body ^ other).volume() for other in others if meets(body, other))
-        density = piece["mass_g"] * 1e3 / (math.pi * half * piece["shape"]["diameter_mm"] ** 2 / 2)
-        wrong += not (lies and within and (body - base).volume() <= IN_BASE_MM3 and shared <= HEADS_MM3 and 0.5 <= density <= 20)
+        named = STOCK.get(piece["id"], {})
+        stocked = all(named.get(key) == piece[key] for key in ("shape", "mass_g"))
+        wrong += not (lies and within and (body - base).volume() <= IN_BASE_MM3 and shared <= HEADS_MM3 and stocked)
     kit.check("faults of ballast", wrong, wrong == 0, f"0 of {len(pieces)} pieces")
     return bodies
 
 
 def judge_stock(kit):
     """Every sheet is one of those at hand and lies on the bed; panels follow the grain if they must."""
-    left = [[stock["size_mm"], math.inf if stock["count"] is None else stock["count"]] for stock in kit.sheet.get("stock", [])]
-    bed, missing = kit.sheet["cutter"].get("bed_mm"), 0
+    lying = lambda thing: (thing["size_mm"], thing["is_turned"])
+    left = [[lying(stock), math.inf if stock["count"] is None else stock["count"]] for stock in kit.sheet["stock"]]
+    bed, missing = kit.sheet["cutter"]["bed_mm"], 0
     for sheet in kit.sheet["cut_sheets"]:
-        own = [one for one in left if one[0] == sheet["size_mm"] and one[1] > 0]
-        if left and not own:
-            missing += 1
+        own = [one for one in left if one[0] == lying(sheet) and one[1] > 0]
+        missing += not own
         if own:
             own[0][1] -= 1
-        size = sorted(sheet["size_mm"])
-        missing += bool(bed) and any(side > room + 1e-6 for side, room in zip(size, sorted(bed)))
+        missing += any(side > room + 1e-6 for side, room in zip(sheet["size_mm"], bed))
     kit.check("sheets that are not at hand", missing, missing == 0, 0)
-    if kit.sheet["sheet"].get("keeps_grain"):
-        turns = [abs(math.sin(place["turn_rad"])) for sheet in kit.sheet["cut_sheets"] for place in sheet["panels"]]
+    if kit.sheet["sheet"]["keeps_grain"]:
+        grain = lambda sheet: math.pi / 2 if sheet["is_turned"] else 0.0
+        turns = [abs(math.sin(place["turn_rad"] - grain(sheet))) for sheet in kit.sheet["cut_sheets"] for place in sheet["panels"]]
         kit.check("sine of a panel's turn against the grain", max(turns), max(turns) <= 1e-9, 1e-9)
 
 
@@ -615,8 +623,19 @@ def judge_things(kit, model):
     judge_mass(kit)
 
 
+def lacking(sheet):
+    """The keys of stock and grain that a list must have and has not."""
+    at = [(sheet, "stock"), (sheet, "cutter"), (sheet.get("cutter", {}), "bed_mm"), (sheet.get("sheet", {}), "keeps_grain")]
+    at += [(thing, "is_turned") for thing in [*sheet.get("stock", []), *sheet.get("cut_sheets", [])]]
+    return sorted({key for thing, key in at if thing.get(key) in (None, [])})
+
+
 def judge(folder):
     print(folder)
+    lacks = lacking(json.loads((Path(folder) / "checklist.json").read_text()))
+    if lacks:
+        print(f"  broken: checklist.json lacks {', '.join(lacks)}")
+        return False
     kit = Kit(folder)
     judge_files(kit)
     model = judge_base(kit)

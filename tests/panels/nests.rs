@@ -10,6 +10,7 @@ fn stock(length: f64, width: f64) -> Stock {
     Stock {
         size_mm: [length, width],
         count: None,
+        is_turned: false,
     }
 }
 
@@ -162,6 +163,27 @@ fn grain_keeps_panels_from_being_turned_and_too_large_panels_are_named() {
         nest(&[bar.clone(), bar], &request),
         Err(NestError::NoSheetLeft(1))
     );
+}
+
+#[test]
+fn panels_keep_to_the_grain_of_a_sheet_that_lies_turned() {
+    let bar = vec![[0.0, 0.0], [30.0, 0.0], [30.0, 300.0], [0.0, 300.0]];
+    let turned = Stock {
+        is_turned: true,
+        ..stock(400.0, 100.0)
+    };
+    let request = NestRequest {
+        keeps_grain: true,
+        ..nest_request(vec![turned])
+    };
+    let sheets = nest(std::slice::from_ref(&bar), &request).unwrap();
+    hold_nest(std::slice::from_ref(&bar), &sheets, &request);
+    assert!(sheets[0].is_turned);
+    let turn_rad = sheets[0].placements[0].turn_rad;
+    assert!(turn_rad.cos().abs() < 1e-12, "{turn_rad}");
+    // Across the grain it would fit, so that it fits no more.
+    let across: Vec<[f64; 2]> = bar.iter().map(|[x, y]| [*y, -*x]).collect();
+    assert_eq!(nest(&[across], &request), Err(NestError::TooLarge(0)));
 }
 
 #[test]

@@ -187,7 +187,11 @@ fn the_judge_finds_a_panel_that_is_cut_on_its_line_and_one_that_lies_too_near() 
 fn offcuts_are_used_first_and_a_sheet_without_a_size_is_refused() {
     let mut shop = Shop::of("makerspace-900x600", "birch-5");
     let set = panels_for(&shop, &cube(), JointStyle::Auto);
-    let size = |size_mm: [f64; 2], count: Option<usize>| Stock { size_mm, count };
+    let size = |size_mm: [f64; 2], count: Option<usize>| Stock {
+        size_mm,
+        count,
+        is_turned: false,
+    };
     // Offcuts are used first, wherever they are named.
     shop.stock = vec![size([600.0, 400.0], None), size([230.0, 450.0], Some(1))];
     let sheets = cut_sheets(&set, &shop.order()).unwrap();

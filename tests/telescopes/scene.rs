@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use crate::common::{assert_exit, equipoise, json, path, printed};
+use crate::common::{assert_exit, equipoise, json, path, printed, telescope_judge_says};
 
 /// Returns the number at a pointer.
 fn at(value: &serde_json::Value, pointer: &str) -> usize {
@@ -43,7 +43,7 @@ fn lie_about_an_animation(kit: &Path, index: usize, name: &str) {
     let said = check.to_string();
     assert!(said.contains("S02 is 0.1"), "{said}");
     assert!(said.contains(&format!("of `{name}`")), "{said}");
-    if let Some(output) = common::telescope_judge_says(kit) {
+    if let Some(output) = telescope_judge_says(kit) {
         assert_exit(&output, 1);
         let said = printed(&output);
         assert!(said.contains(&format!("animation {name} is 0.1")), "{said}");

@@ -35,8 +35,8 @@ pub struct CoreArgs {
     /// A known sheet's id, or a profile file
     #[arg(long, value_name = "ID|FILE")]
     pub sheet: Option<String>,
-    /// The sheets at hand, in mm; *2 says that there are two, which are used first [default: the
-    /// sizes of the sheet's profile]
+    /// The sheets at hand, in mm, the side along the grain first; *2 says that there are two, which
+    /// are used first [default: the sizes of the sheet's profile]
     #[arg(long, value_name = "900x600,…", allow_hyphen_values = true)]
     pub stock: Option<StockList>,
     /// Panels that follow the grain, or lie any way [default: as the sheet's profile says]

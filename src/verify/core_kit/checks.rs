@@ -328,7 +328,7 @@ fn of_balance(promise: &CorePromise, facts: &CoreFacts) -> Vec<Check> {
     checks.extend(facts.ballast.as_ref().map(|faults| {
         none(
             CheckKind::BallastRoom,
-            "ballast lies flat on its panel, within the base and in nothing else",
+            "ballast lies flat on its panel, within the base and in nothing else, and is of the catalogue",
             faults,
         )
     }));

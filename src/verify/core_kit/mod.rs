@@ -7,6 +7,7 @@
 
 mod ballast;
 mod base_files;
+mod bench;
 mod certificate;
 mod checks;
 mod drawings;

@@ -3,6 +3,7 @@
 
 use std::f64::consts::{PI, TAU};
 
+use super::bench::bench_joints;
 use super::evidence::CoreEvidence;
 use super::promise::{FastenerKind, PegPromise};
 use crate::geom::{Bvh, Point, Vector, orthonormal_basis};
@@ -224,44 +225,13 @@ impl PinJudge<'_> {
     /// Returns the joints within a unit that cannot be closed in their listed order. Two groups of
     /// parts come together along a line, so that all pins between them must stand along it.
     fn unjoinable(&self) -> Vec<String> {
-        let (units, pins) = (&self.evidence.promise.units, &self.evidence.promise.pins);
-        let unit_of = |id: &String| units.iter().position(|unit| unit.parts.contains(id));
-        let benched = pins
-            .iter()
-            .filter(|peg| unit_of(&peg.on) == unit_of(&peg.into));
-        let benched: Vec<&PegPromise> = benched.collect();
-        let mut groups: Vec<Vec<&String>> = Vec::new();
-        for id in benched.iter().flat_map(|peg| [&peg.on, &peg.into]) {
-            if !groups.iter().any(|group| group.contains(&id)) {
-                groups.push(vec![id]);
-            }
-        }
-        let mut faults = Vec::new();
-        for peg in &benched {
-            let place = |id: &String| groups.iter().position(|group| group.contains(&id));
-            let (Some(one), Some(other)) = (place(&peg.on), place(&peg.into)) else {
-                continue;
-            };
-            if one == other {
-                continue;
-            }
-            let is_across = |pin: &&&PegPromise| {
-                let ends = [place(&pin.on), place(&pin.into)];
-                ends == [Some(one), Some(other)] || ends == [Some(other), Some(one)]
-            };
-            let along = Vector::from(peg.direction);
-            let cosine = |pin: &&PegPromise| along.dot(&Vector::from(pin.direction)).abs();
-            let mut across = benched.iter().filter(is_across);
-            if across.any(|pin| cosine(pin) < 1.0 - AXIS_SLACK) {
-                faults.push(format!(
-                    "{} cannot be joined to {} in turn",
-                    peg.into, peg.on
-                ));
-            }
-            let moved = std::mem::take(&mut groups[other]);
-            groups[one].extend(moved);
-        }
-        faults
+        let joints = bench_joints(&self.evidence.promise).into_iter();
+        let crossed = joints.filter(|joint| !joint.is_along);
+        let words = crossed.map(|joint| {
+            let PegPromise { on, into, .. } = joint.peg;
+            format!("{into} cannot be joined to {on} in turn")
+        });
+        words.collect()
     }
 
     /// Returns the parts whose listed volumes are not those of their pins and sockets.

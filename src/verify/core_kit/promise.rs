@@ -25,10 +25,8 @@ pub struct CorePromise {
     /// The sheet and the cut.
     pub sheet: CutPromise,
     /// The cutter.
-    #[serde(default)]
     pub cutter: CutterPromise,
     /// The sheets at hand, as they lie on the cutter's bed.
-    #[serde(default)]
     pub stock: Vec<StockPromise>,
     /// The sheets with their panels.
     pub cut_sheets: Vec<CutSheetPromise>,
@@ -78,15 +76,14 @@ pub struct CutPromise {
     /// The width that stays free along the edges of a sheet, mm.
     pub margin_mm: f64,
     /// True if panels follow the grain of their sheet.
-    #[serde(default, skip_serializing_if = "is_false")]
     pub keeps_grain: bool,
 }
 
 /// The cutter.
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct CutterPromise {
-    /// Both sides of its bed, mm; `None` if they are not told.
-    pub bed_mm: Option<[f64; 2]>,
+    /// Both sides of its bed, mm.
+    pub bed_mm: [f64; 2],
 }
 
 /// A size of sheets at hand.
@@ -96,6 +93,8 @@ pub struct StockPromise {
     pub size_mm: [f64; 2],
     /// The number of such sheets; `None` for any number.
     pub count: Option<usize>,
+    /// True if it lies turned by a quarter, and its grain with it.
+    pub is_turned: bool,
 }
 
 /// A sheet with its panels.
@@ -107,6 +106,8 @@ pub struct CutSheetPromise {
     pub svg: String,
     /// Length and width, mm.
     pub size_mm: [f64; 2],
+    /// True if it lies turned by a quarter, and its grain with it.
+    pub is_turned: bool,
     /// The panels on it.
     pub panels: Vec<PlacedPanel>,
 }

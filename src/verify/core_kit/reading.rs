@@ -48,6 +48,10 @@ fn read(folder: &KitFolder) -> Result<CoreEvidence, CoreVerifyError> {
     let drawn = drawn.flat_map(|sheet| [&sheet.dxf, &sheet.svg]);
     let named = promise.parts.iter().map(|part| &part.file);
     all_inside_kit(named.chain(drawn).chain(promise.files.keys()))?;
+    if promise.stock.is_empty() {
+        let why = "it names no sheets at hand";
+        return Err(folder.mismatch(CHECKLIST_FILE, why).into());
+    }
     if let Some((file, why)) = mismatch(&panels, &certificate) {
         return Err(folder.mismatch(file, why).into());
     }

@@ -3,6 +3,7 @@
 use rayon::prelude::*;
 
 use super::ballast::ballast_body;
+use super::bench::{BenchJoint, bench_joints};
 use super::error::CoreVerifyError;
 use super::evidence::CoreEvidence;
 use super::joining::{misjoined, polyhedron_of};
@@ -69,7 +70,18 @@ pub fn measure_ways(evidence: &CoreEvidence, watch: &Watch) -> Result<WayFacts, 
         ..WayFacts::default()
     };
     let units: Vec<UnitBodies> = bodies(evidence);
-    let steps = steps(evidence, &units);
+    let benched = bench_joints(&evidence.promise);
+    let parts: Vec<TriMesh> = match benched.is_empty() {
+        true => Vec::new(),
+        false => evidence.parts.iter().map(weld).collect(),
+    };
+    let on_bench = benched
+        .iter()
+        .map(|joint| bench_step(evidence, joint, &parts));
+    let steps: Vec<Step> = steps(evidence, &units)
+        .into_iter()
+        .chain(on_bench)
+        .collect();
     let ways = steps.par_iter().map(|step| {
         watch.check()?;
         measure_way(step)
@@ -130,6 +142,20 @@ fn steps<'a>(evidence: &CoreEvidence, units: &'a [UnitBodies]) -> Vec<Step<'a>> 
         }
     });
     of_units.chain(of_joins).collect()
+}
+
+/// Returns the step of joining two groups of parts on the bench.
+fn bench_step<'a>(evidence: &CoreEvidence, joint: &BenchJoint, parts: &'a [TriMesh]) -> Step<'a> {
+    let bodies = |ids: &[&String]| {
+        let own = ids.iter().filter_map(|id| evidence.part(id));
+        own.filter_map(|part| parts.get(part)).collect()
+    };
+    Step {
+        moving: bodies(&joint.moving),
+        standing: bodies(&joint.standing),
+        way: joint.way,
+        id: format!("{} on {}", joint.peg.into, joint.peg.on),
+    }
 }
 
 /// Returns the things that belong to no unit, or to several.
