@@ -8,6 +8,7 @@ mod along;
 mod bodies;
 mod draft;
 mod ends;
+mod held;
 mod limb;
 mod made;
 mod papers;
