@@ -8,6 +8,7 @@ use super::super::made::{Made, Printing, make};
 use super::super::poses::{Laid, Lies, lay_juncture};
 use super::bodies::{body, body_of_model};
 use super::ends::last;
+use super::held::held;
 use super::pieces::{NoPieces, pieces};
 use super::skin::Skin;
 use super::tree::Tree;
@@ -72,7 +73,10 @@ impl Workshop<'_> {
         for (index, (limb, designed)) in tree.network.limbs.iter().zip(&tree.limbs).enumerate() {
             let asked = designed.order.asked(self.shop, &prefix(&limb.id))?;
             match make(&asked, designed.best.clone(), self.watch)? {
-                Verdict::Found(made) => all.push(made),
+                Verdict::Found(made) => match held(&made) {
+                    None => all.push(made),
+                    Some(why) => return Ok(Verdict::No(Refused { limb: index, why })),
+                },
                 Verdict::No(refused) => {
                     let why = refused.reason.to_string();
                     return Ok(Verdict::No(Refused { limb: index, why }));

@@ -9,6 +9,7 @@ mod bodies;
 mod draft;
 mod ends;
 mod film;
+mod held;
 mod limb;
 mod made;
 mod papers;
