@@ -12,8 +12,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use common::{
-    assert_exit, checklist, equipoise, judge_telescope, list, number, path, printed, text, verify,
-    words,
+    assert_exit, checklist, equipoise, judge_telescope, list, number, path, printed,
+    telescope_judge_says, text, verify, words,
 };
 use equipoise::geom::{Plane, Point, Vector};
 use equipoise::io::stl;
@@ -71,7 +71,37 @@ fn a_figure_keeps_its_hand_and_foot_and_both_judges_pass_it() {
     let (code, said) = verify(&kit);
     assert_eq!(code, Some(0), "{said}");
     judge_telescope(&kit);
+    cut_off_a_hand(&kit);
     lie_about_the_model(&kit);
+}
+
+/// Cuts the end off a piece of the model at the tip of a limb, and puts it back: both judges must
+/// miss it.
+fn cut_off_a_hand(kit: &Path) {
+    let sheet = checklist(kit);
+    let limbs = list(&sheet, "limbs");
+    let tip = limbs.iter().map(|limb| limb["to"].as_u64().unwrap()).max();
+    let hand = &list(&sheet, "junctures")[tip.unwrap() as usize - 1];
+    let file = kit.join(hand["file"].as_str().unwrap());
+    let right = fs::read(&file).unwrap();
+    let mesh = stl::decode(&right).unwrap();
+    let size = mesh.aabb().size();
+    let axis = size.imax();
+    let mut normal = Vector::zeros();
+    normal[axis] = 1.0;
+    let offset_mm = mesh.aabb().max[axis] - 0.2 * size[axis];
+    let whole = Csg::of_mesh(&mesh).unwrap();
+    let (_, rest) = whole.split_by_plane(&Plane { normal, offset_mm }).unwrap();
+    fs::write(&file, stl::encode(&rest.to_mesh().unwrap(), "hand")).unwrap();
+    let (code, said) = verify(kit);
+    assert_eq!(code, Some(1), "{said}");
+    assert!(said.contains("corners around"), "{said}");
+    if let Some(output) = telescope_judge_says(kit) {
+        assert_exit(&output, 1);
+        let said = printed(&output);
+        assert!(said.contains("FAIL nothing of the model is lost"), "{said}");
+    }
+    fs::write(&file, right).unwrap();
 }
 
 /// Puts a model into the kit that is a little thicker: the judge must find that the pieces are not

@@ -365,13 +365,14 @@ def judge_model(kit):
         beyond = max((piece.volume() / piece.surface_area() for piece in (solid - model).decompose()), default=0.0)
         kit.say(f"{part['id']} lies in the model", beyond < ON_MODEL_MM, f"{beyond:.6f} mm beyond")
         whole += solid
-    rest = (model - whole).decompose()
-    lost = []
-    for piece in rest:
-        points = np.array(piece.to_mesh().vert_properties)[:, :3]
-        if piece.volume() < ON_MODEL_MM * piece.surface_area() or any(replaces(limb, points) for limb in kit.limbs):
-            continue
-        lost.append(f"{piece.volume():.1f} mm³ at {points.mean(axis=0).round(1)}")
+    rest = [piece for piece in (model - whole).decompose() if piece.volume() >= ON_MODEL_MM * piece.surface_area()]
+    points = [np.array(piece.to_mesh().vert_properties)[:, :3] for piece in rest]
+    # A limb replaces one piece: of those from its root's mouth to its last one, that nearest to the mouth.
+    replaced = set()
+    for limb in kit.limbs:
+        bands = [index for index in range(len(rest)) if index not in replaced and replaces(limb, points[index])]
+        replaced |= set(sorted(bands, key=lambda index: from_mouth(limb, points[index]))[:1])
+    lost = [f"{rest[i].volume():.1f} mm³ at {points[i].mean(axis=0).round(1)}" for i in range(len(rest)) if i not in replaced]
     kit.say("nothing of the model is lost", not lost, f"{len(rest)} pieces {lost or ''}")
     low, high = mesh.bounds
     box = manifold3d.Manifold.cube(tuple(high - low + 2 * AROUND_MM)).translate(tuple(low - AROUND_MM))
@@ -389,6 +390,13 @@ def replaces(limb, points):
     mouths = [frames[shell] @ limb.along(shell, limb.motion["shells"][shell]["ends_mm"][1]) for shell in (0, last)]
     root, end = (trimesh.transform_points(points, np.linalg.inv(mouth))[:, 0] for mouth in mouths)
     return root.min() <= BESIDE_MM and end.max() >= -BESIDE_MM and np.ptp(root) > BESIDE_MM
+
+
+def from_mouth(limb, points):
+    """Returns the least distance of points from the middle of a root's mouth, mm."""
+    out = [(joint["open_mm"], joint["turn_rad"]) for joint in limb.motion["joints"]]
+    mouth = limb.frames(out)[0] @ limb.along(0, limb.motion["shells"][0]["ends_mm"][1])
+    return np.linalg.norm(points - mouth[:3, 3], axis=1).min()
 
 
 def bore_gap(kit, limb, outside, search):

@@ -19,6 +19,8 @@ use crate::verify::cover::{Lie, ON_SHEET_MM, Sheet, Sheets, Whose};
 const BESIDE_MM: f64 = 0.01;
 /// Depth below a root's tail that its bore may take, mm.
 const BELOW_TAIL_MM: f64 = 1.0;
+/// The deepest groove beside a bore, in radii of the bore.
+const MOST_GROOVE: f64 = 0.5;
 /// Length before a root's mouth in which its bore may widen to a rim, mm.
 const RIM_MM: f64 = 0.5;
 /// Stations along a bore, and angles around it, at which the wall is measured.
@@ -108,8 +110,8 @@ fn off_model(evidence: &NetworkEvidence, model: &TriMesh, ends: &[Ends]) -> Vec<
 
 /// Returns the patches of the model that are lost, each with a place.
 ///
-/// A limb replaces a band of the model from its root's mouth to its last one. Every patch that no
-/// juncture has must be such a band.
+/// A limb replaces one band of the model, from its root's mouth to its last one. Every patch that
+/// no juncture has must be the band of a limb of its own: that nearest to the root's mouth.
 fn lost(evidence: &NetworkEvidence, model: &TriMesh, ends: &[Ends]) -> Vec<String> {
     let sheets = sheets_of(evidence.junctures.iter());
     let bare = model.triangles().par_iter().enumerate();
@@ -128,9 +130,17 @@ fn lost(evidence: &NetworkEvidence, model: &TriMesh, ends: &[Ends]) -> Vec<Strin
         let patch = patches.entry(sets.root(*vertex)).or_default();
         patch.push(model.vertices()[*vertex as usize]);
     }
-    let lost = patches
-        .into_values()
-        .filter(|patch| !ends.iter().any(|ends| ends.reaches_both(patch)));
+    let mut patches: Vec<Option<Vec<Point>>> = patches.into_values().map(Some).collect();
+    for ends in ends {
+        let bands = patches.iter().enumerate().filter_map(|(index, patch)| {
+            let patch = patch.as_ref().filter(|patch| ends.reaches_both(patch))?;
+            Some((index, ends.from_mouth_mm(patch)))
+        });
+        if let Some((band, _)) = bands.min_by(|a, b| a.1.total_cmp(&b.1)) {
+            patches[band] = None;
+        }
+    }
+    let lost = patches.into_iter().flatten();
     lost.map(|patch| format!("{} corners around {}", patch.len(), place(&patch[0])))
         .collect()
 }
@@ -184,21 +194,36 @@ impl<'a> Ends<'a> {
             last_shell,
             last_mm,
             bore_mm,
-            groove_mm: evidence.promise.groove_mm,
+            groove_mm: evidence.promise.groove_mm.min(MOST_GROOVE * bore_mm),
         }
     }
 
     /// Returns true if a triangle lies in the cut at the root's mouth, or in its bore.
     fn is_in_root(&self, corners: &[Point; 3]) -> bool {
         let [tail_mm, mouth_mm] = self.first.ends_mm;
-        let bore = Within {
-            arcs_mm: [tail_mm - BELOW_TAIL_MM, mouth_mm],
-            radius_mm: self.bore_mm + self.groove_mm,
+        let bore = |radius_mm: f64, from_mm: f64| Within {
+            arcs_mm: [from_mm, mouth_mm],
+            radius_mm,
+            aside_mm: f64::INFINITY,
+        };
+        let wide_mm = self.bore_mm + self.groove_mm;
+        let below_mm = tail_mm - BELOW_TAIL_MM;
+        let [round, rim, groove] = [
+            bore(self.bore_mm, below_mm),
+            bore(wide_mm, mouth_mm - RIM_MM),
+            Within {
+                aside_mm: self.groove_mm,
+                ..bore(wide_mm, below_mm)
+            },
+        ];
+        let is_bored = |local: &Point| {
+            let all = [&round, &rim, &groove];
+            all.iter().any(|within| is_about(self.first, local, within))
         };
         is_on_plane(&self.root_mouth, corners)
             || corners.iter().all(|p| {
                 let local = self.root.to_local(p);
-                self.is_below_tail(p) || is_about(self.first, &local, &bore)
+                self.is_below_tail(p) || is_bored(&local)
             })
     }
 
@@ -214,6 +239,7 @@ impl<'a> Ends<'a> {
         let peg = Within {
             arcs_mm: self.last_shell.ends_mm,
             radius_mm: self.last_mm,
+            aside_mm: f64::INFINITY,
         };
         is_on_plane(&self.last_mouth, corners)
             || corners.iter().all(|p| {
@@ -227,6 +253,13 @@ impl<'a> Ends<'a> {
         let behind = |p: &Point| self.root_mouth.to_local(p).x <= ON_SHEET_MM;
         let ahead = |p: &Point| self.last_mouth.to_local(p).x >= -ON_SHEET_MM;
         points.iter().any(behind) && points.iter().any(ahead)
+    }
+
+    /// Returns the least distance of points from the middle of the root's mouth, mm.
+    fn from_mouth_mm(&self, points: &[Point]) -> f64 {
+        let mouth = self.root_mouth.origin;
+        let distances = points.iter().map(|p| (p - mouth).norm());
+        distances.fold(f64::INFINITY, f64::min)
     }
 
     /// Returns the least depth of the bore below the model's surface, mm.
@@ -261,6 +294,8 @@ fn is_on_plane(mouth: &Frame, corners: &[Point; 3]) -> bool {
 struct Within {
     arcs_mm: [f64; 2],
     radius_mm: f64,
+    /// The most aside of the side on which the air's groove lies; infinite all around.
+    aside_mm: f64,
 }
 
 /// Returns true if a point in a shell's frame lies within a radius of its axis, between two arcs.
@@ -275,5 +310,7 @@ fn is_about(shell: &ShellMotion, p: &Point, within: &Within) -> bool {
     }
     let local = shell.along(arc_mm).to_local(p);
     let is_between = arc_mm >= from_mm - BESIDE_MM && arc_mm <= to_mm + BESIDE_MM;
-    is_between && local.y.hypot(local.z) <= within.radius_mm + BESIDE_MM
+    let is_aside = within.aside_mm.is_infinite()
+        || local.y > 0.0 && local.z.abs() <= within.aside_mm + BESIDE_MM;
+    is_between && is_aside && local.y.hypot(local.z) <= within.radius_mm + BESIDE_MM
 }
