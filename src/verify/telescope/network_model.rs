@@ -212,7 +212,8 @@ impl<'a> Ends<'a> {
             bore(self.bore_mm, below_mm),
             bore(wide_mm, mouth_mm - RIM_MM),
             Within {
-                aside_mm: self.groove_mm,
+                // Its sides are radial: it is wider at its bottom.
+                aside_mm: self.groove_mm * wide_mm / self.bore_mm,
                 ..bore(wide_mm, below_mm)
             },
         ];
