@@ -134,7 +134,7 @@ fn lost(evidence: &NetworkEvidence, model: &TriMesh, ends: &[Ends]) -> Vec<Strin
     for ends in ends {
         let bands = patches.iter().enumerate().filter_map(|(index, patch)| {
             let patch = patch.as_ref().filter(|patch| ends.reaches_both(patch))?;
-            Some((index, ends.from_mouth_mm(patch)))
+            Some((index, ends.mouth_gap_mm(patch)))
         });
         if let Some((band, _)) = bands.min_by(|a, b| a.1.total_cmp(&b.1)) {
             patches[band] = None;
@@ -257,7 +257,7 @@ impl<'a> Ends<'a> {
     }
 
     /// Returns the least distance of points from the middle of the root's mouth, mm.
-    fn from_mouth_mm(&self, points: &[Point]) -> f64 {
+    fn mouth_gap_mm(&self, points: &[Point]) -> f64 {
         let mouth = self.root_mouth.origin;
         let distances = points.iter().map(|p| (p - mouth).norm());
         distances.fold(f64::INFINITY, f64::min)

@@ -41,6 +41,9 @@ struct Play {
     states: Vec<[State; 2]>,
 }
 
+/// Returns the frames of all bodies at a state.
+type Places<'a> = dyn Fn(&State) -> Vec<Frame> + 'a;
+
 /// The bodies, the states between moves, and where the bodies are in a state.
 struct Script<'a> {
     bodies: Vec<Wanted<'a>>,
@@ -48,7 +51,7 @@ struct Script<'a> {
     joints: Vec<Vec<&'a str>>,
     keys: Vec<State>,
     up: Vector,
-    places: Box<dyn Fn(&State) -> Vec<Frame> + 'a>,
+    places: Box<Places<'a>>,
 }
 
 /// Checks the moving scene of a telescope.

@@ -175,7 +175,7 @@ fn a_failed_check_without_a_wrong_setting_says_so() {
 
 #[test]
 fn a_rotor_may_be_as_coarse_as_its_grade_and_no_coarser() {
-    // The axis lies 0.005 mm beside the middle of the trays: at 3000 rpm that is 1.57 mm/s and more.
+    // The axis lies 0.005 mm beside the middle of the trays: at 3000 rpm at least 1.57 mm/s.
     let of_grade = |grade_mm_s: f64| {
         let mut evidence = kit();
         evidence.promise.goal = Aim {
