@@ -76,8 +76,8 @@ fn a_figure_keeps_its_hand_and_foot_and_both_judges_pass_it() {
     lie_about_the_model(&kit);
 }
 
-/// Cuts either end off a piece of the model at the tip of a limb, and puts it back. The judge must
-/// miss both, and that in Python the one which no limb replaces.
+/// Cuts either end off a piece of the model at the tip of a limb, and puts it back. Both judges
+/// must miss both.
 fn cut_off_a_hand(kit: &Path) {
     let sheet = checklist(kit);
     let limbs = list(&sheet, "limbs");
@@ -90,7 +90,6 @@ fn cut_off_a_hand(kit: &Path) {
     let axis = size.imax();
     let mut normal = Vector::zeros();
     normal[axis] = 1.0;
-    let mut missed = Vec::new();
     for (share, is_top) in [(0.2, true), (0.8, false)] {
         let offset_mm = low[axis] + share * size[axis];
         let whole = Csg::of_mesh(&mesh).unwrap();
@@ -105,10 +104,8 @@ fn cut_off_a_hand(kit: &Path) {
         assert!(line.unwrap().contains("FAIL"), "{said}");
         if let Some(output) = telescope_judge_says(kit) {
             assert_exit(&output, 1);
-            missed.push(printed(&output).contains("FAIL nothing of the model is lost"));
         }
     }
-    assert!(missed.is_empty() || missed.contains(&true));
     fs::write(&file, right).unwrap();
 }
 
