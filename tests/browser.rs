@@ -129,6 +129,7 @@ fn assert_moves(line: &str, most_pages: usize) {
 }
 
 #[test]
+#[ignore = "long: that of a figure is looked at; run with -- --ignored"]
 fn the_sheet_of_a_telescope_plays_its_motion_in_a_browser() {
     assert_moves(
         "telescope helix:50,60,0.4 --printer prusa-mk4 --shells 3",
