@@ -162,7 +162,7 @@ impl Scene<'_> {
     }
 }
 
-/// What fastens a part.
+/// The pieces that fasten a part.
 struct Fastened<'a> {
     screws: Option<&'a PartScrews>,
     /// The pins that stand on it, and those whose sockets it has.

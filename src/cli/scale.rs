@@ -15,12 +15,9 @@ use super::voice::Voice;
 use crate::base::numbers::quantity;
 use crate::base::watch::Watch;
 use crate::field::FileError;
-use crate::geom::Point;
 use crate::job::InfillDensity;
 use crate::slice::{ScaleError, ScaleOrder, Scaled, scale_toolpaths};
-use crate::verify::{
-    Figures, PRINTED_CENTER_LIMIT_MM, PrintedError, PrintedJudgement, PrintedPart, verify_printed,
-};
+use crate::verify::{Check, Figures, PrintedError, PrintedJudgement, PrintedPart, verify_printed};
 
 /// A reason why no toolpaths were written.
 #[derive(Debug, thiserror::Error)]
@@ -58,15 +55,8 @@ struct Found<'a> {
     parts: Vec<[&'a PrintedPart; 2]>,
     /// All parts together, before and after; `None` if another plate holds some of them.
     together: Option<[&'a Figures; 2]>,
-    /// How far their centre is from the promised one if they follow the kit's own field, mm.
-    off_mm: Option<f64>,
-}
-
-impl Found<'_> {
-    /// Returns true unless toolpaths that follow the kit's own field miss its centre.
-    fn passes(&self) -> bool {
-        self.off_mm.is_none_or(|mm| mm <= PRINTED_CENTER_LIMIT_MM)
-    }
+    /// The promises of the goal that toolpaths break if they follow the kit's own field.
+    broken: Vec<&'a Check>,
 }
 
 /// Scales toolpaths, weighs them before and after, and prints what changed to `out`.
@@ -112,40 +102,41 @@ pub fn scale_extrusion(
             .as_ref()
             .zip(after.toolpaths.as_ref())
             .map(|(a, b)| [a, b]),
-        off_mm: args.field.is_none().then(|| off_mm(&after)).flatten(),
+        broken: if args.field.is_none() {
+            after.broken_goals().collect()
+        } else {
+            Vec::new()
+        },
     };
     if voice.json {
         writeln!(out, "{}", serde_json::to_string_pretty(&found)?)?;
     } else if !voice.manner.quiet {
         write!(out, "{}", text(&found))?;
-    } else if !found.passes() {
-        say(&off_text(&found));
+    } else if !found.broken.is_empty() {
+        say(broken_text(&found).trim_end());
     }
-    Ok(if found.passes() {
+    Ok(if found.broken.is_empty() {
         Exit::Kept
     } else {
         Exit::NotKept
     })
 }
 
-/// Returns the distance between the centre of the toolpaths and that of the written parts, mm;
-/// `None` if another plate holds some of them.
-fn off_mm(judged: &PrintedJudgement) -> Option<f64> {
-    let laid = Point::from(judged.toolpaths.as_ref()?.center_mm);
-    Some((laid - Point::from(judged.written.center_mm)).norm())
-}
-
-/// Words how far the centre is off.
-fn off_text(found: &Found) -> String {
-    let off = found.off_mm.map_or(String::new(), |mm| {
-        format!("centre of mass {mm:.3} mm from the promised one\n")
+/// Words the promises of the goal that are broken; empty if none is.
+fn broken_text(found: &Found) -> String {
+    let broken = found.broken.iter().map(|check| {
+        let value = check
+            .value
+            .map_or("none".to_owned(), |value| quantity(value, &check.unit));
+        format!("broken: {} {value}\n", check.promise)
     });
-    if found.passes() {
-        return off;
+    let broken: String = broken.collect();
+    if broken.is_empty() {
+        return broken;
     }
     format!(
-        "{off}warning: that is more than {PRINTED_CENTER_LIMIT_MM} mm: do not print these \
-         toolpaths\n"
+        "{broken}warning: do not print these toolpaths\n  remedy: print the kit's own plate, or \
+         prepare the kit with more to spare\n"
     )
 }
 
@@ -206,7 +197,7 @@ fn text(found: &Found) -> String {
             written.slowed
         );
     }
-    said += &off_text(found);
+    said += &broken_text(found);
     said += "how a printer follows such lines is not measured: print a small piece and weigh it\n";
     format!("{said}written to {}\n", found.file.display()).replace('\u{a0}', " ")
 }

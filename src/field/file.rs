@@ -25,6 +25,8 @@ use super::polynomial::{Polynomial, Term};
 use crate::base::toml_text::{self, TextFault};
 use crate::geom::{Quadric, Vector};
 
+/// The end of the name of a file with a field.
+const FILE_END: &str = ".toml";
 /// Most parts of a field: each is integrated on its own.
 const MAX_PARTS: usize = 64;
 /// Largest file, bytes: a field of the most parts and terms is far smaller.
@@ -89,6 +91,11 @@ struct LevelsTable {
     quadric: [f64; 10],
     cuts: Vec<f64>,
     densities: Vec<f64>,
+}
+
+/// Returns true if a field is ordered by the name of its file, and not in words.
+pub fn is_file_name(typed: &str) -> bool {
+    typed.trim().to_lowercase().ends_with(FILE_END)
 }
 
 /// Reads a field from a file.

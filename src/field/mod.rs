@@ -45,7 +45,7 @@ mod words;
 pub use check::{NotADensity, check};
 pub use clamped::Clamped;
 pub use density::{AlongRays, Density, Form, OfDepth};
-pub use file::{FileError, read_file, read_text, text_of};
+pub use file::{FileError, is_file_name, read_file, read_text, text_of};
 pub use levels::{Levels, LevelsError};
 pub use linear::Linear;
 pub use measure::{Measured, measure};

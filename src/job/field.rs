@@ -6,7 +6,9 @@ use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
 
-use crate::field::{FileError, Order, Ramp, Sine, SkinOrder, WordsError, read_text, text_of};
+use crate::field::{
+    FileError, Order, Ramp, Sine, SkinOrder, WordsError, is_file_name, read_text, text_of,
+};
 
 /// A field of densities in a graded print.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -68,8 +70,6 @@ struct WrittenFile {
 const RAMP: &str = "ramp";
 /// The word for a wave.
 const SINE: &str = "sine";
-/// The end of the name of a file with a field.
-const FILE_END: &str = ".toml";
 
 /// A reason why a text is no field to print.
 #[derive(Debug, thiserror::Error)]
@@ -115,11 +115,6 @@ impl FieldOrder {
             Self::File { text, .. } => Some(text),
             _ => None,
         }
-    }
-
-    /// Returns whether a text names a file, and is no field itself.
-    pub fn is_file_name(text: &str) -> bool {
-        text.trim().to_lowercase().ends_with(FILE_END)
     }
 
     /// Reads a field from a file.
@@ -172,7 +167,7 @@ impl FromStr for FieldOrder {
             SINE => return Ok(Self::FitSine),
             _ => {}
         }
-        if Self::is_file_name(text) {
+        if is_file_name(text) {
             return Err(FieldOrderError::FileName(text.to_owned()));
         }
         Ok(Self::Given {

@@ -10,7 +10,7 @@ use crate::geom::{Plane, Point};
 
 /// A ring in which a plane meets the surface of a body around a point.
 ///
-/// What is within it is material: the disc that it bounds can be cut.
+/// It goes around material: the disc that it bounds can be cut.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SectionRing {
     /// The plane.

@@ -74,7 +74,7 @@ pub struct CoreSheet {
     /// The edges of that panel; empty without ballast.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub ballast_edges: Vec<BallastEdge>,
-    /// Where each piece of ballast lies, in the same order.
+    /// The place of each piece of ballast, in the same order.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub ballast_rows: Vec<BallastRow>,
     /// The units in the order in which they are joined.

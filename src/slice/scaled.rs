@@ -8,7 +8,9 @@ use serde::Serialize;
 
 use crate::base::setting::{Key, Setting};
 use crate::base::watch::Watch;
-use crate::field::{Density, NotADensity, Order, WordsError, check};
+use crate::field::{
+    Density, FileError, NotADensity, Order, WordsError, check, is_file_name, read_file,
+};
 use crate::geom::Point;
 use crate::io::gcode::{Feature, Portions, RewriteError, Rewriting, Rewritten, rewrite_text};
 use crate::mesh::{MeshDistance, Solid};
@@ -72,6 +74,9 @@ pub enum ScaleError {
     /// The field that the kit states cannot be read.
     #[error("the kit states a field that is none: {0}; remedy: check the kit (`equipoise verify`)")]
     OwnField(#[from] WordsError),
+    /// The file with the kit's field cannot be read.
+    #[error(transparent)]
+    OwnFile(#[from] FileError),
     /// A part is printed as its mirror image.
     #[error("{0} is printed as its mirror image; remedy: slice its plate again")]
     Mirrored(String),
@@ -132,7 +137,7 @@ pub fn scale_toolpaths(
     let (field, wall) = match (&order.field, &plate.field) {
         (Some(field), _) => (field.on(&solid), None),
         (None, Some(words)) => {
-            let own: Order = words.parse()?;
+            let own = own_field(&order.kit, words)?;
             let surface = MeshDistance::new(solid.mesh());
             (own.on(&solid), Some((surface, plate.wall_mm)))
         }
@@ -168,6 +173,16 @@ pub fn scale_toolpaths(
         parts: parts.collect(),
         written,
     })
+}
+
+/// Reads the field that a kit states: words, or the name of a file in it.
+fn own_field(kit: &Path, words: &str) -> Result<Order, ScaleError> {
+    if !is_file_name(words) {
+        return Ok(words.parse()?);
+    }
+    // Its name alone: no file outside of the kit is read.
+    let name = Path::new(words).file_name().unwrap_or_default();
+    Ok(read_file(&kit.join(name))?)
 }
 
 /// Opens a program as text.
@@ -265,5 +280,30 @@ impl Portions for OfField<'_> {
             self.field.at(&place)
         };
         wanted / laid
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_kit_states_its_field_in_words_or_names_a_file_of_its_own() {
+        let room = tempfile::tempdir().unwrap();
+        let kit = room.path().join("kit");
+        std::fs::create_dir(&kit).unwrap();
+        let of = |name: &str, text: &str| std::fs::write(kit.join(name), text).unwrap();
+        of("field.toml", "[field]\nsum = [\"uniform:0.4\"]\n");
+        let words = own_field(&kit, "uniform:0.4").unwrap();
+        let file = own_field(&kit, "field.toml").unwrap();
+        assert_eq!(file, Order::Sum(vec![words]));
+        // A file outside of the kit is not read.
+        std::fs::write(
+            room.path().join("other.toml"),
+            "[field]\nsum = [\"uniform:0.9\"]\n",
+        )
+        .unwrap();
+        assert!(own_field(&kit, "../other.toml").is_err());
+        assert!(own_field(&kit, "nothing").is_err());
     }
 }

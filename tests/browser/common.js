@@ -117,11 +117,22 @@ const shoot = async (page, name) => {
   await view.screenshot({ path: path.join(process.env.SHOTS, `${name}.png`) });
 };
 
+// Looks at the sheet on a phone and on paper, ends the browser, and opens the sheet without WebGL.
+const ends = async (shown, file, mostPages) => {
+  await pixels(shown.page);
+  await shoot(shown.page, "phone");
+  await shown.page.setViewport({ width: 1100, height: 1200 });
+  await onPaper(shown.page, mostPages);
+  must(shown.trouble.length === 0, `no error and no request ${shown.trouble.join("; ")}`);
+  await shown.browser.close();
+  await withoutView(file);
+};
+
 // Runs a check to its end, and tells by the exit code whether all of it holds.
 const report = (check) => check()
   .then(() => process.exit(faults.length === 0 ? 0 : 1))
   .catch((error) => { console.error(error); process.exit(2); });
 
 module.exports = {
-  CHANGED, SOFTWARE_GL, accessible, clear, difference, drawn, fitsPhone, must, ofCut, onPaper, opened, pixels, presses, report, shoot, withoutView,
+  CHANGED, SOFTWARE_GL, accessible, clear, difference, drawn, ends, fitsPhone, must, ofCut, onPaper, opened, pixels, presses, report, shoot, withoutView,
 };

@@ -3,7 +3,7 @@
 "use strict";
 const fs = require("node:fs");
 const path = require("node:path");
-const { CHANGED, SOFTWARE_GL, accessible, clear, difference, drawn, fitsPhone, must, ofCut, onPaper, opened, pixels, report, shoot, withoutView } = require("./common.js");
+const { CHANGED, SOFTWARE_GL, accessible, clear, difference, drawn, ends, fitsPhone, must, ofCut, opened, pixels, report, shoot } = require("./common.js");
 const { between, off, places, written } = require("./screws.js");
 
 const LIMIT_MM = 0.05;
@@ -155,12 +155,6 @@ report(async () => {
   await accessible(shown.page, "with the view");
   await fitsPhone(shown.page);
   await set(shown.page, last);
-  await pixels(shown.page);
-  await shoot(shown.page, "phone");
-  await shown.page.setViewport({ width: 1100, height: 1200 });
-  await onPaper(shown.page, mostPages);
-  must(shown.trouble.length === 0, `no error and no request ${shown.trouble.join("; ")}`);
-  await shown.browser.close();
+  await ends(shown, file, mostPages);
   await calm(file);
-  await withoutView(file);
 });

@@ -3,7 +3,7 @@
 "use strict";
 const fs = require("node:fs");
 const path = require("node:path");
-const { CHANGED, SOFTWARE_GL, accessible, clear, difference, drawn, fitsPhone, must, onPaper, opened, pixels, report, shoot, withoutView } = require("./common.js");
+const { CHANGED, SOFTWARE_GL, accessible, clear, difference, drawn, ends, fitsPhone, must, opened, pixels, report, shoot } = require("./common.js");
 
 const kit = process.argv[2];
 const read = (file) => JSON.parse(fs.readFileSync(path.join(kit, file), "utf8"));
@@ -77,11 +77,5 @@ report(async () => {
   await leave(shown.page);
   await accessible(shown.page, "with the view");
   await fitsPhone(shown.page);
-  await pixels(shown.page);
-  await shoot(shown.page, "phone");
-  await shown.page.setViewport({ width: 1100, height: 1200 });
-  await onPaper(shown.page, mostPages);
-  must(shown.trouble.length === 0, `no error and no request ${shown.trouble.join("; ")}`);
-  await shown.browser.close();
-  await withoutView(file);
+  await ends(shown, file, mostPages);
 });

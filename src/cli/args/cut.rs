@@ -8,6 +8,7 @@ use clap::Args;
 
 use super::values::{share, words};
 use crate::cut::{CutOrder, KeepClear, LeastPart, SeamStyle};
+use crate::field::is_file_name;
 use crate::job::{
     CutMode, DensityOrder, DrainOrder, Effort, FieldOrder, FieldOrderError, IdStyle, InfillDensity,
     Interior, KeptShare, LevelCount, PinStyle, PlanError,
@@ -113,7 +114,7 @@ impl FromStr for FieldArg {
     type Err = FieldOrderError;
 
     fn from_str(text: &str) -> Result<Self, Self::Err> {
-        match FieldOrder::is_file_name(text) {
+        match is_file_name(text) {
             true => Ok(Self::File(text.into())),
             false => text.parse().map(Self::Words),
         }

@@ -4,10 +4,7 @@ use std::fmt;
 use std::path::PathBuf;
 use std::str::FromStr;
 
-use crate::field::{FileError, Order, WordsError, read_file};
-
-/// The end of the name of a file with a field.
-const FILE_END: &str = ".toml";
+use crate::field::{FileError, Order, WordsError, is_file_name, read_file};
 
 /// A density as it is typed.
 #[derive(Debug, Clone, PartialEq)]
@@ -39,7 +36,7 @@ impl FromStr for FieldChoice {
     type Err = WordsError;
 
     fn from_str(typed: &str) -> Result<Self, WordsError> {
-        let source = if typed.to_lowercase().ends_with(FILE_END) {
+        let source = if is_file_name(typed) {
             Source::File(typed.into())
         } else {
             Source::Words(typed.parse()?)

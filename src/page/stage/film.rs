@@ -22,13 +22,13 @@ pub struct FilmBody<'a> {
     pub mesh: &'a TriMesh,
     /// Its colour's place in the palette.
     pub color: usize,
-    /// What it is fixed to.
+    /// The body that it is fixed to.
     pub place: FilmPlace,
     /// True if its name is written beside it.
     pub is_named: bool,
 }
 
-/// What a body is fixed to, counted from 0.
+/// The thing that a body is fixed to, counted from 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FilmPlace {
     /// A shell of a limb.
@@ -77,7 +77,7 @@ pub struct Film<'a> {
 struct PackedFilm<'a> {
     junctures: usize,
     limbs: Vec<PackedLimb<'a>>,
-    /// What each body is fixed to: a limb and a shell, or a juncture.
+    /// The thing that each body is fixed to: a limb and a shell, or a juncture.
     bodies: Vec<Vec<usize>>,
     keys: &'a [Vec<Vec<[f64; 2]>>],
 }

@@ -41,7 +41,7 @@ pub struct Stage {
     player: Option<Player>,
 }
 
-/// What the controls of a view say.
+/// The words of a view's controls.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct Words {
     /// The name of the view for those who do not see it.

@@ -18,7 +18,7 @@ use crate::page::core_kit_album::{CoreView, way_mm};
 struct PackedWays {
     /// The steps in which all is taken apart.
     leave: Vec<Leaving>,
-    /// How far units are at most moved out at the end, mm.
+    /// The most by which units are moved out at the end, mm.
     far: f64,
 }
 

@@ -33,7 +33,7 @@ pub struct CoreFacts {
     pub pins: PinFacts,
     /// The ways of the units.
     pub ways: WayFacts,
-    /// What is wrong with the ballast, in words; `None` if there is none.
+    /// The faults of the ballast, in words; `None` if there is none.
     pub ballast: Option<Vec<String>>,
     /// Mass and balance.
     pub stand: StandFacts,

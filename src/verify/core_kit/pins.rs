@@ -29,7 +29,7 @@ const TOUCH_MM: f64 = 5e-3;
 /// The facts about pins.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct PinFacts {
-    /// What is wrong with pins and sockets, in words.
+    /// The faults of pins and sockets, in words.
     pub faults: Vec<String>,
     /// The least material about a socket that is found, mm; no more than was looked for.
     pub wall_mm: f64,

@@ -5,7 +5,7 @@ use serde::Serialize;
 use super::cause::Cause;
 use super::part::PrintedPart;
 use crate::mass::Moments;
-use crate::verify::{Check, Figures, PromisedFigure};
+use crate::verify::{Check, CheckKind, Figures, PromisedFigure};
 
 /// The judgement of a kit's toolpaths: how they will balance, beside the promise.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -62,5 +62,19 @@ impl PrintedJudgement {
     /// Returns true if every promise is kept.
     pub fn passes(&self) -> bool {
         self.checks.iter().all(|check| check.pass)
+    }
+
+    /// Returns the demands of the goal that the toolpaths do not meet, whatever they weigh.
+    pub fn broken_goals(&self) -> impl Iterator<Item = &Check> {
+        let of_print = [
+            CheckKind::PrintedParts,
+            CheckKind::PrintedShapes,
+            CheckKind::PrintedSettings,
+            CheckKind::PrintedMass,
+            CheckKind::PrintedCenters,
+        ];
+        let is_figure = |kind: &CheckKind| matches!(kind, CheckKind::PromisedFigure { .. });
+        let broken = self.checks.iter().filter(|check| !check.pass);
+        broken.filter(move |check| !of_print.contains(&check.kind) && !is_figure(&check.kind))
     }
 }

@@ -33,7 +33,7 @@ pub struct NetworkFacts {
     pub too_large: Vec<String>,
     /// Faults of roots in their sockets and pegs in their mouths, in words.
     pub seat_faults: Vec<String>,
-    /// What is known of junctures that are pieces of a model; `None` if they are none.
+    /// The facts about junctures that are pieces of a model; `None` if they are none.
     pub model: Option<ModelFacts>,
     /// Pairs of bodies that come too near at a state, in words.
     pub too_near: Vec<String>,

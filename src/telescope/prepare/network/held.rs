@@ -4,7 +4,7 @@ use super::super::made::{Made, WrittenPart};
 use crate::mesh::{MeshDistance, TriMesh};
 use crate::telescope::nest::JointState;
 
-/// How far before its stop a shell is turned, mm.
+/// The distance before its stop at which a shell is turned, mm.
 const BEFORE_STOP_MM: f64 = 0.02;
 /// Shares of a turn at which a shell must be free.
 const TURNS: [f64; 3] = [0.0, 0.5, 1.0];

@@ -61,7 +61,7 @@ pub struct Measures {
     pub solid_mm: f64,
 }
 
-/// What limbs are planned in.
+/// The surroundings in which limbs are planned.
 pub struct Ground<'a> {
     pub skeleton: &'a Skeleton,
     pub measures: &'a Measures,

@@ -52,7 +52,7 @@ pub struct Search<'a> {
     pub kept: Vec<Kept>,
     /// Limbs that end earlier than their skeleton, each by its nodes and where it ends, mm.
     pub ends: Vec<(Vec<usize>, f64)>,
-    /// Where limbs end in the model, mm, as found before.
+    /// The places where limbs end in the model, mm, as found before.
     pub cut_ends: Vec<(Chain, f64)>,
     /// Limbs that were designed before, with how they were planned.
     pub known: Vec<(Planned, Designed)>,
