@@ -60,10 +60,11 @@ pub mod prepare;
 pub mod printer;
 pub mod verify;
 
-/// Points, meshes of triangles and tetrahedra, their files, repair, mass, and densities that vary.
+/// Points, meshes of triangles and tetrahedra, their files, repair, mass, densities that vary, and
+/// cells.
 pub mod model {
     #[doc(inline)]
-    pub use crate::{field, geom, io, mass, mend, mesh, repair, tets};
+    pub use crate::{cells, field, geom, io, mass, mend, mesh, repair, tets};
 }
 
 /// From a goal to the best void: what is asked, what may be emptied, the solver and its surfaces.
@@ -102,6 +103,8 @@ pub mod report {
 pub mod advice;
 #[doc(hidden)]
 pub mod ballast;
+#[doc(hidden)]
+pub mod cells;
 #[doc(hidden)]
 pub mod cladding;
 #[cfg(feature = "cli")]

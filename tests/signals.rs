@@ -106,3 +106,22 @@ fn a_run_whose_time_is_over_says_so_and_leaves_nothing_behind() {
         assert!(said.contains("90s, 10min or 2h"), "{wrong}: {said}");
     }
 }
+
+#[test]
+fn a_run_that_takes_more_memory_than_it_may_says_so_and_leaves_nothing_behind() {
+    let room = tempfile::tempdir().unwrap();
+    let kit = room.path().join("kit");
+    let output = slow(&kit).args(["--max-memory", "30MB"]).output().unwrap();
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(2), "{said}");
+    let told = "more memory than 30 MB; nothing was written";
+    assert!(said.contains(told), "{said}");
+    assert!(said.contains("remedy: allow more (--max-memory)"), "{said}");
+    assert_eq!(names(room.path()), Vec::<String>::new());
+    for wrong in ["4", "-1GB", "nan", "much"] {
+        let output = slow(&kit).args(["--max-memory", wrong]).output().unwrap();
+        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(2), "{wrong}: {said}");
+        assert!(said.contains("800MB or 4GB"), "{wrong}: {said}");
+    }
+}

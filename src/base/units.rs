@@ -220,6 +220,16 @@ pub fn show_small(value: f64) -> String {
     }
 }
 
+/// Formats an amount of memory for people: `4.0 GB` from 1 GB, `800 MB` below.
+pub fn show_bytes(bytes: u64) -> String {
+    let megabytes = bytes as f64 / 1e6;
+    if megabytes < 1e3 {
+        format_with_unit(megabytes, 0, "MB")
+    } else {
+        format_with_unit(megabytes / 1e3, 1, "GB")
+    }
+}
+
 fn format_with_unit(value: f64, places: usize, unit: &str) -> String {
     let text = format_decimals(value, places);
     if text == NO_NUMBER {
@@ -267,6 +277,12 @@ mod tests {
     fn times_are_worded_in_hours_and_minutes() {
         assert_eq!(show_minutes(59), "59\u{a0}min");
         assert_eq!(show_minutes(185), "3\u{a0}h 5\u{a0}min");
+    }
+
+    #[test]
+    fn memory_is_worded_in_megabytes_and_gigabytes() {
+        assert_eq!(show_bytes(800_000_000), "800 MB");
+        assert_eq!(show_bytes(4_000_000_000), "4.0 GB");
     }
 
     #[test]

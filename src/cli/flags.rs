@@ -4,6 +4,9 @@ use crate::base::setting::{Key, Setting, reword};
 use crate::coupon::{Commands, CouponSet, CutCommands, CutCouponSet, DensityCommands, DensitySet};
 use crate::job::Job;
 
+/// The flag of the most memory that a command may take.
+pub const MAX_MEMORY: &str = "--max-memory";
+
 /// Returns the flag of a setting, such as `--ballast=auto`.
 pub fn flag(setting: &Setting) -> String {
     let name = name(setting.key);

@@ -17,6 +17,7 @@ pub mod inspect;
 pub mod inspect_volume;
 pub mod manual;
 mod mass_facts;
+mod memory;
 mod new_files;
 pub mod prepare;
 mod print_time;
@@ -55,7 +56,7 @@ use wing::Ends;
 
 use args::{Cli, Command, DEFAULT_PLANS, PrepareArgs};
 use prepare::PrepareError;
-use signals::Stop;
+use signals::{Limits, Stop};
 use voice::{Manner, Voice};
 
 /// Runs the command on the number of threads it orders, and prints its result on the standard
@@ -74,7 +75,11 @@ fn dispatch(cli: Cli, manner: Manner) -> Result<Exit, Box<dyn Error + Send + Syn
         json: cli.global.json,
     };
     let out = &mut std::io::stdout();
-    let stop = || Stop::within(cli.global.timeout);
+    let limits = Limits {
+        time: cli.global.timeout,
+        memory_bytes: cli.global.max_memory,
+    };
+    let stop = || Stop::within(limits);
     match cli.command {
         Command::Prepare(args) => match args.plans {
             Some(count) => show_plans(*args, count, voice, &stop()),

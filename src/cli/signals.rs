@@ -1,8 +1,8 @@
 //! Ctrl-C and requests to end: the first stops the command, a second ends the process at once. A
-//! time that is over stops it too.
+//! time that is over and memory that is used up stop it too.
 
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::{Arc, OnceLock};
 use std::time::Duration;
 use std::{io, process, thread};
 
@@ -10,7 +10,10 @@ use signal_hook::consts::{SIGINT, SIGTERM};
 use signal_hook::flag;
 
 use super::exit::Exit;
+use super::flags;
+use super::memory::Gauge;
 use super::show::say;
+use crate::base::units::show_bytes;
 
 /// The line on the standard error when a command was stopped.
 const STOPPED: &str = "stopped; nothing was written";
@@ -20,14 +23,38 @@ const TIMED_OUT: &str =
 /// The time between two looks at a stop button. A person takes less for at once.
 const LOOK: Duration = Duration::from_millis(50);
 
-/// A stop button for a command, pressed by the first SIGINT or SIGTERM, or once its time is over.
+/// The time between two looks at the memory that is used. A thread fills some 20 MB in it.
+const MEMORY_LOOK: Duration = Duration::from_millis(10);
+/// Memory, as a part of the limit, at which the process ends at once: what works then does not look
+/// at the button.
+const HARD_RATIO: f64 = 1.08;
+
+/// The limits of a command.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Limits {
+    /// The time after which it stops; `None` for never.
+    pub time: Option<Duration>,
+    /// The memory beyond which it stops, bytes; `None` for nearly all that the machine has.
+    pub memory_bytes: Option<u64>,
+}
+
+/// A reason beside signals why a command stops.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Cause {
+    /// Its time is over.
+    Time,
+    /// More than so many bytes of memory are used.
+    Memory(u64),
+}
+
+/// A stop button for a command, pressed by the first SIGINT or SIGTERM, or once a limit is reached.
 #[derive(Debug, Clone, Default)]
 pub struct Stop {
     is_pressed: Arc<AtomicBool>,
     /// The number of the signal that pressed it; 0 before.
     signal: Arc<AtomicUsize>,
-    /// True if it was pressed because the time was over.
-    is_over: Arc<AtomicBool>,
+    /// The limit that pressed it; empty if a signal did, and before.
+    limit: Arc<OnceLock<Cause>>,
 }
 
 impl Stop {
@@ -44,23 +71,45 @@ impl Stop {
         stop
     }
 
-    /// Returns a button that signals press from now on, and that is pressed after this time.
-    pub fn within(timeout: Option<Duration>) -> Self {
+    /// Returns a button that signals press from now on, and that is pressed at these limits.
+    pub fn within(limits: Limits) -> Self {
         let stop = Self::on_signals();
-        if let Some(timeout) = timeout {
+        if let Some(time) = limits.time {
             let timed = stop.clone();
             thread::spawn(move || {
-                thread::sleep(timeout);
-                timed.end_time();
+                thread::sleep(time);
+                timed.press(Cause::Time);
             });
+        }
+        if let Some(gauge) = Gauge::new(limits.memory_bytes) {
+            let watched = stop.clone();
+            thread::spawn(move || watched.guard_memory(gauge));
         }
         stop
     }
 
-    /// Presses the button because the time is over, unless a signal did before.
-    fn end_time(&self) {
+    /// Looks at the used memory from time to time, and presses the button at the limit.
+    fn guard_memory(&self, mut gauge: Gauge) {
+        let limit = gauge.limit_bytes;
+        loop {
+            let used = gauge.used_bytes();
+            if used > limit {
+                self.press(Cause::Memory(limit));
+            }
+            if used as f64 > HARD_RATIO * limit as f64
+                && let Some(exit) = self.end()
+            {
+                process::exit(exit.code().into());
+            }
+            thread::sleep(MEMORY_LOOK);
+        }
+    }
+
+    /// Presses the button because of a limit, unless something did before.
+    fn press(&self, cause: Cause) {
         if !self.is_pressed.load(Ordering::SeqCst) {
-            self.is_over.store(true, Ordering::SeqCst);
+            // Only the first limit counts.
+            let _ = self.limit.set(cause);
             self.is_pressed.store(true, Ordering::SeqCst);
         }
     }
@@ -91,8 +140,11 @@ impl Stop {
         if !self.is_pressed.load(Ordering::SeqCst) {
             return None;
         }
-        if self.is_over.load(Ordering::SeqCst) {
-            say(TIMED_OUT);
+        if let Some(cause) = self.limit.get() {
+            match cause {
+                Cause::Time => say(TIMED_OUT),
+                Cause::Memory(bytes) => say(&out_of_memory(*bytes)),
+            }
             return Some(Exit::CouldNotRun);
         }
         say(STOPPED);
@@ -119,6 +171,16 @@ impl Stop {
     }
 }
 
+/// Words that a command would take more memory than so many bytes.
+fn out_of_memory(bytes: u64) -> String {
+    format!(
+        "error: this takes more memory than {}; nothing was written\n  remedy: allow more ({}), or \
+         give a larger pitch, a smaller size or a model of fewer triangles",
+        show_bytes(bytes),
+        flags::MAX_MEMORY
+    )
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -139,13 +201,16 @@ mod tests {
     }
 
     #[test]
-    fn a_time_that_is_over_presses_the_button_unless_a_signal_did() {
+    fn a_limit_presses_the_button_unless_a_signal_did() {
         let stop = Stop::default();
-        stop.end_time();
-        assert_eq!(stop.end(), Some(Exit::CouldNotRun));
-        let stop = Stop::default();
-        stop.flag().store(true, Ordering::SeqCst);
-        stop.end_time();
-        assert_eq!(stop.end(), Some(Exit::Interrupted));
+        for cause in [Cause::Time, Cause::Memory(4_000_000_000)] {
+            let stop = Stop::default();
+            stop.press(cause);
+            assert_eq!(stop.end(), Some(Exit::CouldNotRun));
+            let stop = Stop::default();
+            stop.flag().store(true, Ordering::SeqCst);
+            stop.press(cause);
+            assert_eq!(stop.end(), Some(Exit::Interrupted));
+        }
     }
 }

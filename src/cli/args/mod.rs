@@ -55,7 +55,7 @@ pub use values::NumberError;
 use crate::base::units::Length;
 use crate::io::DataChoice;
 use crate::repair::RepairOrder;
-use values::{ALSO, EXAMPLES, EXIT_CODES, time};
+use values::{ALSO, EXAMPLES, EXIT_CODES, memory, time};
 
 /// Make kits of printed parts that spin, stand, float, run true or slide open
 #[derive(Debug, Parser)]
@@ -105,6 +105,10 @@ pub struct GlobalArgs {
     /// Stop after this time, such as 90s, 10min or 2h, and write nothing [default: never]
     #[arg(long, global = true, value_name = "TIME", value_parser = time)]
     pub timeout: Option<Duration>,
+    /// Stop before more memory than this is taken, such as 800MB or 4GB [default: 90 % of what the
+    /// machine has]
+    #[arg(long, global = true, value_name = "SIZE", value_parser = memory)]
+    pub max_memory: Option<u64>,
     /// Print the result as JSON on the standard output
     #[arg(long, global = true)]
     pub json: bool,

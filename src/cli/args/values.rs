@@ -156,6 +156,25 @@ pub(super) fn time(text: &str) -> Result<Duration, NumberError> {
     seconds.read(text).map(time)
 }
 
+/// Reads an amount of memory, bytes.
+pub(super) fn memory(text: &str) -> Result<u64, NumberError> {
+    let bytes = Number {
+        what: "an amount of memory of 10 MB or more",
+        such_as: "one such as 800MB or 4GB",
+        units: &[
+            ("mb", 1e6),
+            ("gb", 1e9),
+            ("tb", 1e12),
+            ("mib", 1_048_576.0),
+            ("gib", 1_073_741_824.0),
+        ],
+        // With less no command could even begin, and `4` alone would be four bytes.
+        least: Some(1e7),
+    };
+    // Too large a number becomes the largest, which no machine has.
+    bytes.read(text).map(|bytes| bytes as u64)
+}
+
 /// Reads finite numbers between commas.
 pub(super) fn numbers<const N: usize>(text: &str) -> Result<[f64; N], NumbersError> {
     let read =

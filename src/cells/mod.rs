@@ -1,0 +1,33 @@
+//! Cells of a solid: Voronoi diagrams cut off at its surface, and their relaxation under L∞ or L2.
+//!
+//! Under L∞ relaxed cells are near cubes, under L2 near round. The walls between them will be the
+//! density of prints that have no infill.
+//!
+//! * [`Chain`]: the boundary of a region as signed triangles. Planes cut it exactly, and nothing is
+//!   triangulated but by fans.
+//! * [`Room`]: the solid that cells share, in blocks of which most are full or empty.
+//! * [`Polytope`]: the convex cell of a site, cut from a box by the bisectors to near sites.
+//! * [`cells`]: the parts of a room within the polytopes of all sites. They add up to the room.
+//! * [`Chebyshev`] and [`Bulk`]: energies, their derivatives, volumes and centres in closed form.
+//! * [`relax`]: Lloyd's relaxation, with a Newton search in every cell.
+//!
+//! Source: Bukenberger and Lensch, "Tetrahedra of varying density" (2021), for relaxation under L∞
+//! with its six fragments a cell. Lengths are in mm.
+
+mod chain;
+mod diagram;
+mod energy;
+mod fan;
+mod lloyd;
+mod near;
+mod polytope;
+mod room;
+#[cfg(test)]
+mod tests;
+
+pub use chain::{Chain, Corners};
+pub use diagram::{Cell, MOST_SITES, SitesError, cells, check_sites, random_sites};
+pub use energy::{Bulk, Chebyshev, Weight};
+pub use lloyd::{Norm, Order, Step, relax};
+pub use polytope::{Beyond, Face, Polytope};
+pub use room::Room;
