@@ -9,6 +9,7 @@
 
 #[path = "../common/mod.rs"]
 mod common;
+mod method;
 mod pins;
 mod several;
 mod shop;
