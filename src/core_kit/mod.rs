@@ -13,6 +13,7 @@ mod asked;
 mod ballast;
 mod ballast_rows;
 mod base;
+mod bench;
 mod build;
 mod error;
 mod files;
