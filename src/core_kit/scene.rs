@@ -45,6 +45,7 @@ pub fn pictures(
         things: &things,
         units: units.iter().map(|unit| unit.id.clone()).collect(),
         apart: units.iter().map(|unit| apart(unit, &joins)).collect(),
+        polyhedra: units.iter().map(|unit| unit.polyhedron).collect(),
         steps: steps(&units, &joins),
         up: asked.up,
     };

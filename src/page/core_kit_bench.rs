@@ -2,8 +2,8 @@
 
 use super::core_kit_view::{CoreView, ThingKind};
 use super::figure::{Draft, Role};
-use crate::draw::{Camera, Item, Label, Scene, Shot, view_direction};
-use crate::geom::{Frame, Plane, Point, Vector};
+use crate::draw::{Camera, Item, Label, Shot, view_direction};
+use crate::geom::{Frame, Point, Vector};
 
 /// Angles of the viewer beside the way of a unit and above it, radians. Pins stand about square to
 /// that way, so they are seen from the side.
@@ -11,8 +11,8 @@ const BESIDE_UNIT: [f64; 2] = [0.45, 0.5];
 /// Angles of the viewer beside the object and above the ground for its ballast, radians: a floor
 /// is seen from above.
 const ABOVE_FLOOR: [f64; 2] = [0.25, 0.7];
-/// Distance of the cut from the nearest piece of ballast, mm, so that it stays whole.
-const CUT_MM: f64 = 1.0;
+/// A panel is left out that faces the viewer by more than this, as a cosine.
+const FACING: f64 = 0.1;
 
 /// Draws the parts of each unit that pins join on the bench, apart, with their pins.
 pub(super) fn benches<'a>(view: &'a CoreView) -> Vec<Draft<'a>> {
@@ -64,52 +64,43 @@ fn camera(view: &CoreView, way: &Vector) -> Camera {
     Camera::new(view_direction(way, &up, BESIDE_UNIT), up).with_label_margins()
 }
 
-/// Draws the base cut open in front of its ballast; `None` without any.
+/// Draws the polyhedron with the ballast, open towards the viewer; `None` without any.
 pub(super) fn ballast<'a>(view: &'a CoreView) -> Option<Draft<'a>> {
     let pieces = view.all(ThingKind::Ballast);
-    let first = view.things.get(*pieces.first()?)?;
+    let floor = view.things.get(*pieces.first()?)?.unit;
     let frame = Frame::with_axis(Point::origin(), &view.up);
     let front = -frame.axes.column(1).into_owned();
-    let points = pieces
-        .iter()
-        .flat_map(|&at| view.things[at].mesh.vertices());
-    let nearest_mm = points
-        .map(|p| front.dot(&p.coords))
-        .fold(f64::NEG_INFINITY, f64::max);
+    let toward = view_direction(&front, &view.up, ABOVE_FLOOR);
     let shown = (0..view.things.len()).filter(|&at| {
-        let kind = view.things[at].kind;
-        kind.is_base() || kind == ThingKind::Ballast
+        let (kind, unit) = (view.things[at].kind, view.things[at].unit);
+        let is_beside = view.polyhedra[unit] == view.polyhedra[floor];
+        let is_behind = view.apart[unit].dot(&toward) < FACING;
+        let is_seen = unit == floor || is_behind;
+        (kind.is_base() || kind == ThingKind::Ballast) && is_beside && is_seen
     });
     let shown: Vec<usize> = shown.collect();
     let items: Vec<Item> = shown.iter().map(|&at| view.item(at)).collect();
-    let place = |at: usize| shown.iter().position(|&shown| shown == at);
-    let named = pieces.iter().enumerate().filter_map(|(index, &at)| {
-        let words = format!("{}", index + 1);
-        Some(Label::Seen(place(at)?, words))
-    });
-    let panel = (0..view.things.len()).find(|&at| {
+    let named = shown.iter().enumerate().filter_map(|(item, &at)| {
         let thing = &view.things[at];
-        thing.kind == ThingKind::Panel && thing.unit == first.unit
+        let name = match thing.kind {
+            ThingKind::Ballast => pieces.iter().position(|&piece| piece == at)? + 1,
+            ThingKind::Panel if thing.unit == floor => {
+                return Some(Label::Seen(item, thing.id.clone()));
+            }
+            _ => return None,
+        };
+        Some(Label::Seen(item, name.to_string()))
     });
-    let floor = panel.and_then(|at| Some(Label::Seen(place(at)?, view.things[at].id.clone())));
-    let labels = named.chain(floor).collect();
+    let labels = named.collect();
     let words = [
-        "The base cut open: the ballast lies on the lowest panel, inside.",
-        "The base cut open, with the pieces of ballast on its floor.",
+        "The base, open towards you: the ballast lies on the lowest panel, inside.",
+        "The base without its sides in front, with the pieces of ballast on its floor.",
     ];
     let draft = view.draft("pictures/ballast.svg".to_owned(), items, words);
-    let up = view.up;
     Some(Draft {
         role: Role::Ballast,
         shot: Shot {
-            scene: Scene {
-                cut: Some(Plane {
-                    normal: front,
-                    offset_mm: nearest_mm + CUT_MM,
-                }),
-                ..draft.shot.scene
-            },
-            camera: Camera::new(view_direction(&front, &up, ABOVE_FLOOR), up).with_label_margins(),
+            camera: Camera::new(toward, view.up).with_label_margins(),
             labels,
             ..draft.shot
         },

@@ -79,6 +79,8 @@ pub struct CoreView<'a> {
     pub units: Vec<String>,
     /// The ways by which units are drawn apart, each as a multiple of the usual one.
     pub apart: Vec<Vector>,
+    /// The number of each unit's polyhedron; `None` if there is one.
+    pub polyhedra: Vec<Option<usize>>,
     /// The steps in which the object is put together.
     pub steps: Vec<JoinStep>,
     /// The direction that points up.

@@ -43,7 +43,7 @@ pub enum Role {
     CutJoint,
     /// Screw on: the parts of a unit that pins join, drawn apart.
     Bench,
-    /// Screw on: the ballast in a base that is cut open.
+    /// Screw on: the ballast in a base that is open on one side.
     Ballast,
 }
 

@@ -41,10 +41,7 @@ fn a_box_on_a_base_of_moved_vertices_is_proved_and_passes_both_judges() {
     let distance_mm = number(&sheet, "/distance_mm");
     assert!(number(found, "/sampled_mm") >= distance_mm - 1e-6);
     let lack_mm = (distance_mm - number(found, "/certified_mm")).max(0.0);
-    assert!(
-        (number(found, "/moved_mm") - lack_mm).abs() < 1e-6,
-        "{found}"
-    );
+    assert!(number(found, "/moved_mm") >= lack_mm - 1e-6, "{found}");
     let share = number(&sheet, "/base/volume_mm3") / number(found, "/volume_mm3");
     assert!(share > 0.8 && share < 1.0 + 1e-6, "{share}");
     assert_eq!(number(&sheet, "/base/panels"), 6.0);
@@ -78,11 +75,11 @@ fn polyhedra_that_nothing_joins_are_named_with_what_would_join_them() {
     let hints = list(&answer, "hints").iter();
     let hints: Vec<&str> = hints.map(|hint| hint.as_str().unwrap()).collect();
     assert!(
-        hints.iter().any(|hint| hint.contains("--connector=")),
+        hints.iter().any(|hint| hint.contains("connector = ")),
         "{hints:?}"
     );
     assert!(
-        hints.iter().any(|hint| hint.contains("--polyhedra=1")),
+        hints.iter().any(|hint| hint.contains("polyhedra = \"1\"")),
         "{hints:?}"
     );
     assert!(!kit.exists());
