@@ -15,6 +15,7 @@
     reason = "a benchmark whose input cannot be had has failed"
 )]
 
+mod core_kit;
 #[path = "../examples/make_models/models.rs"]
 mod models;
 

@@ -1,6 +1,7 @@
 //! The whole input of a run as plain data. `job.toml` replays the run exactly.
 
 pub mod base_choice;
+pub mod base_method;
 mod choices;
 pub mod core_kit;
 mod defaults;

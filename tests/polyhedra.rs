@@ -15,8 +15,8 @@ use equipoise::io::read_model;
 use equipoise::mesh::{Csg, MeshDistance, Solid, TriMesh, primitives, spread_points};
 use equipoise::polyhedra::vertices::{StartSolid, VertexRequest, grow_by_vertices};
 use equipoise::polyhedra::{
-    BaseFileError, BasePlan, ConnectorRequest, Count, Ground, Joint, LimitKind, Limits, Polyhedron,
-    Request, RequestError, Separation, SeparationError, Several, Side, grow_polyhedra,
+    BaseFileError, BasePlan, ConnectorRequest, Count, Ground, Joint, LimitKind, Limits, NoPlan,
+    Polyhedron, Request, RequestError, Separation, SeparationError, Several, Side, grow_polyhedra,
     grow_polyhedron,
 };
 use equipoise::repair::repair;
@@ -262,6 +262,35 @@ fn two_balls_on_a_neck_get_two_polyhedra_and_a_tube() {
         let at = connection.ends[0] + axis * (f64::from(k) / 20.0);
         assert!(distance.signed(&at) >= connection.radius_mm, "{at}");
     }
+}
+
+#[test]
+fn polyhedra_that_share_too_small_a_disc_are_named_with_it() {
+    let corner = Point::new(90.0, 60.0, 40.0);
+    let ground = ground(primitives::cuboid(&Point::origin(), &corner));
+    let several = Several {
+        count: Count::Exactly(2),
+        connector: ConnectorRequest {
+            radius_mm: 40.0,
+            gap_mm: 1.0,
+            takes_tubes: false,
+        },
+    };
+    let request = without_limits(6);
+    let grown = grow_polyhedra(&ground, &request, &several, &Watch::silent()).unwrap();
+    let Verdict::No(NoPlan::Unjoined { apart, joined }) = grown else {
+        unreachable!("no face of the box holds a disc of 80 mm")
+    };
+    assert_eq!((apart.polyhedra, joined), ([0, 1], 1));
+    // Both faces are those of the inset box, or a little smaller.
+    let sides = [90.0, 60.0, 40.0].map(|side| side - 2.0 * DISTANCE_MM);
+    let axis = (0..3).find(|&axis| apart.plane.normal[axis].abs() > 0.99);
+    let others = sides.iter().enumerate().filter(|(k, _)| Some(*k) != axis);
+    let least = others.map(|(_, side)| *side).fold(f64::INFINITY, f64::min);
+    assert!(
+        (0.45 * least..0.5 * least + 1e-9).contains(&apart.disc_mm),
+        "{apart:?}"
+    );
 }
 
 #[test]

@@ -135,6 +135,8 @@ choice! {
         Foot = "foot",
         /// The greatest number of faces of a base.
         Faces = "faces",
+        /// The method by which a base is looked for.
+        Method = "method",
         /// The number of polyhedra of a base.
         Polyhedra = "polyhedra",
         /// The least radius of the disc in which two polyhedra bear on each other.

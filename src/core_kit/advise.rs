@@ -1,5 +1,6 @@
 //! The answers where there is no such object, with what helps.
 
+use super::advise_base::no_base;
 use super::asked::Asked;
 use super::ballast::ballasted;
 use super::build::Refused;
@@ -24,19 +25,7 @@ const THINNER: &str = "use a thinner sheet, ask for fewer faces, or make the mod
 /// Tells why there is no such object, and what helps.
 pub fn refused(asked: &Asked, refused: &Refused) -> Impossible {
     match refused {
-        Refused::NoRoom(why) => {
-            let mut answer = Impossible::new(why.to_string());
-            answer.is_proved = why.deepest_mm < why.distance_mm;
-            let size_mm = asked.ground.solid().mesh().longest_side_mm();
-            if let Some(factor) = why.least_factor {
-                let larger_mm = (factor * size_mm).ceil();
-                answer.remedies.push(Remedy {
-                    settings: vec![Setting::new(Key::Size, format!("{larger_mm}mm"))],
-                    words: "the least size at which a base has room".to_owned(),
-                });
-            }
-            answer
-        }
+        Refused::Base(why) => no_base(asked, why),
         Refused::Panels(why) => {
             let mut answer = Impossible::new(why.to_string());
             if matches!(why, PanelError::NoFingers { .. }) {
@@ -49,7 +38,6 @@ pub fn refused(asked: &Asked, refused: &Refused) -> Impossible {
             }
             answer
         }
-        Refused::Apart => apart(asked.connector.radius_mm),
         Refused::Shell(why) => unclad(asked, why),
         Refused::Sheets(why) => uncut(asked, why),
     }
@@ -64,21 +52,6 @@ fn uncut(asked: &Asked, why: &SheetError) -> Impossible {
             Setting::new(Key::Grain, GrainChoice::Free)
         ));
     }
-    answer
-}
-
-/// Tells that the polyhedra of a given base are not joined, and what helps.
-fn apart(radius_mm: f64) -> Impossible {
-    let mut answer = Impossible::new(format!(
-        "the polyhedra of the base are not joined: across a plane, no two locked faces share a \
-         disc of {} radius",
-        measured(radius_mm, "mm")
-    ));
-    let halved = format!("{}mm", (0.5 * radius_mm).max(1.0));
-    answer.hints.push(format!(
-        "ask for a smaller disc, such as `{}`, or lock larger faces on the planes",
-        Setting::new(Key::Connector, halved)
-    ));
     answer
 }
 

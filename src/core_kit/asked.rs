@@ -2,6 +2,7 @@
 
 use super::error::CoreRunError;
 use super::load::{Loaded, Shop};
+use super::method::check_method;
 use crate::base::watch::Watch;
 use crate::cladding::{BoltKit, ScrewKit};
 use crate::cut::{GoalAxis, PlanRequest};
@@ -76,6 +77,7 @@ pub fn measure<'a>(
     watch: &Watch,
 ) -> Result<Asked<'a>, CoreRunError> {
     let job = &loaded.job;
+    check_method(job)?;
     if job.goal == CoreGoal::None && !job.ballast.is_none() {
         return Err(CoreRunError::BallastForNothing);
     }

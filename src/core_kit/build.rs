@@ -1,6 +1,7 @@
 //! The object as drawn: its base, panels, shell, brackets and sheets.
 
 use super::asked::Asked;
+use super::base::{Base, ByVertices, NoBase, base};
 use super::error::CoreRunError;
 use super::pockets::{Pocket, cut_pockets, depth_mm, pockets};
 use crate::base::verdict::Verdict;
@@ -9,10 +10,9 @@ use crate::cladding::{
     Bolt, CladShell, CladdingError, PinRequest, ShellRequest, ShellStyle, Sides, bolts,
 };
 use crate::cutting::{CutSheet, SheetError, SheetOrder, cut_sheets};
-use crate::job::base_choice::Polyhedra;
 use crate::job::core_kit::CoreShell;
 use crate::panels::{Bracket, PanelError, PanelSet};
-use crate::polyhedra::{BasePlan, Count, NoRoom, Several, grow_polyhedra, grow_polyhedron};
+use crate::polyhedra::BasePlan;
 
 /// The largest piece without a panel that grows on a part of another cell, mm³.
 const CRUMB_MM3: f64 = 2000.0;
@@ -20,6 +20,8 @@ const CRUMB_MM3: f64 = 2000.0;
 /// The object as drawn.
 pub struct Built {
     pub plan: BasePlan,
+    /// What the method of the paper yielded before its proof, if it made the base.
+    pub vertices: Option<ByVertices>,
     pub shell: CladShell,
     pub brackets: Vec<Bracket>,
     /// The bolts between polyhedra.
@@ -31,10 +33,8 @@ pub struct Built {
 /// A reason why there is no such object.
 #[derive(Debug)]
 pub enum Refused {
-    /// The model is too thin.
-    NoRoom(NoRoom),
-    /// The polyhedra of a given base are not joined to one.
-    Apart,
+    /// There is no base.
+    Base(NoBase),
     /// The base gets no panels.
     Panels(PanelError),
     /// The parts of the shell cannot be cut or joined.
@@ -46,10 +46,9 @@ pub enum Refused {
 /// Draws the object that is asked for.
 pub fn build(asked: &Asked, watch: &Watch) -> Result<Verdict<Built, Refused>, CoreRunError> {
     watch.enter(Phase::Columns);
-    let plan = match base(asked, watch)? {
-        Verdict::Found(plan) if plan.is_joined() => plan,
-        Verdict::Found(_) => return Ok(Verdict::No(Refused::Apart)),
-        Verdict::No(why) => return Ok(Verdict::No(Refused::NoRoom(why))),
+    let Base { plan, vertices } = match base(asked, watch)? {
+        Verdict::Found(base) => base,
+        Verdict::No(why) => return Ok(Verdict::No(Refused::Base(why))),
     };
     if plan.polyhedra.len() > 1 && asked.bolt.is_none() {
         let sheet_mm = asked.panels.sheet_mm;
@@ -67,12 +66,19 @@ pub fn build(asked: &Asked, watch: &Watch) -> Result<Verdict<Built, Refused>, Co
         Err(why) if is_answer(&why) => return Ok(Verdict::No(Refused::Shell(why))),
         Err(error) => return Err(error.into()),
     };
-    furnish(asked, Bare { plan, shell, bolts }, watch)
+    let bare = Bare {
+        plan,
+        vertices,
+        shell,
+        bolts,
+    };
+    furnish(asked, bare, watch)
 }
 
 /// A base with its shell and bolts, without brackets.
 struct Bare {
     plan: BasePlan,
+    vertices: Option<ByVertices>,
     shell: CladShell,
     bolts: Vec<Bolt>,
 }
@@ -85,6 +91,7 @@ fn furnish(
 ) -> Result<Verdict<Built, Refused>, CoreRunError> {
     let Bare {
         plan,
+        vertices,
         mut shell,
         bolts,
     } = bare;
@@ -105,37 +112,13 @@ fn furnish(
     };
     Ok(Verdict::Found(Built {
         plan,
+        vertices,
         shell,
         brackets,
         bolts,
         pockets,
         sheets,
     }))
-}
-
-/// Returns the base that is given, or the one that is found.
-fn base(asked: &Asked, watch: &Watch) -> Result<Verdict<BasePlan, NoRoom>, CoreRunError> {
-    if let Some(given) = &asked.job.base {
-        let text = [given.file.as_str(), given.toml.as_str()];
-        let plan = BasePlan::from_toml(text, asked.ground, &asked.base, &asked.connector)?;
-        return Ok(Verdict::Found(plan));
-    }
-    let count = match asked.job.polyhedra {
-        Polyhedra::Exactly(1) => {
-            let base = grow_polyhedron(asked.ground, &asked.base, watch)?;
-            return Ok(match base {
-                Verdict::Found(base) => Verdict::Found(BasePlan::one(base)),
-                Verdict::No(why) => Verdict::No(why),
-            });
-        }
-        Polyhedra::Exactly(count) => Count::Exactly(count),
-        Polyhedra::Auto => Count::Auto(Polyhedra::Auto.most()),
-    };
-    let several = Several {
-        count,
-        connector: asked.connector,
-    };
-    Ok(grow_polyhedra(asked.ground, &asked.base, &several, watch)?)
 }
 
 /// Returns true if an error in making the shell is an answer: another base may do.

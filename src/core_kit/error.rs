@@ -13,6 +13,8 @@ use crate::error::Error;
 use crate::goal::GoalError;
 use crate::io::threemf::PackageError;
 use crate::io::{ContentError, ReadError, StlError};
+use crate::job::base_choice::Polyhedra;
+use crate::job::base_method::BaseMethod;
 use crate::job::core_kit::CoreGoal;
 use crate::job::{JobError, StockItem};
 use crate::mend::MendError;
@@ -75,6 +77,27 @@ pub enum CoreRunError {
     /// The number of faces cannot be.
     #[error(transparent)]
     Faces(#[from] RequestError),
+    /// Several polyhedra by the method that makes one.
+    #[error(
+        "the method of vertices makes one polyhedron; remedy: leave `{}` away, or give `{}`",
+        Setting::new(Key::Polyhedra, .polyhedra), Setting::new(Key::Method, BaseMethod::Planes)
+    )]
+    VerticesOfSeveral {
+        /// The number asked for.
+        polyhedra: Polyhedra,
+    },
+    /// Fewer faces than the start of moved vertices has.
+    #[error(
+        "moved vertices keep the faces of their start, which has {fewest}; remedy: leave `{}` \
+         away, or give `{}`",
+        Setting::new(Key::Faces, .faces), Setting::new(Key::Method, BaseMethod::Planes)
+    )]
+    FewerThanStart {
+        /// The number asked for.
+        faces: usize,
+        /// The faces of the start, or of the one with the fewest.
+        fewest: usize,
+    },
     /// The file of a base describes none of this model.
     #[error(transparent)]
     Base(#[from] BaseFileError),

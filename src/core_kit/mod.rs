@@ -8,9 +8,12 @@
 //! asked for, the fasteners, the mass, and the files.
 
 mod advise;
+mod advise_base;
 mod asked;
 mod ballast;
 mod ballast_rows;
+mod base;
+mod bench;
 mod build;
 mod error;
 mod files;
@@ -20,6 +23,7 @@ mod judge;
 mod load;
 mod made;
 mod mass;
+mod method;
 mod names;
 mod papers;
 mod pockets;

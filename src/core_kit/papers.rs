@@ -28,7 +28,7 @@ pub fn finish(
     watch: &Watch,
 ) -> Result<Prepared<CoreSheet>, CoreRunError> {
     watch.enter(Phase::Report);
-    let Shown { pictures, stage } = pictures(asked, &draft.made, watch)?;
+    let Shown { pictures, stage } = pictures(asked, &draft.made, &draft.sheet.ballast, watch)?;
     let mut kit = Kit::default();
     for part in &draft.made.parts {
         kit.add(&part.file, part.bytes.clone());

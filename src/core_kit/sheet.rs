@@ -19,7 +19,7 @@ use crate::polyhedra::{Breach, LimitKind};
 use crate::sheet::Verdict;
 use crate::sheet::core_kit::{
     BaseRow, CORE_SHEET_SCHEMA, CoreMaterialRow, CoreModelRow, CorePrinterRow, CoreSheet,
-    CutterRow, MassRow, PolyhedronRow, SheetRow,
+    CutterRow, MassRow, PolyhedronRow, SheetRow, VerticesRow,
 };
 use crate::verify::{CutPromise, PrinterLimits, StockPromise};
 
@@ -157,6 +157,13 @@ fn base(asked: &Asked, made: &Made) -> BaseRow {
     };
     BaseRow {
         panels: made.built.shell.panels.panels.len(),
+        vertices: made.built.vertices.map(|of| VerticesRow {
+            start: of.start.word(),
+            volume_mm3: of.volume_mm3,
+            sampled_mm: of.sampled_mm,
+            certified_mm: of.certified_mm,
+            moved_mm: of.moved_mm,
+        }),
         polyhedra: polyhedra(made),
         volume_mm3: plan.volume_mm3(),
         volume_ratio: plan.volume_mm3() / asked.ground.volume_mm3(),

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Deserializer, Serialize, de::Error as _};
 
 use super::base_choice::{BaseChoice, Polyhedra};
+use super::base_method::BaseMethod;
 use super::{GrainChoice, JobError, ModelChoice, PrinterChoice, StockList};
 use crate::ballast::Order;
 use crate::base::digest::sha256_hex;
@@ -77,6 +78,9 @@ pub struct CoreJob {
     pub kind: CoreKind,
     /// The greatest number of faces of each polyhedron of the base.
     pub faces: usize,
+    /// The method by which the base is looked for.
+    #[serde(default, skip_serializing_if = "BaseMethod::is_planes")]
+    pub method: BaseMethod,
     /// The number of polyhedra.
     #[serde(default = "one_polyhedron", skip_serializing_if = "Polyhedra::is_one")]
     pub polyhedra: Polyhedra,
@@ -148,6 +152,7 @@ impl CoreJob {
             schema: CORE_SCHEMA,
             kind: CoreKind::Core,
             faces: USUAL_FACES,
+            method: BaseMethod::Planes,
             polyhedra: one_polyhedron(),
             connector: None,
             joints: CoreJoints::Auto,
@@ -271,11 +276,12 @@ mod tests {
         job.ballast = Order::Auto;
         let plain = job.to_toml().unwrap();
         assert!(
-            !plain.contains("polyhedra") && !plain.contains("base"),
+            !plain.contains("polyhedra") && !plain.contains("base") && !plain.contains("method"),
             "{plain}"
         );
         assert_eq!(CoreJob::from_toml("job.toml", &plain).unwrap(), job);
         job.polyhedra = Polyhedra::Auto;
+        job.method = BaseMethod::Vertices(None);
         job.connector = Some(Length::from_mm(25.0).unwrap());
         job.base = Some(BaseChoice {
             file: "base.toml".to_owned(),

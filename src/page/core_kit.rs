@@ -312,7 +312,9 @@ fn screw_on(page: &CorePage) -> Markup {
             "Glue parts that bear on no panel only when all is joined."
         }
         (pins(sheet))
+        (figures(page.pictures, Role::Bench))
         (ballast::lay(sheet))
+        (figures(page.pictures, Role::Ballast))
         table class="stack" {
             thead { tr { th scope="col" { "Unit" } th scope="col" { "Panel" } th scope="col" { "Things" } th scope="col" class="n" { "Screws" } } }
             tbody {

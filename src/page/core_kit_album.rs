@@ -2,68 +2,18 @@
 
 use rayon::prelude::*;
 
+use super::core_kit_bench::{ballast, benches};
+use super::core_kit_view::{CoreView, ThingKind};
 use super::figure::{Draft, Picture, Role};
 use crate::draw::{
-    Camera, HARDWARE, Hatch, Item, Label, PictureError, Scene, Shot, TEXT_PX, part_color,
-    view_direction,
+    Camera, Item, Label, PictureError, Scene, Shot, TEXT_PX, part_color, view_direction,
 };
 use crate::geom::{Aabb, Frame, Point, Vector};
-use crate::mesh::TriMesh;
 
 /// Angles of the viewer to the right and above the ground, radians.
 const TURN_AND_LIFT: [f64; 2] = [0.5, 0.35];
 /// Way of units that are drawn apart, as a share of the longest side.
 const APART_RATIO: f64 = 0.35;
-
-/// A thing in its place in the model, as it is drawn.
-#[derive(Debug, Clone, PartialEq)]
-pub struct ShownThing<'a> {
-    /// Its id.
-    pub id: String,
-    /// Its mesh.
-    pub mesh: &'a TriMesh,
-    /// The index of its unit.
-    pub unit: usize,
-    /// True for a panel, false for a printed part.
-    pub is_panel: bool,
-    /// True for a bracket, which is printed but belongs to the base.
-    pub is_bracket: bool,
-}
-
-impl ShownThing<'_> {
-    /// Returns whether it belongs to the base, and not to the shell.
-    pub fn is_base(&self) -> bool {
-        self.is_panel || self.is_bracket
-    }
-}
-
-/// A step of putting the object together.
-#[derive(Debug, Clone, PartialEq)]
-pub struct JoinStep {
-    /// The name of what comes.
-    pub name: String,
-    /// The indices of the units that come.
-    pub moving: Vec<usize>,
-    /// The indices of the units that stand.
-    pub standing: Vec<usize>,
-    /// The direction in which it would leave again.
-    pub way: Vector,
-}
-
-/// What the pictures of an object on a base show.
-#[derive(Debug)]
-pub struct CoreView<'a> {
-    /// The parts and panels.
-    pub things: &'a [ShownThing<'a>],
-    /// The names of the units in the order in which they are joined.
-    pub units: Vec<String>,
-    /// The ways by which units are drawn apart, each as a multiple of the usual one.
-    pub apart: Vec<Vector>,
-    /// The steps in which the object is put together.
-    pub steps: Vec<JoinStep>,
-    /// The direction that points up.
-    pub up: Vector,
-}
 
 /// Draws the pictures of an object on a base; the same bytes on any number of threads.
 ///
@@ -71,6 +21,8 @@ pub struct CoreView<'a> {
 /// A picture cannot be encoded.
 pub fn draw_core(view: &CoreView) -> Result<Vec<Picture>, PictureError> {
     let mut drafts = vec![whole(view), apart(view), base(view)];
+    drafts.extend(benches(view));
+    drafts.extend(ballast(view));
     drafts.extend((0..view.steps.len()).map(|step| joined(view, step)));
     drafts.par_iter().map(Draft::draw).collect()
 }
@@ -90,25 +42,12 @@ impl CoreView<'_> {
         view_direction(&side, &self.up, TURN_AND_LIFT)
     }
 
-    /// Returns the index of a unit's first printed part.
-    pub(super) fn first_of(&self, unit: usize) -> Option<usize> {
-        let mut things = self.things.iter();
-        things.position(|thing| thing.unit == unit && !thing.is_panel)
-    }
-
-    fn item(&self, index: usize) -> Item<'_> {
-        let thing = &self.things[index];
-        if thing.is_panel {
-            Item {
-                hatch: Hatch::RODS,
-                ..Item::new(thing.mesh, HARDWARE)
-            }
-        } else {
-            Item::new(thing.mesh, part_color(thing.unit))
-        }
-    }
-
-    fn draft<'a>(&self, file: String, items: Vec<Item<'a>>, words: [&str; 2]) -> Draft<'a> {
+    pub(super) fn draft<'a>(
+        &self,
+        file: String,
+        items: Vec<Item<'a>>,
+        words: [&str; 2],
+    ) -> Draft<'a> {
         let [caption, alt] = words.map(str::to_owned);
         Draft {
             file,
@@ -127,7 +66,7 @@ impl CoreView<'_> {
 }
 
 fn whole<'a>(view: &'a CoreView) -> Draft<'a> {
-    let printed = (0..view.things.len()).filter(|&at| !view.things[at].is_panel);
+    let printed = (0..view.things.len()).filter(|&at| view.things[at].kind.is_printed());
     let items = printed.map(|at| view.item(at)).collect();
     let words = ["The whole, its parts by unit.", "The object from the side."];
     view.draft("pictures/whole.png".to_owned(), items, words)
@@ -169,7 +108,7 @@ fn apart<'a>(view: &'a CoreView) -> Draft<'a> {
 
 /// Draws the panels and brackets together, each panel in a colour of its own.
 fn base<'a>(view: &'a CoreView) -> Draft<'a> {
-    let panels = (0..view.things.len()).filter(|&at| view.things[at].is_panel);
+    let panels = (0..view.things.len()).filter(|&at| view.things[at].kind == ThingKind::Panel);
     let panels: Vec<usize> = panels.collect();
     let color = |&at: &usize| Item::new(view.things[at].mesh, part_color(view.things[at].unit));
     let names = panels.iter().enumerate();

@@ -41,13 +41,17 @@ pub enum Role {
     State,
     /// Telescope: one joint cut open.
     CutJoint,
+    /// Screw on: the parts of a unit that pins join, drawn apart.
+    Bench,
+    /// Screw on: the ballast in a base that is open on one side.
+    Ballast,
 }
 
 impl Role {
     /// Returns the CSS class of its pictures: side by side, or wider for drawings with small words.
     fn class(self) -> &'static str {
         match self {
-            Self::Cut | Self::CutJoint => "pictures wide",
+            Self::Cut | Self::CutJoint | Self::Bench | Self::Ballast => "pictures wide",
             Self::Exploded | Self::Halves => "pictures wide whole",
             Self::Joint => "pictures joints",
             Self::Plate => "pictures plates",

@@ -3,6 +3,7 @@
 use super::connection::{Connection, ConnectorRequest, Pair};
 use super::ground::Ground;
 use super::polyhedron::{Face, Polyhedron, lowest};
+use super::unjoined::Unjoined;
 use crate::geom::{Plane, Vector};
 
 /// One side of a split.
@@ -139,6 +140,38 @@ impl BasePlan {
 
     /// Returns true if the connections join all polyhedra to one.
     pub fn is_joined(&self) -> bool {
+        self.joined_to_first()
+            .into_iter()
+            .all(|is_joined| is_joined)
+    }
+
+    /// Returns two polyhedra across a plane of which connections join only one to the first
+    /// polyhedron; `None` if all are joined. Of several such pairs it is the one whose faces share
+    /// the largest disc.
+    pub fn unjoined(&self, ground: &Ground, connector: &ConnectorRequest) -> Option<Unjoined> {
+        let joined = self.joined_to_first();
+        let pairs = self.splits.iter().enumerate().flat_map(|(at, split)| {
+            let [below, above] = self.polyhedra_beside(at);
+            let pairs = below
+                .into_iter()
+                .flat_map(move |i| above.clone().into_iter().map(move |j| [i, j]));
+            pairs.map(move |indices| (split.plane, indices))
+        });
+        let apart = pairs.filter(|(_, [i, j])| joined[*i] != joined[*j]);
+        let apart = apart.map(|(plane, indices)| {
+            let pair = Pair {
+                ground,
+                indices,
+                polyhedra: indices.map(|at| &self.polyhedra[at]),
+                plane,
+            };
+            pair.unjoined(connector)
+        });
+        apart.reduce(|a, b| if b.disc_mm > a.disc_mm { b } else { a })
+    }
+
+    /// Returns, for each polyhedron, whether connections join it to the first.
+    fn joined_to_first(&self) -> Vec<bool> {
         let mut joined = vec![false; self.polyhedra.len()];
         let mut waiting = vec![0];
         while let Some(here) = waiting.pop() {
@@ -151,7 +184,7 @@ impl BasePlan {
                 waiting.extend(ends.filter(|ends| ends.contains(&here)).flatten());
             }
         }
-        joined.into_iter().all(|is_joined| is_joined)
+        joined
     }
 
     /// Returns the least distance from a split to the corners of the polyhedra beside it, mm;

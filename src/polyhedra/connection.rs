@@ -3,6 +3,7 @@
 use super::disc::{Disc, largest_common_disc};
 use super::ground::Ground;
 use super::polyhedron::Polyhedron;
+use super::unjoined::Unjoined;
 use crate::geom::{Plane, Point, Vector, hull};
 
 /// Cells along each side of the common shadow in which a place for a tube is looked for.
@@ -88,8 +89,20 @@ impl Pair<'_> {
         bolted.or_else(|| request.takes_tubes.then(|| self.tube(request))?)
     }
 
-    /// Connects two locked faces by the largest disc that both have.
-    fn bolted(&self, request: &ConnectorRequest) -> Option<Connection> {
+    /// Returns what is between the two where they are not connected: the disc that their faces
+    /// share, and a tube that would have room.
+    pub fn unjoined(&self, request: &ConnectorRequest) -> Unjoined {
+        let shared = self.common_disc(request);
+        Unjoined {
+            polyhedra: self.indices,
+            plane: self.plane,
+            disc_mm: shared.map_or(0.0, |(_, disc)| disc.radius_mm),
+            tube_mm: self.tube(request).map(|tube| tube.length_mm()),
+        }
+    }
+
+    /// Returns the faces that lie on the plane, and the largest disc that both have.
+    fn common_disc(&self, request: &ConnectorRequest) -> Option<([usize; 2], Disc)> {
         let normal = self.plane.normal;
         let face_towards = |side: usize, outward: Vector| {
             self.polyhedra[side].faces().iter().position(|face| {
@@ -103,7 +116,12 @@ impl Pair<'_> {
         };
         let faces = [face_towards(0, normal)?, face_towards(1, -normal)?];
         let outlines = [0, 1].map(|side| self.flat_outline(side, faces[side]));
-        let disc = largest_common_disc(&[&outlines[0], &outlines[1]])?;
+        Some((faces, largest_common_disc(&[&outlines[0], &outlines[1]])?))
+    }
+
+    /// Connects two locked faces by the largest disc that both have.
+    fn bolted(&self, request: &ConnectorRequest) -> Option<Connection> {
+        let (faces, disc) = self.common_disc(request)?;
         if disc.radius_mm < request.radius_mm {
             return None;
         }

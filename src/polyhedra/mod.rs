@@ -43,6 +43,7 @@ mod search;
 mod separation;
 mod side;
 mod starts;
+mod unjoined;
 pub mod vertices;
 
 pub use base_file::BaseFileError;
@@ -60,3 +61,4 @@ pub use plan::{Count, Several, grow_polyhedra};
 pub use polyhedron::{Face, NotInside, Polyhedron};
 pub use separation::{ROUNDING_MM, Separation, SeparationError};
 pub use side::Side;
+pub use unjoined::{NoPlan, Unjoined};

@@ -5,8 +5,9 @@ use rayon::prelude::*;
 use super::base_plan::{BasePlan, Child, Split, connected};
 use super::connection::{ConnectorRequest, Pair};
 use super::ground::Ground;
-use super::inscribe::{NoRoom, Region, Request};
+use super::inscribe::{Region, Request};
 use super::polyhedron::Polyhedron;
+use super::unjoined::{NoPlan, Unjoined};
 use crate::base::verdict::Verdict;
 use crate::base::watch::{Cancelled, Watch};
 use crate::geom::{Aabb, Plane, Point, Vector};
@@ -27,7 +28,7 @@ const FINALISTS: usize = 3;
 pub enum Count {
     /// As many as each raise the volume by 5 %, but no more than this.
     Auto(usize),
-    /// This many, or fewer if no plane gives room for one more.
+    /// This many, or fewer if no plane leaves room for one more on both sides.
     Exactly(usize),
 }
 
@@ -70,12 +71,18 @@ impl Branch {
 
 /// Returns the branch that gains most by being parted, if it gains more than the least.
 fn most_gainful(branches: &[Branch], least_mm3: f64) -> Option<usize> {
-    let gain_mm3 = |branch: &Branch| branch.parted.as_ref().map(|parted| parted.gain_mm3);
-    let gains = branches.iter().map(gain_mm3).enumerate();
-    let gains = gains.filter_map(|(index, gain)| Some((index, gain?)));
-    let enough = gains.filter(|(_, gain)| *gain > least_mm3);
+    let joined = gains(branches).filter(|(_, parted)| parted.unjoined.is_none());
+    let enough = joined
+        .map(|(index, parted)| (index, parted.gain_mm3))
+        .filter(|(_, gain)| *gain > least_mm3);
     let best = enough.reduce(|a, b| if b.1 > a.1 { b } else { a });
     best.map(|(index, _)| index)
+}
+
+/// Returns the branches for which a plane is known, with it.
+fn gains(branches: &[Branch]) -> impl Iterator<Item = (usize, &Parted)> {
+    let all = branches.iter().enumerate();
+    all.filter_map(|(index, branch)| Some((index, branch.parted.as_ref()?)))
 }
 
 /// A leaf parted by a plane.
@@ -83,6 +90,23 @@ struct Parted {
     plane: Plane,
     leaves: [Leaf; 2],
     gain_mm3: f64,
+    /// Both sides, if nothing joins them.
+    unjoined: Option<Unjoined>,
+}
+
+impl Parted {
+    /// Returns what makes one plane better than another: first of all, both sides are joined.
+    fn rank(&self) -> (bool, f64) {
+        (self.unjoined.is_none(), self.gain_mm3)
+    }
+}
+
+/// A model that was parted as often as was asked for and could be.
+struct Divided {
+    polyhedra: Vec<Polyhedron>,
+    splits: Vec<Split>,
+    /// The polyhedra for which there was room, but nothing that joins them.
+    unjoined: Option<Unjoined>,
 }
 
 /// A place for a plane square to an axis.
@@ -101,7 +125,8 @@ struct Planner<'a> {
     watch: &'a Watch,
 }
 
-/// Returns polyhedra on both sides of planes that part the model, or why there is no room for any.
+/// Returns polyhedra on both sides of planes that part the model, or why there are none, or fewer
+/// than asked for because nothing joins them.
 ///
 /// Each side of a plane grows its own, with one face locked on the plane. Planes are square to the
 /// axes of the model. Every polyhedron costs a search of its own and some trials of planes, about
@@ -113,10 +138,10 @@ pub fn grow_polyhedra(
     request: &Request,
     several: &Several,
     watch: &Watch,
-) -> Result<Verdict<BasePlan, NoRoom>, Cancelled> {
+) -> Result<Verdict<BasePlan, NoPlan>, Cancelled> {
     let whole = Region::new(ground, request, Vec::new());
     let Some(polyhedron) = whole.grow(whole.starts(), watch)? else {
-        return Ok(Verdict::No(whole.no_room()));
+        return Ok(Verdict::No(NoPlan::NoRoom(whole.no_room())));
     };
     let planner = Planner {
         ground,
@@ -128,24 +153,26 @@ pub fn grow_polyhedra(
         locked: Vec::new(),
         polyhedron,
     };
-    let (polyhedra, splits) = planner.divided(first, several.count)?;
+    let divided = planner.divided(first, several.count)?;
+    if let (Some(apart), Count::Exactly(_)) = (divided.unjoined, several.count) {
+        let joined = divided.polyhedra.len();
+        return Ok(Verdict::No(NoPlan::Unjoined { apart, joined }));
+    }
+    let (polyhedra, splits) = (divided.polyhedra, divided.splits);
     let plan = connected(ground, polyhedra, splits, &several.connector);
     Ok(Verdict::Found(plan))
 }
 
 impl Planner<'_> {
     /// Parts leaves while that is asked for or gains enough.
-    fn divided(
-        &self,
-        first: Leaf,
-        count: Count,
-    ) -> Result<(Vec<Polyhedron>, Vec<Split>), Cancelled> {
+    fn divided(&self, first: Leaf, count: Count) -> Result<Divided, Cancelled> {
         let (most, least_gain) = match count {
             Count::Auto(most) => (most, LEAST_GAIN),
             Count::Exactly(most) => (most, f64::NEG_INFINITY),
         };
         let mut branches = vec![Branch::new(first)];
         let mut splits: Vec<Split> = Vec::new();
+        let mut unjoined = None;
         while branches.len() < most {
             for branch in branches.iter_mut().filter(|branch| !branch.is_tried) {
                 branch.parted = self.part(&branch.leaf)?;
@@ -161,36 +188,46 @@ impl Planner<'_> {
             };
             let mut next = splits.clone();
             add_split(&mut next, index, parted.plane, branches.len());
-            if self.holds_together(&branches, index, &parted, &next) {
+            let plan = self.with_parted(&branches, index, &parted, &next);
+            let apart = plan.unjoined(self.ground, self.connector);
+            if apart.is_none() {
                 splits = next;
                 let [below, above] = parted.leaves;
                 branches[index] = Branch::new(below);
                 branches.push(Branch::new(above));
             }
+            unjoined = apart.or(unjoined);
         }
-        let polyhedra = branches.into_iter().map(|branch| branch.leaf.polyhedron);
-        Ok((polyhedra.collect(), splits))
+        let is_short = branches.len() < most;
+        Ok(Divided {
+            unjoined: apart_alone(&branches).or(unjoined).filter(|_| is_short),
+            polyhedra: branches
+                .into_iter()
+                .map(|branch| branch.leaf.polyhedron)
+                .collect(),
+            splits,
+        })
     }
 
-    /// Returns true if connections join all polyhedra to one base when a branch is parted.
-    fn holds_together(
+    /// Returns the base when a branch is parted.
+    fn with_parted(
         &self,
         branches: &[Branch],
         index: usize,
         parted: &Parted,
         splits: &[Split],
-    ) -> bool {
+    ) -> BasePlan {
         let mut polyhedra: Vec<Polyhedron> = branches
             .iter()
             .map(|branch| branch.polyhedron().clone())
             .collect();
         polyhedra[index] = parted.leaves[0].polyhedron.clone();
         polyhedra.push(parted.leaves[1].polyhedron.clone());
-        connected(self.ground, polyhedra, splits.to_vec(), self.connector).is_joined()
+        connected(self.ground, polyhedra, splits.to_vec(), self.connector)
     }
 
     /// Returns the best plane for a leaf with a polyhedron on both sides; `None` if none leaves
-    /// room for two that can be connected.
+    /// room for two. Planes whose sides can be connected come first.
     fn part(&self, leaf: &Leaf) -> Result<Option<Parted>, Cancelled> {
         let Some(extent) = self.extent(&leaf.locked) else {
             return Ok(None);
@@ -210,9 +247,7 @@ impl Planner<'_> {
         let mut best: Option<Parted> = None;
         for &(_, place) in sounded.iter().take(FINALISTS) {
             if let Some(parted) = self.parted(leaf, plane_at(&extent, place))?
-                && best
-                    .as_ref()
-                    .is_none_or(|best| parted.gain_mm3 > best.gain_mm3)
+                && best.as_ref().is_none_or(|best| parted.rank() > best.rank())
             {
                 best = Some(parted);
             }
@@ -251,7 +286,7 @@ impl Planner<'_> {
         Ok(sounded)
     }
 
-    /// Parts a leaf by a plane; `None` if a side has no room or the sides cannot be connected.
+    /// Parts a leaf by a plane; `None` if a side has no room.
     fn parted(&self, leaf: &Leaf, plane: Plane) -> Result<Option<Parted>, Cancelled> {
         let mut leaves = Vec::new();
         for locked in self.sides(leaf, &plane) {
@@ -271,15 +306,15 @@ impl Planner<'_> {
             polyhedra: [&leaves[0].polyhedron, &leaves[1].polyhedron],
             plane,
         };
-        if pair.connect(self.connector).is_none() {
-            return Ok(None);
-        }
+        let is_joined = pair.connect(self.connector).is_some();
+        let unjoined = (!is_joined).then(|| pair.unjoined(self.connector));
         let sum: f64 = leaves.iter().map(|leaf| leaf.polyhedron.volume_mm3()).sum();
         let gain_mm3 = sum - leaf.polyhedron.volume_mm3();
         Ok(Some(Parted {
             plane,
             leaves,
             gain_mm3,
+            unjoined,
         }))
     }
 
@@ -304,6 +339,18 @@ impl Planner<'_> {
         let extent = Aabb::of_points(points.filter(is_inside));
         (!extent.is_empty()).then_some(extent)
     }
+}
+
+/// Returns both sides of the plane that would gain most, of those that nothing joins; the new
+/// polyhedron is the last.
+fn apart_alone(branches: &[Branch]) -> Option<Unjoined> {
+    let apart = gains(branches).filter(|(_, parted)| parted.unjoined.is_some());
+    let best = apart.reduce(|a, b| if b.1.gain_mm3 > a.1.gain_mm3 { b } else { a });
+    let (index, parted) = best?;
+    Some(Unjoined {
+        polyhedra: [index, branches.len()],
+        ..parted.unjoined?
+    })
 }
 
 /// Puts a new split in the place of a polyhedron; the one above it is new.

@@ -215,6 +215,9 @@ pub struct EdgeDistance {
 pub struct BaseRow {
     /// The number of panels.
     pub panels: usize,
+    /// The method of the paper, if it made the base.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub vertices: Option<VerticesRow>,
     /// The polyhedra, if there are several.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub polyhedra: Vec<PolyhedronRow>,
@@ -230,6 +233,21 @@ pub struct BaseRow {
     pub bracket_edges: usize,
     /// The number of edges that are glued alone.
     pub glued_edges: usize,
+}
+
+/// A base of moved vertices, and what its proof cost.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct VerticesRow {
+    /// The polyhedron from which its vertices started.
+    pub start: &'static str,
+    /// Its volume before the proof, mm³.
+    pub volume_mm3: f64,
+    /// The least distance of its samples from the surface, mm.
+    pub sampled_mm: f64,
+    /// The distance that its faces proved, mm; negative if they cut the model.
+    pub certified_mm: f64,
+    /// The greatest way by which a face moved inward for the proof, mm.
+    pub moved_mm: f64,
 }
 
 /// A polyhedron among several.

@@ -212,10 +212,19 @@ const ARROWS: &[(&str, &[&str])] = &[
             "cutter", "geom", "io", "kit", "mesh", "page", "panels", "printer", "base",
         ],
     ),
-    // A job may order a field of densities by its numbers.
+    // A job may order a field of densities by its numbers, and names the polyhedron from which the
+    // vertices of a base start.
     (
         "job",
-        &["ballast", "cut", "base", "field", "goal", "repair"],
+        &[
+            "ballast",
+            "cut",
+            "base",
+            "field",
+            "goal",
+            "polyhedra",
+            "repair",
+        ],
     ),
     // A run may slice its kit, and tells why that failed.
     (

@@ -46,6 +46,20 @@ const leave = async (page) => {
   must(skew.length > 3 && Math.max(...skew) < 1e-9, `the ways are the normals of ${skew.length} panels`);
 };
 
+// When all is apart each pin stands on its part, and points at the part that left it along the pin.
+const bench = async (page) => {
+  await set(page, 1e9);
+  const named = Object.fromEntries((await found(page)).map(({ name, rows }) => [name, rows]));
+  const unitOf = (id) => sheet.units.findIndex((unit) => unit.parts.includes(id));
+  const inside = sheet.pins.filter(({ on, into }) => unitOf(on) === unitOf(into));
+  const gap = ({ on, into, direction }) => along(named[into], direction) - along(named[on], direction);
+  const wrong = inside.filter((pin) => gap(pin) < 2 * pin.length_mm).map(({ on, into }) => `${on} into ${into}`);
+  must(inside.length > 1 && wrong.length === 0, `${inside.length} pins point into the gap that they close ${wrong.join("; ")}`);
+  const pins = Object.entries(named).filter(([name]) => name.startsWith("pin "));
+  const loose = pins.filter(([name, rows]) => far(rows.map((row, axis) => [0, 0, 0, row[3] - named[name.split(" ")[3]][axis][3]])) > 1e-9);
+  must(pins.length === sheet.pins.length && loose.length === 0, `each of ${pins.length} pins stands on its part`);
+};
+
 const drive = async (page) => {
   const start = await pixels(page);
   must(drawn(start) > 0.02 && await clear(page, start), "the object is drawn, with room at every edge");
@@ -75,6 +89,7 @@ report(async () => {
   const shown = await opened(file, SOFTWARE_GL);
   await drive(shown.page);
   await leave(shown.page);
+  await bench(shown.page);
   await accessible(shown.page, "with the view");
   await fitsPhone(shown.page);
   await ends(shown, file, mostPages);

@@ -9,6 +9,7 @@
 
 #[path = "../common/mod.rs"]
 mod common;
+mod method;
 mod pins;
 mod several;
 mod shop;
@@ -118,6 +119,7 @@ fn a_box_becomes_a_kit_that_stands_and_passes_both_judges() {
     let sheet = checklist(&kit);
     hold_figures(&sheet);
     pins::hold_pins(&sheet);
+    pins::hold_pictures(&kit, &sheet);
     let (code, said) = verify(&kit);
     assert_eq!(code, Some(0), "{said}");
     judge_in_python(&kit);

@@ -317,7 +317,7 @@ fn a_disc_larger_than_the_common_panels_is_an_answer_with_what_helps() {
         answer["reason"]
             .as_str()
             .unwrap()
-            .contains("are not joined"),
+            .contains("polyhedra 1 and 2 of the base are not joined"),
         "{answer}"
     );
     assert!(

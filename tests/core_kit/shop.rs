@@ -42,11 +42,27 @@ fn a_tower_stands_with_the_ballast_that_its_answer_names_on_the_sheets_at_hand()
     assert_exit(&core(&model, &kit, &options), 0);
     let sheet = checklist(&kit);
     hold_ballast(&sheet, remedy["words"].as_str().unwrap());
+    hold_picture(&kit, &sheet);
     hold_stock(&sheet);
     let (code, said) = verify(&kit);
     assert_eq!(code, Some(0), "{said}");
     judge_in_python(&kit);
     tell_lies(folder.path(), &kit);
+}
+
+/// Holds that the base is drawn open with every piece of ballast, and that the view has them.
+fn hold_picture(kit: &Path, sheet: &Value) {
+    let drawn = fs::read_to_string(kit.join("pictures/ballast.svg")).unwrap();
+    let pieces = list(sheet, "ballast");
+    for number in 1..=pieces.len() {
+        assert!(drawn.contains(&format!(">{number}<")), "piece {number}");
+    }
+    let page = fs::read_to_string(kit.join("job.html")).unwrap();
+    let last = format!("{} {}", pieces[0]["id"].as_str().unwrap(), pieces.len());
+    assert!(
+        page.contains("The base, open towards you") && page.contains(&last),
+        "{last}"
+    );
 }
 
 /// Holds the ballast against what the answer has named.

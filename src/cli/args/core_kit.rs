@@ -14,6 +14,7 @@ use crate::cli::shop::chosen_printer;
 use crate::cli::wing::Order;
 use crate::goal::Up;
 use crate::job::base_choice::{BaseChoice, Polyhedra};
+use crate::job::base_method::BaseMethod;
 use crate::job::core_kit::{CoreGoal, CoreJob, CoreJoints, CoreShell, CutChoice};
 use crate::job::{GrainChoice, ModelChoice, StockList};
 
@@ -66,9 +67,17 @@ pub struct CoreArgs {
 #[derive(Debug, Clone, Args)]
 #[command(next_help_heading = "Base and shell")]
 pub struct BaseArgs {
-    /// The greatest number of panels of a polyhedron, from 4 to 32 [default: 12]
+    /// The greatest number of panels of a polyhedron, from 4 to 32 [default: 12, or as many as
+    /// the start of moved vertices has faces]
     #[arg(long, value_name = "N", allow_hyphen_values = true)]
     pub faces: Option<usize>,
+    /// The way to find the base: planes that move, or vertices as in CofiFab [default: planes]
+    ///
+    /// Vertices start from a cube, a dodecahedron or an icosahedron, such as vertices:cube. They
+    /// make one polyhedron. What they yield is not proved, so its faces move inward until
+    /// it is. Without a start all three are tried, and the largest is kept.
+    #[arg(long, value_name = "planes|vertices[:START]")]
+    pub method: Option<BaseMethod>,
     /// The number of polyhedra inside, bolted together: auto, or 1 to 6 [default: 1]
     #[arg(long, value_name = "auto|N", allow_hyphen_values = true)]
     pub polyhedra: Option<Polyhedra>,
@@ -77,7 +86,7 @@ pub struct BaseArgs {
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
     pub connector: Option<Length>,
     /// The base in this file, such as an edited base.toml of a kit; with a job, in place of its own
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["polyhedra", "faces"])]
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["polyhedra", "faces", "method"])]
     pub base: Option<PathBuf>,
     /// Fingers where they fit and brackets elsewhere, or one of both on all edges [default: auto]
     #[arg(long, value_parser = words::<CoreJoints>(CoreJoints::WORDS))]
@@ -113,7 +122,7 @@ pub struct CoreStanceArgs {
 }
 
 /// The arguments that a replayed job decides.
-const DECIDED_BY_JOB: [&str; 19] = [
+const DECIDED_BY_JOB: [&str; 20] = [
     "printer",
     "material",
     "cutter",
@@ -124,6 +133,7 @@ const DECIDED_BY_JOB: [&str; 19] = [
     "scale",
     "unit",
     "faces",
+    "method",
     "polyhedra",
     "connector",
     "joints",
@@ -180,8 +190,11 @@ impl CoreArgs {
         };
         let default = CoreJob::new(model, printer, cutting);
         let (base, stance) = (self.base, self.stance);
+        let method = base.method.unwrap_or_default();
+        let faces = method.most_faces().unwrap_or(default.faces);
         Ok(CoreJob {
-            faces: base.faces.unwrap_or(default.faces),
+            faces: base.faces.unwrap_or(faces),
+            method,
             polyhedra: base.polyhedra.unwrap_or(default.polyhedra),
             connector: base.connector,
             joints: base.joints.unwrap_or(default.joints),

@@ -8,10 +8,11 @@ use super::{
     packed,
 };
 use crate::base::watch::Watch;
-use crate::draw::{HARDWARE, Hatch, PictureError, part_color};
-use crate::geom::{Aabb, Frame, Point};
+use crate::draw::{PictureError, part_color};
+use crate::geom::{Aabb, Frame, Point, Vector};
 use crate::mesh::TriMesh;
-use crate::page::core_kit_album::{CoreView, way_mm};
+use crate::page::core_kit_album::way_mm;
+use crate::page::core_kit_view::{CoreView, ShownThing, ThingKind};
 
 /// The motion that the script reads.
 #[derive(Serialize)]
@@ -27,9 +28,12 @@ struct PackedWays {
 struct Leaving {
     /// The indices of the bodies.
     bodies: Vec<usize>,
-    /// The way, mm.
-    way: [f64; 3],
+    /// The way of each body, in the same order, mm.
+    ways: Vec<[f64; 3]>,
 }
+
+/// The name of the step in which the parts of each unit leave each other.
+const ON_BENCH: &str = "parts of one panel, with their pins";
 
 impl Stage {
     /// Packs the view of an object on a base. It is taken apart in the reverse of the order in
@@ -40,30 +44,23 @@ impl Stage {
     pub fn of_units(view: &CoreView, watch: &Watch) -> Result<Self, PictureError> {
         let meshes: Vec<&TriMesh> = view.things.iter().map(|thing| thing.mesh).collect();
         let simple = simplify_all(&meshes, watch)?;
-        let bodies = view.things.iter().zip(simple).map(|(thing, mesh)| Body {
-            name: thing.id.clone(),
-            mesh,
-            color: if thing.is_panel {
-                HARDWARE
-            } else {
-                part_color(thing.unit)
-            },
-            hatch: if thing.is_panel {
-                Hatch::RODS
-            } else {
-                Hatch::PRINTED
-            },
-        });
-        let bodies: Vec<Body> = bodies.collect();
+        let bodies: Vec<Body> = view
+            .things
+            .iter()
+            .zip(simple)
+            .map(|(thing, mesh)| body(thing, mesh))
+            .collect();
         let upright = Frame::with_axis(Point::origin(), &view.up);
         let seen = bodies
             .iter()
             .map(|body| body.mesh.in_frame(&upright).aabb());
         let bounds = seen.fold(Aabb::EMPTY, |all, one| all.union(&one));
-        let steps = view.steps.iter().rev().enumerate();
-        let steps: Vec<Step> = steps
-            .map(|(place, step)| Step {
-                name: step.name.clone(),
+        let names = view.steps.iter().rev().map(|step| step.name.clone());
+        let names = names.chain(has_bench(view).then(|| ON_BENCH.to_owned()));
+        let steps: Vec<Step> = names
+            .enumerate()
+            .map(|(place, name)| Step {
+                name,
                 to: place + 1,
             })
             .collect();
@@ -96,6 +93,22 @@ impl Stage {
     }
 }
 
+fn body(thing: &ShownThing, mesh: TriMesh) -> Body {
+    let (color, hatch) = thing.kind.look(thing.unit);
+    Body {
+        name: thing.id.clone(),
+        mesh,
+        color,
+        hatch,
+    }
+}
+
+/// Returns true if pins join parts of one unit, so that these leave each other last.
+fn has_bench(view: &CoreView) -> bool {
+    let mut things = view.things.iter();
+    things.any(|thing| thing.bench != Vector::zeros())
+}
+
 /// Returns the name of each unit, beside its first part.
 fn named(view: &CoreView) -> Vec<Named> {
     let units = view.units.iter().enumerate();
@@ -112,15 +125,21 @@ fn ways(view: &CoreView) -> PackedWays {
     let steps = view.steps.iter().rev().map(|step| {
         let things = view.things.iter().enumerate();
         let own = things.filter(|(_, thing)| step.moving.contains(&thing.unit));
+        let bodies: Vec<usize> = own.map(|(index, _)| index).collect();
         Leaving {
-            bodies: own.map(|(index, _)| index).collect(),
-            way: (step.way * long_mm).into(),
+            ways: vec![(step.way * long_mm).into(); bodies.len()],
+            bodies,
         }
     });
-    let far = view.apart.iter().map(|way| way.norm() * long_mm);
+    let bench = has_bench(view).then(|| Leaving {
+        bodies: (0..view.things.len()).collect(),
+        ways: view.things.iter().map(|thing| thing.bench.into()).collect(),
+    });
+    let most = |ways: &mut dyn Iterator<Item = f64>| ways.fold(0.0, f64::max);
     PackedWays {
-        far: far.fold(0.0, f64::max),
-        leave: steps.collect(),
+        far: most(&mut view.apart.iter().map(|way| way.norm() * long_mm))
+            + most(&mut view.things.iter().map(|thing| thing.bench.norm())),
+        leave: steps.chain(bench).collect(),
     }
 }
 
@@ -130,10 +149,14 @@ fn toggles(view: &CoreView) -> Vec<Toggle> {
         let own = (0..view.things.len()).filter(|&thing| wanted(thing));
         own.collect::<Vec<usize>>()
     };
+    let kind = |thing: usize| view.things[thing].kind;
     let whole = [
-        ("shell", of(&|thing| !view.things[thing].is_base())),
-        ("base", of(&|thing| view.things[thing].is_base())),
+        ("shell", of(&|thing| kind(thing) == ThingKind::Part)),
+        ("base", of(&|thing| kind(thing).is_base())),
+        ("pins", view.all(ThingKind::Pin)),
+        ("ballast", view.all(ThingKind::Ballast)),
     ];
+    let whole = whole.into_iter().filter(|(_, bodies)| !bodies.is_empty());
     let whole = whole.map(|(name, bodies)| Toggle {
         name: name.to_owned(),
         color: None,
@@ -144,5 +167,5 @@ fn toggles(view: &CoreView) -> Vec<Toggle> {
         color: Some(part_color(unit)),
         bodies: of(&|thing| view.things[thing].unit == unit),
     });
-    whole.into_iter().chain(units).collect()
+    whole.chain(units).collect()
 }

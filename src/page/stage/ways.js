@@ -4,9 +4,11 @@
   const { leave, far } = data.motion;
   const poses = (at) => {
     const all = data.items.map(() => [0, 0, 0]);
-    leave.forEach(({ bodies, way }, step) => {
+    leave.forEach(({ bodies, ways }, step) => {
       const share = clamp(at - step, 0, 1);
-      for (const body of bodies) all[body] = all[body].map((value, axis) => value + share * way[axis]);
+      bodies.forEach((body, index) => {
+        all[body] = all[body].map((value, axis) => value + share * ways[index][axis]);
+      });
     });
     return all.map((to) => ({ ...STILL, to }));
   };

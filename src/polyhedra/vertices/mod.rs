@@ -8,7 +8,8 @@
 //!
 //! Between samples nothing is promised. [`VertexPolyhedron::certified_mm`] says what the planes of
 //! the faces do promise. Less than the distance does not mean that it is broken: a triangle beside
-//! an edge may be parted by no single face.
+//! an edge may be parted by no single face. [`prove_vertices`] moves the faces inward until they
+//! promise all of it: only such a polyhedron can be a base.
 //!
 //! The table has shares of the volume of models of 600 mm at a distance of 5 mm. In brackets is
 //! the distance that the faces certify, mm. The last column is that of planes
@@ -26,8 +27,10 @@
 
 mod descent;
 mod energy;
+mod proof;
 mod start;
 
+pub use proof::{ProvedVertices, prove_vertices};
 pub use start::StartSolid;
 
 use super::ground::Ground;
@@ -76,6 +79,8 @@ pub struct VertexPolyhedron {
     pub corners: Vec<Point>,
     /// The loops of the faces, counterclockwise from outside.
     pub faces: Vec<Vec<u32>>,
+    /// The planes of the faces, each as far out as every corner lies below it.
+    pub planes: Vec<Plane>,
     /// The volume, mm³.
     pub volume_mm3: f64,
     /// The least distance of a sample from the surface, mm.
@@ -179,9 +184,10 @@ fn measured(
         corners.map(move |&corner| off(face, corner).abs())
     });
     let bent_mm = bent.fold(0.0, f64::max);
-    // A plane counts only as far out as every corner lies below it.
+    // A plane counts only as far out as every corner lies below it. A face without area has none.
     let bounding: Vec<Plane> = planes
         .iter()
+        .filter(|(normal, _)| *normal != Vector::zeros())
         .map(|(normal, _)| Plane {
             normal: *normal,
             offset_mm: corners
@@ -194,6 +200,7 @@ fn measured(
         volume_mm3: structure.volume_mm3(&corners),
         sampled_mm: structure.least_mm(&corners, ground.distance()),
         certified_mm: ground.obstacles().least_parted_mm(&bounding),
+        planes: bounding,
         bent_mm,
         corners,
         faces,

@@ -25,7 +25,8 @@ pub(super) struct Shape {
 }
 
 impl StartSolid {
-    fn face_count(self) -> usize {
+    /// Returns the number of its faces.
+    pub fn face_count(self) -> usize {
         match self {
             Self::Cube => 6,
             Self::Dodecahedron => 12,
