@@ -168,9 +168,9 @@ fn parts_of<'a>(view: &NetworkView, own: &'a Apart, toward: &Vector) -> Draft<'a
     let bodies = view.bodies[own.first..].iter().zip(&own.meshes);
     let ids: Vec<&str> = bodies.clone().map(|(body, _)| body.id.as_str()).collect();
     let items = bodies.clone().enumerate();
-    let name = ids.join("-");
+    let name = ids[0].split('-').next().unwrap_or_default();
     Draft {
-        file: format!("pictures/{name}.svg"),
+        file: format!("pictures/{name}-parts.svg"),
         role: Role::Exploded,
         caption: format!("{} apart, as they are glued.", ids.join(", ")),
         alt: format!("The parts {} apart, with their pins.", ids.join(", ")),

@@ -410,7 +410,7 @@ def judge_divided(kit):
         if not own.get("divided"):
             continue
         solids = [kit.solid([mesh]) for mesh in meshes]
-        shared = max((solids[i] ^ solids[j]).volume() for i in range(len(solids)) for j in range(i))
+        shared = max(((solids[i] ^ solids[j]).volume() for i in range(len(solids)) for j in range(i)), default=0.0)
         kit.say(f"the parts of {own['id']} keep apart", shared < SHARED_MM3 * len(solids), f"shared {shared:.6f} mm³")
         sockets = {socket["id"]: (socket, solid) for part, solid in zip(own["parts"], solids) for socket in part.get("sockets", [])}
         pins = [(pin, solid) for part, solid in zip(own["parts"], solids) for pin in part.get("pins", [])]

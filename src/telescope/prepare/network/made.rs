@@ -85,7 +85,7 @@ impl Workshop<'_> {
     }
 
     /// Returns whether the printer has room for a mesh that lies so.
-    pub fn has_room(&self, mesh: &TriMesh, laid: &Laid) -> bool {
+    fn has_room(&self, mesh: &TriMesh, laid: &Laid) -> bool {
         let printed = mesh.map_vertices(|p| laid.pose.to_print(p));
         self.shop.printer.fits(printed.aabb().size().into()) != Some(false)
     }

@@ -29,7 +29,7 @@ use self::plan::Measures;
 use self::skin::Skin;
 use self::sweep::{Bodies, Hit, Item};
 use self::tree::{Kept, Search, Tree};
-use self::written::junctures;
+use self::written::{divide, junctures};
 use super::advise::Tried;
 use super::asked::basics;
 use super::error::TelescopeRunError;
@@ -151,9 +151,10 @@ fn attempt<'a>(
     match found {
         Ok(sequence) => Ok(Verdict::Found(MadeNetwork {
             solid: kept.iter().map(words).collect(),
-            tree,
             limbs,
-            junctures,
+            // What moves is the whole juncture: it is divided last.
+            junctures: divide(workshop, &tree, junctures)?,
+            tree,
             sequence,
         })),
         Err(hit) => {

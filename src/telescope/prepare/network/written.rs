@@ -1,10 +1,9 @@
 //! Junctures as they were written: each in one part, or in several that are glued together.
 
-use super::super::error::TelescopeRunError;
 use rayon::prelude::*;
 
+use super::super::error::TelescopeRunError;
 use super::super::made::{Printing, WrittenFile};
-use super::super::poses::Laid;
 use super::bodies::{body, body_of_model};
 use super::divide::{Divided, Divider};
 use super::made::{Form, Workshop};
@@ -22,6 +21,8 @@ pub struct WrittenJuncture {
     pub parts: Vec<WrittenPiece>,
     /// The cuts between its parts.
     pub division: Option<Division>,
+    /// Its body before it was cut.
+    solid: Solid,
 }
 
 /// The cuts between the parts of a juncture.
@@ -63,11 +64,6 @@ impl WrittenJuncture {
         });
         parts.collect()
     }
-
-    /// Returns the number of parts with ids on their cut faces.
-    fn numbered(&self) -> usize {
-        self.division.as_ref().map_or(0, |_| self.parts.len())
-    }
 }
 
 impl WrittenPiece {
@@ -94,15 +90,34 @@ pub fn junctures(
         })
         .collect::<Result<_, ClipError>>()?;
     let writer = JunctureWriter { workshop, tree };
-    // Few are divided. The ids on their cut faces count on through all of them.
-    let mut written: Vec<WrittenJuncture> = Vec::new();
+    let written = solids.into_par_iter().enumerate();
+    let written = written.map(|(index, solid)| writer.write_whole(index, solid));
+    written.collect()
+}
+
+/// Divides the junctures for which the printer has no room, if they can be. The ids on their cut
+/// faces count on through all of them.
+pub fn divide(
+    workshop: &Workshop,
+    tree: &Tree,
+    junctures: Vec<WrittenJuncture>,
+) -> Result<Vec<WrittenJuncture>, TelescopeRunError> {
+    let writer = JunctureWriter { workshop, tree };
+    let divider = Divider { workshop, tree };
     let mut numbered = 0;
-    for (index, solid) in solids.iter().enumerate() {
-        let own = writer.write(index, solid, numbered)?;
-        numbered += own.numbered();
-        written.push(own);
-    }
-    Ok(written)
+    let divide = |(index, own): (usize, WrittenJuncture)| {
+        let size_mm: [f64; 3] = own.parts[0].read_back.aabb().size().into();
+        if workshop.shop.printer.fits(size_mm) != Some(false) {
+            return Ok(own);
+        }
+        let Some(divided) = divider.divide(index, &own.solid, numbered)? else {
+            return Ok(own);
+        };
+        let own = writer.write_divided(own, divided, numbered)?;
+        numbered += own.division.as_ref().map_or(0, |_| own.parts.len());
+        Ok(own)
+    };
+    junctures.into_iter().enumerate().map(divide).collect()
 }
 
 /// The writer of junctures.
@@ -112,50 +127,25 @@ struct JunctureWriter<'a> {
 }
 
 impl JunctureWriter<'_> {
-    /// Writes a juncture that lies as is usual. One that does not fit so is divided, if it can be;
-    /// `numbered` parts have ids before.
-    fn write(
-        &self,
-        index: usize,
-        solid: &Solid,
-        numbered: usize,
-    ) -> Result<WrittenJuncture, TelescopeRunError> {
-        let id = format!("N{:02}", index + 1);
-        let laid = self
-            .workshop
-            .lay(solid.mesh(), &self.workshop.down(self.tree, index));
-        let divided = match self.workshop.has_room(solid.mesh(), &laid) {
-            true => None,
-            false => {
-                let divider = Divider {
-                    workshop: self.workshop,
-                    tree: self.tree,
-                };
-                divider.divide(index, solid, numbered)?
-            }
-        };
-        match divided {
-            None => self.write_whole(id, &laid, solid),
-            Some(divided) => self.write_divided(id, solid, divided, numbered),
-        }
-    }
-
+    /// Writes a juncture in one part, as is usual.
     fn write_whole(
         &self,
-        id: String,
-        laid: &Laid,
-        solid: &Solid,
+        index: usize,
+        solid: Solid,
     ) -> Result<WrittenJuncture, TelescopeRunError> {
+        let down = self.workshop.down(self.tree, index);
+        let laid = self.workshop.lay(solid.mesh(), &down);
         let printing = Printing {
             shop: self.workshop.shop,
             watch: self.workshop.watch,
         };
+        let id = format!("N{:02}", index + 1);
         let name = format!("{}_{id}", self.workshop.job.name());
         let WrittenFile {
             file,
             bytes,
             read_back,
-        } = printing.write(&name, laid, solid)?;
+        } = printing.write(&name, &laid, &solid)?;
         let whole = WrittenPiece {
             id: id.clone(),
             lies: laid.lies.words().to_owned(),
@@ -169,16 +159,18 @@ impl JunctureWriter<'_> {
             id,
             parts: vec![whole],
             division: None,
+            solid,
         })
     }
 
+    /// Writes a juncture in the parts of its division.
     fn write_divided(
         &self,
-        id: String,
-        solid: &Solid,
+        own: WrittenJuncture,
         divided: Divided,
         numbered: usize,
     ) -> Result<WrittenJuncture, TelescopeRunError> {
+        let WrittenJuncture { id, solid, .. } = own;
         let is_whole = divided.plan.cuts.is_empty();
         let scale_ratio = self.workshop.shop.printer.print_scale_ratio();
         let parts = divided.parts.into_iter().enumerate().map(|(index, part)| {
@@ -210,6 +202,7 @@ impl JunctureWriter<'_> {
             id,
             parts,
             division,
+            solid,
         })
     }
 }
