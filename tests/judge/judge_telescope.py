@@ -61,6 +61,8 @@ SIDES = 48
 # A socket and an id may widen at their mouths by so much, mm; material is looked for so far behind a socket's walls.
 WIDER_MM = 1.0
 BEHIND_MM = 0.3
+# Faces in one plane reach into each other by less than this, mm: rounding of single precision.
+ROUNDING_MM = 1e-4
 # The parts of a juncture fill it within this share.
 FILLED_RATIO = 1e-4
 SUM_RATIO = 1e-5
@@ -410,8 +412,9 @@ def judge_divided(kit):
         if not own.get("divided"):
             continue
         solids = [kit.solid([mesh]) for mesh in meshes]
-        shared = max(((solids[i] ^ solids[j]).volume() for i in range(len(solids)) for j in range(i)), default=0.0)
-        kit.say(f"the parts of {own['id']} keep apart", shared < SHARED_MM3 * len(solids), f"shared {shared:.6f} mm³")
+        both = [body for i in range(len(solids)) for j in range(i) for body in (solids[i] ^ solids[j]).decompose()]
+        deep = max((body.volume() / body.surface_area() for body in both), default=0.0)
+        kit.say(f"the parts of {own['id']} keep apart", deep < ROUNDING_MM, f"{deep:.6f} mm into each other")
         sockets = {socket["id"]: (socket, solid) for part, solid in zip(own["parts"], solids) for socket in part.get("sockets", [])}
         pins = [(pin, solid) for part, solid in zip(own["parts"], solids) for pin in part.get("pins", [])]
         kit.say(f"{own['id']} has a socket for every pin", sorted(pin["id"] for pin, _ in pins) == sorted(sockets), f"{len(pins)} pins")

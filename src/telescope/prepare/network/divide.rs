@@ -7,8 +7,8 @@ use super::made::Workshop;
 use super::tree::Tree;
 use crate::base::verdict::Verdict;
 use crate::cut::{
-    CutPlan, GoalAxis, Hollowed, KeepWhole, Part, PlanRequest, SeamStyle, Seams, parts_and_faces,
-    plan,
+    CutPlan, GoalAxis, Hollowed, KeepWhole, Part, PlanRequest, PosePreference, SeamStyle, Seams,
+    parts_and_faces, plan,
 };
 use crate::geom::{Frame, Point, Vector};
 use crate::mesh::{Solid, TriMesh};
@@ -115,7 +115,12 @@ impl Divided {
 
 /// Plans the cuts of a body and makes its parts; `None` if the planner finds no way.
 fn divided(body: &Hollowed, request: &PlanRequest) -> Result<Option<Divided>, TelescopeRunError> {
-    match plan(body, request)? {
+    // The way in which parts lie decides nothing about the cuts but their whole layers.
+    let planned = PlanRequest {
+        pose: PosePreference::CutFaceDown,
+        ..request.clone()
+    };
+    match plan(body, &planned)? {
         Verdict::Found(plan) => made(body, plan, request),
         Verdict::No(_) => Ok(None),
     }
