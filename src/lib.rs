@@ -79,7 +79,8 @@ pub mod stages {
     pub use crate::{advice, error, make, open, poses, run, wing};
 }
 
-/// Telescopes: the curves and skeletons that they are to follow, and the shells that do.
+/// Telescopes: the curves and skeletons that they are to follow, and the shells that do. Their
+/// junctures are cut for a small printer as models are, by [`cut`](crate::cut).
 pub mod extend {
     #[doc(inline)]
     pub use crate::{curve, skeleton, telescope};

@@ -155,6 +155,7 @@ fn request(dice: &mut Dice) -> PlanRequest {
         labels: (dice.below(2) == 0).then_some(LabelStyle {
             stroke_mm: 0.5,
             depth_mm: 0.5,
+            numbered: 0,
         }),
         seams: Seams::default(),
         least_part: LeastPart::NONE,

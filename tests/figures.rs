@@ -12,14 +12,16 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use common::{
-    assert_exit, checklist, equipoise, judge_telescope, list, number, path, printed,
+    assert_exit, checklist, equipoise, judge_telescope, list, number, path, printed, shared_model,
     telescope_judge_says, text, verify, words,
 };
-use equipoise::geom::{Plane, Point, Vector};
+use equipoise::geom::{Frame, Plane, Point, Vector};
 use equipoise::io::stl;
 use equipoise::mesh::primitives::{self, ball};
 use equipoise::mesh::{Csg, Solid, TriMesh, bodies};
 use equipoise::repair::weld;
+use equipoise::verify::{Peg, Pose};
+use serde_json::Value;
 
 /// A ball of the figure: its centre and its radius, mm.
 type Ball = [f64; 4];
@@ -83,7 +85,7 @@ fn cut_off_a_hand(kit: &Path) {
     let limbs = list(&sheet, "limbs");
     let tip = limbs.iter().map(|limb| limb["to"].as_u64().unwrap()).max();
     let hand = &list(&sheet, "junctures")[tip.unwrap() as usize - 1];
-    let file = kit.join(hand["file"].as_str().unwrap());
+    let file = kit.join(hand["parts"][0]["file"].as_str().unwrap());
     let right = fs::read(&file).unwrap();
     let mesh = weld(&stl::decode(&right).unwrap());
     let (low, size) = (mesh.aabb().min, mesh.aabb().size());
@@ -119,6 +121,176 @@ fn lie_about_the_model(kit: &Path) {
     let (code, said) = verify(kit);
     assert_eq!(code, Some(1), "{said}");
     assert!(said.contains("keep the model's surface"), "{said}");
+}
+
+/// A printer whose room is too small for the figure's trunk.
+const SMALL: &str = r#"id = "small"
+name = "A small one"
+inherits = "formlabs-form4"
+build_volume_mm = { value = [70, 62, 62], source = "a test", sure = "own-choice" }
+"#;
+
+/// Prepares the figure for the small printer, whose profile lies in the folder.
+fn prepare_small(folder: &Path, name: &str, more: &str) -> PathBuf {
+    let (model, profile) = (folder.join("figure.stl"), folder.join("small.toml"));
+    fs::write(&profile, SMALL).unwrap();
+    let kit = folder.join(name);
+    let order = ["telescope", path(&model), "--printer", path(&profile)];
+    let more = [&words(more)[..], &["--out", path(&kit)]].concat();
+    let output = equipoise(&[&order[..], &more].concat());
+    assert_exit(&output, 0);
+    kit
+}
+
+/// Returns the parts of the first juncture that is cut.
+fn cut_parts(sheet: &Value) -> &Vec<Value> {
+    let mut junctures = list(sheet, "junctures").iter();
+    let cut = junctures.find(|own| own.get("divided").is_some());
+    cut.unwrap()["parts"].as_array().unwrap()
+}
+
+#[test]
+fn a_trunk_larger_than_the_printer_is_cut_and_the_judge_finds_what_is_wrong_with_a_part() {
+    let folder = tempfile::tempdir().unwrap();
+    write_figure(folder.path());
+    let kit = prepare_small(folder.path(), "kit", "--threads 2");
+    let sheet = checklist(&kit);
+    let ids: Vec<&str> = cut_parts(&sheet)
+        .iter()
+        .map(|part| part["id"].as_str().unwrap())
+        .collect();
+    assert!(ids.len() > 1 && ids[0] == "N01-P01", "{ids:?}");
+    let page = fs::read_to_string(kit.join("job.html")).unwrap();
+    assert!(page.contains("Parts of N01") && page.contains("N01-P02"));
+    let (code, said) = verify(&kit);
+    assert_eq!(code, Some(0), "{said}");
+    for (lie, expected) in LIES {
+        let untrue = lie_about_a_part(folder.path(), &kit, lie);
+        let (code, said) = verify(&untrue);
+        assert_eq!(code, Some(1), "{lie:?}: {said}");
+        let broken = said.lines().filter(|line| line.contains("FAIL"));
+        let broken: Vec<&str> = broken.collect();
+        assert!(
+            broken.iter().any(|line| line.contains(expected)),
+            "{lie:?}: {broken:?}"
+        );
+    }
+}
+
+#[test]
+#[ignore = "takes a minute; run before a change of junctures"]
+fn both_judges_agree_on_a_cut_trunk_and_its_bytes_are_those_of_one_thread() {
+    let folder = tempfile::tempdir().unwrap();
+    write_figure(folder.path());
+    let kit = prepare_small(folder.path(), "kit", "--threads 2");
+    let again = prepare_small(folder.path(), "again", "--threads 1");
+    for part in cut_parts(&checklist(&kit)) {
+        let file = part["file"].as_str().unwrap();
+        assert_eq!(
+            fs::read(kit.join(file)).unwrap(),
+            fs::read(again.join(file)).unwrap()
+        );
+    }
+    for file in ["SHA256SUMS", "checklist.json", "motion.json", "job.html"] {
+        assert_eq!(
+            fs::read(kit.join(file)).unwrap(),
+            fs::read(again.join(file)).unwrap()
+        );
+    }
+    judge_telescope(&kit);
+    for (lie, _) in LIES {
+        let untrue = lie_about_a_part(folder.path(), &kit, lie);
+        if let Some(output) = telescope_judge_says(&untrue) {
+            assert_exit(&output, 1);
+        }
+    }
+}
+
+#[test]
+#[ignore = "takes minutes; run before a change of junctures"]
+fn the_torso_of_an_armadillo_of_300_mm_is_cut_for_a_form_4() {
+    let Some(model) = shared_model("armadillo.obj") else {
+        return;
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let kit = folder.path().join("kit");
+    let order = ["telescope", path(&model), "--out", path(&kit)];
+    let more = words("--printer formlabs-form4 --size 300mm");
+    assert_exit(&equipoise(&[&order[..], &more].concat()), 0);
+    let sheet = checklist(&kit);
+    assert!(cut_parts(&sheet).len() > 1);
+    let (code, said) = verify(&kit);
+    assert_eq!(code, Some(0), "{said}");
+    judge_telescope(&kit);
+}
+
+/// Something that is wrong with a part of the cut trunk.
+#[derive(Debug, Clone, Copy)]
+enum Lie {
+    /// Its pose is a tenth of a millimetre aside.
+    Moved,
+    /// Its file is that of another.
+    Swapped,
+    /// It is not on the list.
+    Lost,
+    /// A pin is cut off.
+    NoPin,
+}
+
+/// The lies with words of a promise that each breaks.
+const LIES: [(Lie, &str); 4] = [
+    (Lie::Moved, "every pin and socket has its size"),
+    (Lie::Swapped, "every pin and socket has its size"),
+    (Lie::Lost, "add up to the uncut juncture"),
+    (Lie::NoPin, "every pin and socket has its size"),
+];
+
+/// Copies the kit and lies in the copy.
+fn lie_about_a_part(folder: &Path, kit: &Path, lie: Lie) -> PathBuf {
+    let copy = folder.join(format!("{lie:?}"));
+    common::copy(kit, &copy);
+    let list = copy.join("checklist.json");
+    let mut sheet: Value = serde_json::from_slice(&fs::read(&list).unwrap()).unwrap();
+    let junctures = sheet["junctures"].as_array_mut().unwrap();
+    let mut junctures = junctures.iter_mut();
+    let cut = junctures.find(|own| own.get("divided").is_some()).unwrap();
+    let parts = cut["parts"].as_array_mut().unwrap();
+    let file = |part: &Value| copy.join(part["file"].as_str().unwrap());
+    match lie {
+        Lie::Moved => {
+            let shift = &mut parts[1]["print_from_model"][0][3];
+            *shift = (shift.as_f64().unwrap() + 0.1).into();
+        }
+        Lie::Swapped => {
+            let bytes = [&parts[0], &parts[1]].map(|part| fs::read(file(part)).unwrap());
+            fs::write(file(&parts[0]), &bytes[1]).unwrap();
+            fs::write(file(&parts[1]), &bytes[0]).unwrap();
+        }
+        Lie::Lost => drop(parts.pop()),
+        Lie::NoPin => cut_off_a_pin(parts, file),
+    }
+    fs::write(&list, sheet.to_string()).unwrap();
+    copy
+}
+
+/// Cuts the first pin off the part that has it.
+fn cut_off_a_pin(parts: &[Value], file: impl Fn(&Value) -> PathBuf) {
+    let has_pin = |part: &&Value| part["pins"].as_array().is_some_and(|pins| !pins.is_empty());
+    let part = parts.iter().find(has_pin).unwrap();
+    let pose: Pose = serde_json::from_value(part["print_from_model"].clone()).unwrap();
+    let pin: Peg = serde_json::from_value(part["pins"][0].clone()).unwrap();
+    // A block from just above the cut to beyond the tip.
+    let frame = Frame::with_axis(Point::from(pin.center_mm), &Vector::from(pin.axis));
+    let (wide, low) = (pin.diameter_mm, 0.01);
+    let block = primitives::cuboid(
+        &Point::new(-wide, -wide, low),
+        &Point::new(wide, wide, 2.0 * pin.length_mm),
+    );
+    let block = block.map_vertices(|p| pose.to_print(&frame.to_model(p)));
+    let mesh = weld(&stl::decode(&fs::read(file(part)).unwrap()).unwrap());
+    let rest = Csg::of_mesh(&mesh).unwrap();
+    let rest = rest.subtract(&Csg::of_mesh(&block).unwrap()).unwrap();
+    fs::write(file(part), stl::encode(&rest.to_mesh().unwrap(), "part")).unwrap();
 }
 
 #[test]

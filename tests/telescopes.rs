@@ -240,7 +240,7 @@ fn a_skeleton_becomes_limbs_on_junctures_that_both_judges_pass_and_none_that_can
 fn move_a_juncture(kit: &Path) {
     let file = kit.join("checklist.json");
     let mut sheet: serde_json::Value = serde_json::from_slice(&fs::read(&file).unwrap()).unwrap();
-    let pose = sheet["junctures"][1]["print_from_model"]
+    let pose = sheet["junctures"][1]["parts"][0]["print_from_model"]
         .as_array_mut()
         .unwrap();
     // Half a millimetre aside in print.

@@ -100,6 +100,7 @@ impl LabelStyle {
         Self {
             stroke_mm: feature_mm.max(2.0 * pixel_mm),
             depth_mm: layers * printer.layer_mm.value,
+            numbered: 0,
         }
     }
 }

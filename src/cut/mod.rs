@@ -53,6 +53,7 @@ pub use order::{CutOrder, Namer, OrderError, PinFault};
 pub use request::{GoalAxis, LabelStyle, PinSettings, PlanRequest, PosePreference};
 pub use seam::clear::KeepClear;
 pub use seam::notes::{SeamNote, dearest_spot, seams};
+pub use seam::regions::KeepWhole;
 pub use seam::rules::{SeamStyle, Seams};
 pub use seam::skin::SeamLie;
 pub use seat::Seat;

@@ -427,6 +427,7 @@ mod tests {
         let style = LabelStyle {
             stroke_mm: 30.0,
             depth_mm: 0.5,
+            numbered: 0,
         };
         let request = PlanRequest {
             labels: Some(style),

@@ -114,4 +114,6 @@ pub struct LabelStyle {
     pub stroke_mm: f64,
     /// The depth of a stroke, mm.
     pub depth_mm: f64,
+    /// The number of parts that have ids already, where several bodies of a kit are cut.
+    pub numbered: usize,
 }

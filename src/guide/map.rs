@@ -49,6 +49,7 @@
 //! | How does a tube slide along its own axis? | `Helix` in `curve/helix.rs`: frames along a helix compose, so it slides in itself |
 //! | Where does a limb of a model begin and end, and how thick is it? | `Skeleton::of` in `skeleton/tree.rs`, by the contraction of `skeleton/flow.rs` and the pruning of `skeleton/tidy.rs` |
 //! | How is a limb held by its juncture? | `Telescope::socket` and `Telescope::peg` in `telescope/mount.rs`, bodies in `telescope/prepare/network/bodies.rs` |
+//! | What happens to a juncture larger than the printer's room? | `Divider::divide` in `telescope/prepare/network/divide.rs` hands it to the planner, `divide_around` in `cut/planner/fit.rs` keeps off its sockets; `verify/telescope/divided.rs` judges the parts |
 //! | In which order do the limbs of a figure open? | `Bodies::sequence` in `telescope/prepare/network/sweep.rs` |
 //! | Which limbs become telescopes, and which stay solid? | `mark_solid` in `skeleton/solid.rs` and `Limbs` in `skeleton/limbs.rs` |
 //! | What does a print lay down, and where? | `read_gcode` in `io/gcode/open.rs` unpacks, `Machine` in `io/gcode/machine.rs` follows the nozzle, `Bead` in `mass/bead.rs` is weighed |

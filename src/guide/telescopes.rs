@@ -53,6 +53,14 @@
 //! or the limb stays solid. The judge finds every triangle of a piece on the model, in a cut or in
 //! a bore. Of the model it finds nothing lost but the bands that limbs replace.
 //!
+//! A juncture larger than the printer's room is cut by the planner of [`crate::cut`]. Sockets,
+//! their rims and pegs are convex regions that no plane enters ([`crate::cut::KeepWhole`]), each
+//! with a wall around it. Planes are tried in 33 directions and 33 places, and rated by the boxes
+//! of their halves. Next comes what is seen of the seam. The best are cut, until all parts fit.
+//! The parts are one body in the motion. The judge finds their faces in each other's, pins in
+//! their sockets with the gap, and no point in two parts. Their volumes add up to the uncut
+//! juncture, but for the joints. No part shares the socket or the peg of a limb with another.
+//!
 //! # 7. The motion on a screen
 //! Between two keys, slides and turns go evenly ([`crate::telescope::JointState`]). The page moves
 //! a shell by the screw of its helix (Chasles), so it shows the true path. In `motion.glb` every

@@ -15,8 +15,9 @@ use super::telescope::{
 use super::wing_frame::{self as frame, Cover};
 use crate::base::numbers::{measured, measured_extent, number};
 use crate::base::units::format_count;
-use crate::sheet::network::{LimbRow, NetworkSheet};
+use crate::sheet::network::{JunctureJointRow, LimbRow, NetworkSheet};
 use crate::sheet::telescope::JointRow;
+use crate::verify::JuncturePartPromise;
 
 /// Everything the pages of several telescopes show.
 #[derive(Debug, Clone, Copy)]
@@ -102,7 +103,7 @@ fn cover(page: &NetworkPage, job: &JobId) -> Markup {
 
 fn facts(sheet: &NetworkSheet) -> Markup {
     let parts: usize = sheet.limbs.iter().map(|limb| limb.sheet.parts.len()).sum();
-    let parts = parts + sheet.junctures.len();
+    let parts = parts + sheet.juncture_rows.len();
     let rows: [(&str, String); 7] = [
         ("All in", measured_extent(&sheet.collapsed_mm)),
         ("All out", measured_extent(&sheet.extended_mm)),
@@ -136,7 +137,7 @@ fn print(page: &NetworkPage) -> Markup {
                 }
             }
             tbody {
-                @for (part, row) in sheet.junctures.iter().zip(&sheet.juncture_rows) {
+                @for (part, row) in pieces(sheet).zip(&sheet.juncture_rows) {
                     tr {
                         th scope="row" { "☐ " (row.id) " " (file_name(&part.file)) }
                         td data-head="Lies" { (row.lies) }
@@ -159,6 +160,11 @@ fn print(page: &NetworkPage) -> Markup {
             }
         }
     }
+}
+
+/// Returns the parts of all junctures.
+fn pieces(sheet: &NetworkSheet) -> impl Iterator<Item = &JuncturePartPromise> {
+    sheet.junctures.iter().flat_map(|own| &own.parts)
 }
 
 fn wash(page: &NetworkPage) -> Markup {
@@ -186,6 +192,7 @@ fn try_dry(page: &NetworkPage) -> Markup {
 fn put_together(page: &NetworkPage) -> Markup {
     let sheet = page.sheet;
     html! {
+        (glue_parts(sheet))
         p { "Limb by limb, those farthest from " (juncture(sheet, 1)) " first. Every limb is closed before it goes into its socket." }
         @for limb in sheet.limbs.iter().rev() {
             h3 { "Limb " (limb.id) }
@@ -201,6 +208,38 @@ fn put_together(page: &NetworkPage) -> Markup {
         }
         (glue(&sheet.printer))
     }
+}
+
+/// Returns the gluing of junctures that are cut for the printer; nothing if none is.
+fn glue_parts(sheet: &NetworkSheet) -> Markup {
+    let divided = sheet.junctures.iter().filter(|own| own.parts.len() > 1);
+    html! {
+        @for own in divided {
+            h3 { "Parts of " (own.id) }
+            p {
+                "Glue them before any limb goes in. Put all together dry first: the pins fit one way only. "
+                "Wipe off what comes out at the seams, above all in the sockets."
+            }
+            ul class="ticks" {
+                @for joint in &sheet.juncture_joints {
+                    @if joint.juncture == own.id { li { (joint_words(joint)) } }
+                }
+            }
+        }
+    }
+}
+
+fn joint_words(joint: &JunctureJointRow) -> String {
+    let [below, above] = &joint.parts;
+    let pins = match joint.pins {
+        0 => "no pins: align the outlines".to_owned(),
+        count if joint.is_aligned => format_count(count, "pin"),
+        count => format!("{}: align the outlines too", format_count(count, "pin")),
+    };
+    format!(
+        "Glue {below} to {above}, {}, {pins}.",
+        measured(joint.area_mm2, "mm²")
+    )
 }
 
 fn open(page: &NetworkPage) -> Markup {

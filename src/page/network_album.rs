@@ -5,11 +5,13 @@ use rayon::prelude::*;
 use super::figure::{Draft, Picture, Role};
 use super::telescope_album::viewer_of;
 use crate::draw::{Camera, Item, Label, PictureError, Scene, Shot, TEXT_PX, part_color};
-use crate::geom::{Point, Vector};
+use crate::geom::{Aabb, Point, Vector};
 use crate::mesh::TriMesh;
 
 /// Gap between junctures that are drawn apart, as a share of the widest.
 const APART_RATIO: f64 = 0.25;
+/// Way of a juncture's part from the middle of all, as a share of its distance.
+const PARTED_RATIO: f64 = 0.5;
 /// Junctures that stand in one row.
 const A_ROW: usize = 5;
 
@@ -37,8 +39,15 @@ pub struct NetworkView {
     pub extended: Vec<TriMesh>,
     /// The direction that points up.
     pub up: Vector,
-    /// The number of junctures.
-    pub junctures: usize,
+    /// The number of parts of every juncture.
+    pub junctures: Vec<usize>,
+}
+
+/// The parts of a juncture that is divided, drawn apart.
+struct Apart {
+    /// The first of its bodies.
+    first: usize,
+    meshes: Vec<TriMesh>,
 }
 
 /// Draws the pictures; the same bytes on any number of threads.
@@ -51,7 +60,8 @@ pub fn draw_network(view: &NetworkView) -> Result<Vec<Picture>, PictureError> {
         &view.up,
     );
     let apart = stand_apart(view);
-    let drafts = [
+    let divided = divided(view);
+    let mut drafts = vec![
         state(view, &view.collapsed, ["collapsed.png", "All in."], &toward),
         state(
             view,
@@ -63,6 +73,8 @@ pub fn draw_network(view: &NetworkView) -> Result<Vec<Picture>, PictureError> {
         named(view, &toward),
         junctures(view, &apart),
     ];
+    let parts = divided.iter().map(|own| parts_of(view, own, &toward));
+    drafts.extend(parts);
     drafts.par_iter().map(Draft::draw).collect()
 }
 
@@ -122,7 +134,62 @@ fn named<'a>(view: &'a NetworkView, toward: &Vector) -> Draft<'a> {
 }
 
 fn of_junctures(view: &NetworkView) -> usize {
-    view.bodies.len().saturating_sub(view.junctures)
+    let parts: usize = view.junctures.iter().sum();
+    view.bodies.len().saturating_sub(parts)
+}
+
+/// Returns the junctures in several parts, each part moved away from the middle of all.
+fn divided(view: &NetworkView) -> Vec<Apart> {
+    let mut first = of_junctures(view);
+    let mut found = Vec::new();
+    for &count in &view.junctures {
+        let parts = &view.extended[first..first + count];
+        if count > 1 {
+            let boxes = parts.iter().map(TriMesh::aabb);
+            let middle = boxes
+                .fold(Aabb::EMPTY, |whole, part| whole.union(&part))
+                .center();
+            let away = |part: &TriMesh| {
+                let way = (part.aabb().center() - middle) * PARTED_RATIO;
+                part.map_vertices(|p| p + way)
+            };
+            found.push(Apart {
+                first,
+                meshes: parts.iter().map(away).collect(),
+            });
+        }
+        first += count;
+    }
+    found
+}
+
+/// Returns the picture of the parts of one juncture.
+fn parts_of<'a>(view: &NetworkView, own: &'a Apart, toward: &Vector) -> Draft<'a> {
+    let bodies = view.bodies[own.first..].iter().zip(&own.meshes);
+    let ids: Vec<&str> = bodies.clone().map(|(body, _)| body.id.as_str()).collect();
+    let items = bodies.clone().enumerate();
+    let name = ids[0].split('-').next().unwrap_or_default();
+    Draft {
+        file: format!("pictures/{name}-parts.svg"),
+        role: Role::Exploded,
+        caption: format!("{} apart, as they are glued.", ids.join(", ")),
+        alt: format!("The parts {} apart, with their pins.", ids.join(", ")),
+        shot: Shot {
+            scene: Scene {
+                items: items
+                    .map(|(index, (_, mesh))| Item::new(mesh, part_color(index)))
+                    .collect(),
+                cut: None,
+            },
+            camera: Camera::new(*toward, view.up).with_label_margins(),
+            text_px: TEXT_PX,
+            labels: bodies
+                .enumerate()
+                .map(|(item, (body, _))| Label::On(item, body.id.clone()))
+                .collect(),
+            keys: Vec::new(),
+        },
+    }
 }
 
 /// Returns the junctures upright beside each other, in rows.

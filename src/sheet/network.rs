@@ -42,8 +42,11 @@ pub struct NetworkSheet {
     pub limbs: Vec<LimbRow>,
     /// The junctures. The first stands still.
     pub junctures: Vec<JuncturePromise>,
-    /// Facts for the shop about each juncture, in the same order.
+    /// Facts for the shop about each part of each juncture, in the same order.
     pub juncture_rows: Vec<JunctureRow>,
+    /// The joints between parts of one juncture, in the order in which they are glued.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub juncture_joints: Vec<JunctureJointRow>,
     /// The names of the limbs in the order in which they open.
     pub order: Vec<String>,
     /// The limbs that stay solid, in words.
@@ -79,7 +82,22 @@ pub struct LimbRow {
     pub sheet: TelescopeSheet,
 }
 
-/// A juncture as the shop handles it.
+/// A joint between two parts of a juncture.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct JunctureJointRow {
+    /// The juncture.
+    pub juncture: String,
+    /// The parts below and above the cut.
+    pub parts: [String; 2],
+    /// The area that is glued, mm².
+    pub area_mm2: f64,
+    /// The number of pins between them.
+    pub pins: usize,
+    /// True if the pins let them together in one way only, and hold them.
+    pub is_aligned: bool,
+}
+
+/// A part of a juncture as the shop handles it.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct JunctureRow {
     /// The name on the sheet.

@@ -4,17 +4,17 @@ use super::goal_checks::{figure_check, goal_checks};
 use super::hardware::HardwareKind;
 use super::joints::FilmError;
 use super::limits::{
-    CUP_LIMIT_MM3, EQUAL_PINS_MM, FILM_LIMIT_RATIO, GAP_TOLERANCE_MM, GRIP_TOLERANCE_MM,
-    JIG_SEAM_LIMIT_MM, LEAST_GRIP_DIAMETERS, PIN_LIMIT_MM, POSE_LIMIT_RATIO, RESTING_LIMIT_MM,
-    STRING_GAP_TOLERANCE_MM, VOLUME_SUM_LIMIT_RATIO, WALL_TOLERANCE_MM,
+    CUP_LIMIT_MM3, FILM_LIMIT_RATIO, GAP_TOLERANCE_MM, GRIP_TOLERANCE_MM, JIG_SEAM_LIMIT_MM,
+    LEAST_GRIP_DIAMETERS, POSE_LIMIT_RATIO, RESTING_LIMIT_MM, STRING_GAP_TOLERANCE_MM,
+    VOLUME_SUM_LIMIT_RATIO, WALL_TOLERANCE_MM,
 };
+use super::peg_checks::peg_checks;
 use super::play::worst_joint;
 use super::shape_checks::shape_checks;
 use super::thin_checks::thin_checks;
 use super::void_checks::{holes_check, plugs_check, regions_check, void_checks};
 use super::{
-    Check, CheckKind, CupFacts, JigFacts, Judgement, Limit, PartFacts, Peg, PegFacts, Promise,
-    PromisedPart,
+    Check, CheckKind, CupFacts, JigFacts, Judgement, Limit, PartFacts, Peg, Promise, PromisedPart,
 };
 
 /// Returns all checks of a kit, in the order of a person's questions. Does it do what was ordered?
@@ -271,41 +271,9 @@ fn joint_checks(promise: &Promise, found: &Judgement) -> Vec<Check> {
         "no part reaches into another",
         found.overlaps,
     );
-    if found.pegs.is_empty() {
-        return vec![apart];
-    }
-    let (deviation_mm, off_at) = worst_peg(&found.pegs, |peg| Some(peg.deviation_mm));
-    let (lack_mm, tight_at) = worst_peg(&found.pegs, |peg| Some(peg.ordered_gap_mm - peg.gap_mm?));
-    let (bulge_mm, thin_at) = worst_peg(&found.pegs, |peg| Some(-peg.wall_mm));
-    let wall_mm = bulge_mm.map(|bulge_mm| -bulge_mm);
-    vec![
-        Check::new(
-            CheckKind::Pins,
-            "every pin and socket has its size, within",
-            deviation_mm,
-            Limit::at_most(PIN_LIMIT_MM, "mm"),
-        )
-        .at(off_at),
-        Check::new(
-            CheckKind::Clearance,
-            "pin gap as ordered, on each side; short by at most",
-            lack_mm.map(|lack_mm| lack_mm.max(0.0)),
-            Limit::at_most(GAP_TOLERANCE_MM, "mm"),
-        )
-        .at(tight_at),
-        socket_wall_check(promise, wall_mm).at(thin_at),
-        apart,
-    ]
-}
-
-fn socket_wall_check(promise: &Promise, wall_mm: Option<f64>) -> Check {
-    let limit = Limit::at_least(promise.printer.minimum_wall_mm - WALL_TOLERANCE_MM, "mm");
-    Check::new(
-        CheckKind::SocketWall,
-        "the wall around every socket is at least",
-        wall_mm,
-        limit,
-    )
+    let mut checks = peg_checks(&found.pegs, promise.printer.minimum_wall_mm);
+    checks.push(apart);
+    checks
 }
 
 /// Checks that pins leave no large step at the rim of their joint. `None` if no joint is held by
@@ -360,20 +328,8 @@ fn film_check(error: &FilmError) -> Check {
     .at(Some(error.joint.clone()))
 }
 
-/// Returns the largest value of any pin, and the id of the first pin that has it or nearly so. A
-/// pin without a value counts as infinite, so that the check fails.
-fn worst_peg(
-    pegs: &[PegFacts],
-    value: impl Fn(&PegFacts) -> Option<f64>,
-) -> (Option<f64>, Option<String>) {
-    let of = |peg: &PegFacts| value(peg).unwrap_or(f64::INFINITY);
-    let worst = pegs.iter().map(of).max_by(f64::total_cmp);
-    let is_worst = |peg: &&PegFacts| worst.is_some_and(|worst| of(peg) >= worst - EQUAL_PINS_MM);
-    (worst, pegs.iter().find(is_worst).map(|peg| peg.id.clone()))
-}
-
 /// Checks that a count of faults is zero.
-fn no_faults(kind: CheckKind, promise: &str, count: usize) -> Check {
+pub(super) fn no_faults(kind: CheckKind, promise: &str, count: usize) -> Check {
     Check::new(kind, promise, Some(count as f64), Limit::at_most(0.0, ""))
 }
 

@@ -61,6 +61,7 @@ mod judge;
 mod judgement;
 mod kind;
 mod limits;
+mod peg_checks;
 mod shape_checks;
 mod thin_checks;
 mod void_checks;
@@ -194,6 +195,7 @@ pub use telescope::{
 pub use telescope::{CURVE_FILE, MOTION_FILE, MOTION_SCENE_FILE, OPENING, asked_points};
 // Several telescopes on junctures.
 pub use telescope::{
-    JuncturePromise, LimbPromise, ModelFacts, NetworkEvidence, NetworkFacts, NetworkKey,
-    NetworkMotion, NetworkPromise, judge_network, limb_curve_file, network_checks,
+    DividedFacts, DividedPromise, JuncturePartPromise, JuncturePromise, LimbPromise, ModelFacts,
+    NetworkEvidence, NetworkFacts, NetworkKey, NetworkMotion, NetworkPromise, judge_network,
+    limb_curve_file, network_checks,
 };

@@ -103,6 +103,14 @@ struct PegOnPart<'a> {
     part: &'a PartProbe<'a>,
 }
 
+/// A part with the pins and sockets that it promises.
+#[derive(Clone, Copy)]
+pub(super) struct PegBearer<'a> {
+    pub(super) pins: &'a [Peg],
+    pub(super) sockets: &'a [Peg],
+    pub(super) part: &'a PartProbe<'a>,
+}
+
 /// Measures every pin of the kit with its socket, in the checklist's order, and then every dowel.
 /// `whole` is the uncut result.
 pub(super) fn measure_pegs(
@@ -111,26 +119,22 @@ pub(super) fn measure_pegs(
     whole: &Bvh,
     watch: &Watch,
 ) -> Result<Vec<PegFacts>, Cancelled> {
-    let parts = || promise.parts.iter().zip(probes);
-    let pins = parts().flat_map(|(part, probe)| {
-        part.pins
-            .iter()
-            .map(move |peg| PegOnPart { peg, part: probe })
-    });
-    let printed = pins.map(|pin| {
-        watch.check()?;
-        let lost = PegFacts {
-            ordered_gap_mm: promise.clearance_mm(&pin.peg.joint),
-            ..PegFacts::lost(&pin.peg.id)
-        };
-        Ok(match sockets_of(&pin.peg.id, promise, probes).first() {
-            Some(socket) => measure_pin(pin, *socket, whole, lost),
-            None => lost,
+    let parts = promise.parts.iter().zip(probes);
+    let bearers: Vec<PegBearer> = parts
+        .map(|(part, probe)| PegBearer {
+            pins: &part.pins,
+            sockets: &part.sockets,
+            part: probe,
         })
+        .collect();
+    let measured = measure_pins(&bearers, |pin| promise.clearance_mm(&pin.joint), whole);
+    let printed = measured.map(|facts| {
+        watch.check()?;
+        Ok(facts)
     });
     let dowels = promise.dowels.iter().map(|dowel| {
         watch.check()?;
-        let sockets = sockets_of(&dowel.id, promise, probes);
+        let sockets = sockets_of(&dowel.id, &bearers);
         let lost = PegFacts::lost(&dowel.id);
         let [first, second] = sockets[..] else {
             return Ok(lost);
@@ -146,15 +150,42 @@ pub(super) fn measure_pegs(
     printed.chain(dowels).collect()
 }
 
-/// Returns the first socket for a pin on each part that has one.
-fn sockets_of<'a>(pin: &str, promise: &'a Promise, probes: &'a [PartProbe]) -> Vec<PegOnPart<'a>> {
-    let parts = promise.parts.iter().zip(probes);
-    parts
-        .filter_map(|(part, probe)| {
-            let peg = part.sockets.iter().find(|socket| socket.id == pin)?;
-            Some(PegOnPart { peg, part: probe })
+/// Measures every printed pin with its socket, in the order of the parts. `gap_mm` tells the gap
+/// that was ordered around a pin, `whole` is the surface of the uncut body.
+pub(super) fn measure_pins<'a>(
+    bearers: &'a [PegBearer],
+    gap_mm: impl Fn(&Peg) -> f64 + 'a,
+    whole: &'a Bvh,
+) -> impl Iterator<Item = PegFacts> + 'a {
+    let pins = bearers.iter().flat_map(|bearer| {
+        let pins = bearer.pins.iter();
+        pins.map(move |peg| PegOnPart {
+            peg,
+            part: bearer.part,
         })
-        .collect()
+    });
+    pins.map(move |pin| {
+        let lost = PegFacts {
+            ordered_gap_mm: gap_mm(pin.peg),
+            ..PegFacts::lost(&pin.peg.id)
+        };
+        match sockets_of(&pin.peg.id, bearers).first() {
+            Some(socket) => measure_pin(pin, *socket, whole, lost),
+            None => lost,
+        }
+    })
+}
+
+/// Returns the first socket for a pin on each part that has one.
+fn sockets_of<'a>(pin: &str, bearers: &[PegBearer<'a>]) -> Vec<PegOnPart<'a>> {
+    let socket = |bearer: &PegBearer<'a>| {
+        let peg = bearer.sockets.iter().find(|socket| socket.id == pin)?;
+        Some(PegOnPart {
+            peg,
+            part: bearer.part,
+        })
+    };
+    bearers.iter().filter_map(socket).collect()
 }
 
 /// Measures a dowel in its two sockets. `lost` holds the facts if a socket is missing.

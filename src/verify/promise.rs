@@ -366,7 +366,7 @@ pub struct GlueFilm {
 }
 
 /// A cut of the checklist.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct PromisedCut {
     /// A point of its plane, model frame, mm.
     pub point_mm: [f64; 3],

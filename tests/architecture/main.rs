@@ -141,12 +141,13 @@ const ARROWS: &[(&str, &[&str])] = &[
     // What kits of all other kinds end with: files, a checklist and pages, or an answer.
     ("wing", &["base", "kit", "sheet", "verify"]),
     // Telescopes have a line of their own, from a curve to a kit. They share the parts' files, the
-    // papers and the judge with other kits, and see nothing of hollowing.
+    // papers and the judge with other kits, and see nothing of hollowing. A juncture larger than
+    // the printer's room is cut as models are.
     (
         "telescope",
         &[
-            "base", "curve", "draw", "error", "geom", "goal", "io", "job", "kit", "make", "mass",
-            "mesh", "page", "printer", "repair", "sheet", "skeleton", "verify", "wing",
+            "base", "curve", "cut", "draw", "error", "geom", "goal", "io", "job", "kit", "make",
+            "mass", "mesh", "page", "printer", "repair", "sheet", "skeleton", "verify", "wing",
         ],
     ),
     // Objects on a base have a line of their own, from a model to a kit. It joins the rooms of

@@ -57,7 +57,7 @@ const places = (motion, sheet, states) => {
     junctures[limb.to - 1] = times(base, times(frames[last], inverse(out[last])));
     for (const part of limb.sheet.parts) found[part.id] = times(base, frames[part.shell - 1]);
   });
-  sheet.junctures.forEach((own, index) => { found[own.id] = junctures[index]; });
+  sheet.junctures.forEach((own, index) => { for (const part of own.parts) found[part.id] = junctures[index]; });
   return found;
 };
 
@@ -65,7 +65,7 @@ const places = (motion, sheet, states) => {
 const written = (sheet, key) => {
   const all = {};
   if (key.placements) for (const part of sheet.parts) all[part.id] = key.placements[part.shell - 1];
-  if (key.junctures) sheet.junctures.forEach((own, index) => { all[own.id] = key.junctures[index]; });
+  if (key.junctures) sheet.junctures.forEach((own, index) => { for (const part of own.parts) all[part.id] = key.junctures[index]; });
   return all;
 };
 

@@ -68,7 +68,7 @@ def places(motion, sheet, states):
         base = junctures[limb["from"] - 1]
         junctures[limb["to"] - 1] = base @ frames[-1] @ np.linalg.inv(out[-1])
         found.update({part["id"]: base @ frames[part["shell"] - 1] for part in limb["sheet"]["parts"]})
-    found.update({own["id"]: place for own, place in zip(sheet["junctures"], junctures)})
+    found.update({part["id"]: place for own, place in zip(sheet["junctures"], junctures) for part in own["parts"]})
     return found
 
 
@@ -191,7 +191,8 @@ def parts_of(sheet):
     """Returns the file and the pose of every part by its id."""
     limbs = [limb["sheet"] for limb in sheet["limbs"]] if "limbs" in sheet else [sheet]
     parts = {part["id"]: (part["file"], part["print_from_shell"]) for limb in limbs for part in limb["parts"]}
-    parts.update({own["id"]: (own["file"], own["print_from_model"]) for own in sheet.get("junctures", [])})
+    pieces = [part for own in sheet.get("junctures", []) for part in own["parts"]]
+    parts.update({part["id"]: (part["file"], part["print_from_model"]) for part in pieces})
     return parts
 
 

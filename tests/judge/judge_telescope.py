@@ -5,7 +5,8 @@
 
 Reads the parts (STL), motion.json (helices, joints, keys), curve.csv (the points asked for), and from checklist.json what was promised. A kit
 of several telescopes on junctures is judged limb by limb, and then as a whole: pairs of all bodies, mass, centres, boxes. Junctures that are
-pieces of a model are held against model.stl: none lies beyond it, nothing of it is lost, every bore has its wall. Moves
+pieces of a model are held against model.stl: none lies beyond it, nothing of it is lost, every bore has its wall. One that is cut for a small
+printer is put together from its parts: they fit the room, meet without reaching into each other, and pins stand in their sockets. Moves
 the shells by matrix exponentials, tries the stops with solid intersections, and prints promise against measurement. Exit code 0: all agree; 1:
 something does not; 2: no kit.
 """
@@ -54,6 +55,17 @@ RIM_MM = 0.5
 # A point beside a bore by less than this is in it, mm: facets.
 BESIDE_MM = 0.02
 ANGLES = 48
+# Pins and sockets are as promised within this, mm; sockets are cut with this many sides.
+PIN_MM = 0.02
+SIDES = 48
+# A socket and an id may widen at their mouths by so much, mm; material is looked for so far behind a socket's walls.
+WIDER_MM = 1.0
+BEHIND_MM = 0.3
+# Faces in one plane reach into each other by less than this, mm: rounding of single precision.
+ROUNDING_MM = 1e-4
+# The parts of a juncture fill it within this share.
+FILLED_RATIO = 1e-4
+SUM_RATIO = 1e-5
 # What lies around a model is a box so much larger, mm.
 AROUND_MM = 20.0
 
@@ -273,11 +285,12 @@ class Network(Kit):
         self.faults = 0
         self.limbs = [Kit(folder, limb) for limb in range(len(self.sheet["limbs"]))]
         scale = np.array(self.sheet["printer"].get("print_scale_ratio") or [1.0, 1.0, 1.0])
-        self.junctures = [self.read(part, scale, part["print_from_model"]) for part in self.sheet["junctures"]]
+        self.pieces = [[self.read(part, scale, part["print_from_model"]) for part in own["parts"]] for own in self.sheet["junctures"]]
+        self.junctures = [trimesh.util.concatenate(pieces) if len(pieces) > 1 else pieces[0] for pieces in self.pieces]
         self.bodies = [(limb, shell) for limb, kit in enumerate(self.limbs) for shell in range(len(kit.shells))]
         self.bodies += [(None, juncture) for juncture in range(len(self.junctures))]
         self.meshes = [self.junctures[i] if limb is None else trimesh.util.concatenate(self.limbs[limb].shells[i]) for limb, i in self.bodies]
-        self.solids = [self.solid([self.junctures[i]]) if limb is None else self.limbs[limb].solids[i] for limb, i in self.bodies]
+        self.solids = [self.solid(self.pieces[i]) if limb is None else self.limbs[limb].solids[i] for limb, i in self.bodies]
 
     def places(self, states):
         """Returns the motion of every body, those of junctures from where they are when all is out."""
@@ -355,6 +368,76 @@ def judge_network(kit):
         kit.say(name, error < BOX_LIMIT_MM, f"{error:.5f} mm off")
 
 
+def rod(peg, radius, low, high):
+    """Returns a rod about the axis of a pin or socket, between two heights over the cut."""
+    axis = np.array(peg["axis"]) / np.linalg.norm(peg["axis"])
+    side = np.cross(axis, np.eye(3)[np.argmin(np.abs(axis))])
+    side /= np.linalg.norm(side)
+    place = np.column_stack([side, np.cross(axis, side), axis, np.array(peg["center_mm"]) + axis * low])
+    return manifold3d.Manifold.cylinder(high - low, radius, radius, SIDES).transform(place)
+
+
+def judge_pin(kit, pin, carrier, socket, receiver, clearance):
+    """A pin as thick and long as promised, in a socket with its room and its walls."""
+    radius, length = pin["diameter_mm"] / 2, pin["length_mm"]
+    hole, depth = socket["diameter_mm"] / 2, socket["length_mm"]
+    # Flats lie within a circle by this share; a chamfer takes the tip of a pin and the mouth of a socket.
+    flat = np.cos(np.pi / SIDES)
+    low, high = 0.3 * length, 0.6 * length
+    lacks = [
+        rod(pin, radius * flat - PIN_MM, low, high) - carrier,
+        rod(pin, radius / 2, low, length - PIN_MM) - carrier,
+        (rod(pin, radius + clearance - PIN_MM, low, length + PIN_MM) - rod(pin, radius + PIN_MM, 0, length)) ^ carrier,
+        rod(pin, radius / 2, length + PIN_MM, length + 2 * PIN_MM) ^ carrier,
+        rod(socket, hole - PIN_MM, PIN_MM, depth - PIN_MM) ^ receiver,
+        (rod(socket, hole / flat + BEHIND_MM, 0.5 * depth, 0.9 * depth) - rod(socket, hole / flat + PIN_MM, 0, depth)) - receiver,
+        rod(socket, hole - PIN_MM, depth + PIN_MM, depth + BEHIND_MM) - receiver,
+    ]
+    lack = max(body.volume() for body in lacks)
+    apart = np.linalg.norm(np.array(pin["center_mm"]) - socket["center_mm"]) + np.linalg.norm(np.array(pin["axis"]) - socket["axis"])
+    gap = hole - radius
+    kit.say(f"pin {pin['id']} in its socket", lack < SHARED_MM3 and apart < 1e-6 and gap > clearance - 1e-3, f"gap {gap:.3f} of {clearance} mm, {lack:.5f} mm³ off")
+
+
+def judge_divided(kit):
+    """Junctures in several parts: they fit the room, meet in their cuts, hold by pins, and are the whole together."""
+    room = kit.sheet["printer"].get("build_volume_mm")
+    first = len(kit.bodies) - len(kit.junctures)
+    kit.filled = list(kit.solids[first:])
+    for index, (own, meshes) in enumerate(zip(kit.sheet["junctures"], kit.pieces, strict=True)):
+        for part, mesh in zip(own["parts"], meshes, strict=True):
+            size = np.ptp(trimesh.transform_points(mesh.vertices, np.array(part["print_from_model"])), axis=0)
+            fits = room is None or (size[2] <= room[2] and (bool(np.all(size[:2] <= room[:2])) or bool(np.all(size[1::-1] <= room[:2]))))
+            kit.say(f"{part['id']} fits the room", fits, f"{size.round(1)} in {room}")
+        if not own.get("divided"):
+            continue
+        solids = [kit.solid([mesh]) for mesh in meshes]
+        both = [body for i in range(len(solids)) for j in range(i) for body in (solids[i] ^ solids[j]).decompose()]
+        deep = max((body.volume() / body.surface_area() for body in both), default=0.0)
+        kit.say(f"the parts of {own['id']} keep apart", deep < ROUNDING_MM, f"{deep:.6f} mm into each other")
+        sockets = {socket["id"]: (socket, solid) for part, solid in zip(own["parts"], solids) for socket in part.get("sockets", [])}
+        pins = [(pin, solid) for part, solid in zip(own["parts"], solids) for pin in part.get("pins", [])]
+        kit.say(f"{own['id']} has a socket for every pin", sorted(pin["id"] for pin, _ in pins) == sorted(sockets), f"{len(pins)} pins")
+        for pin, solid in pins:
+            if pin["id"] in sockets:
+                judge_pin(kit, pin, solid, *sockets[pin["id"]], own["divided"]["clearance_mm"])
+        marks = [mark for part in own["parts"] for mark in part.get("marks", [])]
+        volume, added = own["divided"]["volume_mm3"], sum(pin["volume_mm3"] for pin, _ in pins)
+        taken = sum(socket["volume_mm3"] for socket, _ in sockets.values()) + sum(mark["volume_mm3"] for mark in marks)
+        error = abs(sum(mesh.volume for mesh in meshes) - added + taken - volume) / volume
+        kit.say(f"the parts of {own['id']} add up", error < SUM_RATIO, f"{error:.1e}")
+        fill = [kit.filled[index]]
+        for socket, _ in sockets.values():
+            radius = socket["diameter_mm"] / 2
+            fill += [rod(socket, radius + WIDER_MM, 0, WIDER_MM), rod(socket, radius + PIN_MM, 0, socket["length_mm"] + PIN_MM)]
+        for mark in marks:
+            fill += [rod({**mark, "center_mm": at}, 2.1 * mark["stroke_mm"], 0, mark["depth_mm"] + PIN_MM) for at in mark["strokes_mm"]]
+        kit.filled[index] = manifold3d.Manifold.batch_boolean(fill, manifold3d.OpType.Add)
+        error = kit.filled[index].volume() / volume - 1
+        kit.say(f"{own['id']} is whole", abs(error) < FILLED_RATIO, f"{error:.1e}")
+        kit.say(f"{own['id']} is one body", sum(body.volume() > SHARED_MM3 for body in kit.filled[index].decompose()) == 1)
+
+
 def judge_model(kit):
     """Pieces of a model: none is off it, nothing of it is lost, and every bore has its wall."""
     mesh = trimesh.load(kit.folder / kit.sheet["model"], process=True)
@@ -364,6 +447,7 @@ def judge_model(kit):
     for part, solid in zip(kit.sheet["junctures"], kit.solids[count:], strict=True):
         beyond = max((piece.volume() / piece.surface_area() for piece in (solid - model).decompose()), default=0.0)
         kit.say(f"{part['id']} lies in the model", beyond < ON_MODEL_MM, f"{beyond:.6f} mm beyond")
+    for solid in kit.filled:
         whole += solid
     rest = [piece for piece in (model - whole).decompose() if piece.volume() >= ON_MODEL_MM * piece.surface_area()]
     points = [np.array(piece.to_mesh().vert_properties)[:, :3] for piece in rest]
@@ -422,6 +506,7 @@ def judge_all(folder):
             look(limb)
         kit.faults += limb.faults
     judge_network(kit)
+    judge_divided(kit)
     if kit.sheet.get("model"):
         judge_model(kit)
     return kit

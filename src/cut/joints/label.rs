@@ -246,7 +246,7 @@ impl Labeller<'_> {
                 depth_mm: self.style.depth_mm,
             }
         };
-        texts(part).iter().find_map(|text| {
+        texts(self.style.numbered + part).iter().find_map(|text| {
             let places = joint
                 .faces
                 .iter()

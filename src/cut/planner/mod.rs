@@ -6,6 +6,7 @@ pub(crate) mod draft;
 pub(crate) mod extra;
 pub(crate) mod family;
 pub(crate) mod fewer;
+pub(crate) mod fit;
 pub(crate) mod layers;
 pub(crate) mod layout;
 pub(crate) mod limit;
@@ -33,15 +34,16 @@ use crate::{
         ids::{CutId, PartId},
         joints::pins::Pins,
         order::CutOrder,
-        pieces::{pose::fits, rejoin::rejoin, split::Piece},
+        pieces::{rejoin::rejoin, split::Piece},
         plan::{Cut, CutPlan, bridges_on, tree_of},
         planner::{
             attempt::{Attempt, cleanest},
             extra::add_extra_cuts,
             fewer::fewer_clean_cuts,
+            fit::fit_build_volume,
             layers::snap_to_layers,
             layout::Layout,
-            score::{Scene, burden, estimate_seam_penalty},
+            score::{Scene, burden},
             search::{Found, smallest_plans},
             shift::shift_to_creases,
             straighten::straighten,
@@ -53,16 +55,9 @@ use crate::{
         seam::clear::ClearBalls,
         side::CutSide,
     },
-    geom::{Aabb, Plane, Point, Vector},
-    mesh::{move_off_faces, move_off_vertices},
+    geom::{Plane, Point},
+    mesh::move_off_faces,
 };
-
-/// Greatest number of extra cuts that make parts fit the build volume.
-const MAX_FITTING_CUTS: usize = 8;
-
-/// Places tried for a cut that makes a part fit, as shares of its length from its middle. Among
-/// equals the first is taken.
-const MIDDLES: [f64; 7] = [0.0, 0.05, -0.05, 0.1, -0.1, 0.15, -0.15];
 
 /// Finds the fewest cuts that open every void by the required disc, and places pins in every joint.
 /// Among plans of equally few cuts, it takes the best-scored with which every void can be cleaned
@@ -341,50 +336,4 @@ fn limited_cut_remarks(tree: &CutTree) -> impl Iterator<Item = Remark> {
         (!sides.is_empty()).then_some(Remark::LimitedCut { cut, sides })
     };
     (0..tree.planes.len()).filter_map(remark)
-}
-
-/// Returns the plane across the longest side of a box, near its middle, whose seam costs least. It
-/// enters no ball to be kept clear if there is such a plane.
-fn best_middle(scene: &Scene, aabb: &Aabb) -> Plane {
-    let axis = aabb.size().imax();
-    let normal = Vector::ith(axis, 1.0);
-    let at = |share: f64| Plane {
-        normal,
-        offset_mm: aabb.center()[axis] + share * aabb.size()[axis],
-    };
-    let best = MIDDLES.map(at).into_iter().min_by(|a, b| {
-        let is_refused = |plane: &Plane| scene.clear.entered(plane).is_some();
-        let penalty = |plane: &Plane| estimate_seam_penalty(scene, plane);
-        is_refused(a)
-            .cmp(&is_refused(b))
-            .then(penalty(a).total_cmp(&penalty(b)))
-    });
-    best.unwrap_or_else(|| at(0.0))
-}
-
-/// Bisects pieces that do not fit the build volume, across their longest extent, until all fit.
-fn fit_build_volume(
-    scene: &Scene,
-    layout: &mut Layout,
-    notes: &mut Vec<Remark>,
-) -> Result<(), CutError> {
-    for _ in 0..MAX_FITTING_CUTS {
-        let is_large = |piece: &&Piece| !fits(piece, &layout.tree.planes, scene.request);
-        let Some(piece) = layout.pieces.iter().find(is_large) else {
-            return Ok(());
-        };
-        let aabb = piece.mesh.aabb();
-        let middle = best_middle(scene, &aabb);
-        let middle = move_off_vertices(&scene.material, &middle);
-        let planes: Vec<Plane> = layout.tree.planes.iter().copied().chain([middle]).collect();
-        let voids = accesses(
-            &scene.chambers,
-            &CutTree::everywhere(&planes),
-            scene.request,
-        )?;
-        *layout = Layout::new(scene, planes, voids)?;
-        let cut = CutId::of(layout.tree.planes.len() - 1);
-        notes.push(Remark::FittingCut(cut));
-    }
-    Ok(())
 }

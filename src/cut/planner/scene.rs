@@ -95,7 +95,8 @@ impl<'a> Scene<'a> {
 
     /// Returns whether a seam may run where the plane cuts the outside.
     pub(crate) fn allows(&self, plane: &Plane) -> bool {
-        self.request.seams.allows_lie(plane) && self.clear.entered(plane).is_none()
+        let seams = &self.request.seams;
+        seams.allows_lie(plane) && seams.keeps_whole(plane) && self.clear.entered(plane).is_none()
     }
 
     /// Returns the plane's opening into each void of `met`; `None` for voids that it misses.

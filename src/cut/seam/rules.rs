@@ -9,6 +9,7 @@ use crate::{
     },
     cut::seam::{
         clear::KeepClear,
+        regions::KeepWhole,
         skin::{SeamLie, Skin},
     },
     geom::{Plane, Vector},
@@ -39,6 +40,8 @@ impl SeamStyle {
 pub struct Seams {
     /// The balls that no seam enters.
     pub keep_clear: Vec<KeepClear>,
+    /// The regions that no cut enters. Parts that they keep too large for the printer stay so.
+    pub keep_whole: Vec<KeepWhole>,
     /// Weight of walls that lack sight against seams: what they hold stays solid. If `None`, a plan
     /// that lets every void be cleaned comes first, whatever its seams.
     pub lack_weight: Option<f64>,
@@ -119,6 +122,12 @@ impl Seams {
             dearest_ratio: None,
             ..self.clone()
         }
+    }
+
+    /// Returns whether an endless plane enters no region that is kept whole.
+    pub(crate) fn keeps_whole(&self, plane: &Plane) -> bool {
+        let mut regions = self.keep_whole.iter();
+        !regions.any(|region| region.is_entered(plane))
     }
 
     /// Returns whether a cut may lie as this plane does.

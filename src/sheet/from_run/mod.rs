@@ -21,4 +21,4 @@ pub use checklist::checklist;
 pub use facts::Facts;
 pub use figures::promised_figure;
 pub use printer::{material_row, printer_row};
-pub use promise::promise;
+pub use promise::{mark, pin, promise, socket};

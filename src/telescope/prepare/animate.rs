@@ -72,10 +72,14 @@ impl<'a> Tree<'a> {
         tree
     }
 
-    /// Adds the node of a juncture, if it has a body.
+    /// Adds the node of a juncture, if it has a body. Its other parts are fixed to the first.
     fn juncture(&mut self, index: usize, parent: Option<usize>, place: Frame) -> Option<usize> {
-        let own = self.body(FilmPlace::Juncture(index)).next()?;
-        Some(self.add(own, parent, place))
+        let mut bodies = self.body(FilmPlace::Juncture(index));
+        let own = self.add(bodies.next()?, parent, place);
+        for part in bodies {
+            self.add(part, Some(own), Frame::identity());
+        }
+        Some(own)
     }
 
     /// Adds the nodes of a limb with all shells in, and returns that of its last shell.

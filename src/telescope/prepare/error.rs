@@ -6,6 +6,7 @@ use crate::base::setting::{Key, Setting};
 use crate::base::toml_text::TextFault;
 use crate::base::watch::Cancelled;
 use crate::curve::{CurveError, NameError};
+use crate::cut::CutError;
 use crate::draw::PictureError;
 use crate::error::Error;
 use crate::io::threemf::PackageError;
@@ -124,6 +125,12 @@ pub enum TelescopeRunError {
     /// A boolean failed.
     #[error(transparent)]
     Clip(#[from] ClipError),
+    /// A juncture cannot be cut.
+    #[error(transparent)]
+    Cut(#[from] CutError),
+    /// A juncture bounds no solid.
+    #[error("a juncture is not a solid: {0}")]
+    Juncture(#[from] Defects),
     /// A written STL does not read back.
     #[error(transparent)]
     Stl(#[from] StlError),

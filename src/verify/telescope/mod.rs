@@ -7,11 +7,14 @@
 mod checks;
 mod contact;
 mod deviation;
+mod divided;
 mod evidence;
 mod facts;
+mod juncture;
 mod motion;
 mod network;
 mod network_checks;
+mod network_ends;
 mod network_facts;
 mod network_model;
 mod network_reading;
@@ -26,12 +29,12 @@ mod stops;
 mod surfaces;
 
 pub use checks::telescope_checks;
+pub use divided::DividedFacts;
 pub use evidence::TelescopeEvidence;
 pub use facts::{TelescopeFacts, judge_telescope};
+pub use juncture::{DividedPromise, JuncturePartPromise, JuncturePromise};
 pub use motion::{JointMotion, MotionKey, ShellMotion, TelescopeMotion};
-pub use network::{
-    JuncturePromise, LimbPromise, NetworkEvidence, NetworkKey, NetworkMotion, NetworkPromise,
-};
+pub use network::{LimbPromise, NetworkEvidence, NetworkKey, NetworkMotion, NetworkPromise};
 pub use network_checks::network_checks;
 pub use network_facts::{NetworkFacts, judge_network};
 pub use network_model::ModelFacts;

@@ -5,11 +5,12 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use super::evidence::TelescopeEvidence;
+use super::juncture::{JuncturePromise, Piece, in_model};
 use super::motion::{TelescopeMotion, frame_of};
 use super::promise::TelescopePromise;
 use crate::geom::Frame;
 use crate::mesh::TriMesh;
-use crate::verify::{Density, Pose, PrinterLimits};
+use crate::verify::{Density, PartEvidence, Pose, PrinterLimits};
 
 /// The promises of a kit of several telescopes.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
@@ -61,19 +62,6 @@ pub struct LimbPromise {
     pub sheet: TelescopePromise,
 }
 
-/// A juncture as the kit names it.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct JuncturePromise {
-    /// The name on the sheet, such as `N01`.
-    pub id: String,
-    /// Its file, relative to the kit.
-    pub file: String,
-    /// The SHA-256 of that file, in hex.
-    pub sha256: String,
-    /// Coordinates of the model, with all out, to print coordinates.
-    pub print_from_model: Pose,
-}
-
 /// The motion of several telescopes: their `motion.json`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct NetworkMotion {
@@ -107,8 +95,8 @@ pub struct NetworkEvidence {
     pub motion: NetworkMotion,
     /// The evidence of every telescope.
     pub limbs: Vec<TelescopeEvidence>,
-    /// The junctures where they are when all is out.
-    pub junctures: Vec<TriMesh>,
+    /// The parts of every juncture as they were read back, in their order on the list.
+    pub junctures: Vec<Vec<PartEvidence>>,
     /// The model whose pieces they are; `None` if they are none.
     pub model: Option<TriMesh>,
 }
@@ -150,6 +138,28 @@ impl NetworkMotion {
 }
 
 impl NetworkEvidence {
+    /// Returns the parts of all junctures where they are when all is out.
+    pub(super) fn pieces(&self) -> impl Iterator<Item = Piece<'_>> {
+        let junctures = self.promise.junctures.iter().zip(&self.junctures);
+        junctures.enumerate().flat_map(|(juncture, (own, read))| {
+            let parts = own.parts.iter().zip(read);
+            parts.map(move |(promise, part)| Piece {
+                juncture,
+                promise,
+                mesh: in_model(part),
+            })
+        })
+    }
+
+    /// Returns every juncture as one mesh, where it is when all is out.
+    pub(super) fn whole_junctures(&self) -> Vec<TriMesh> {
+        let whole = |parts: &Vec<PartEvidence>| {
+            let parts = parts.iter().map(in_model);
+            parts.fold(TriMesh::default(), |all, part| all.joined(&part))
+        };
+        self.junctures.iter().map(whole).collect()
+    }
+
     /// Returns the places of all bodies in a state, by the judge's own screws.
     pub(super) fn places(&self, states: &[Vec<[f64; 2]>]) -> Places {
         let count = self.promise.junctures.len();

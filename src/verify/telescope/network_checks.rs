@@ -4,12 +4,15 @@ use super::checks::{
     BOX_LIMIT_MM, CENTRE_LIMIT_MM, MASS_LIMIT_RATIO, PLACEMENT_LIMIT_MM, WALL_LIMIT_MM, none,
     surface_checks, telescope_checks,
 };
+use super::divided::DividedFacts;
 use super::network::NetworkPromise;
 use super::network_facts::NetworkFacts;
 use super::network_model::ModelFacts;
 use super::surfaces::Surfaces;
 use crate::geom::Point;
-use crate::verify::{Check, CheckKind, Limit};
+use crate::verify::checks::no_faults;
+use crate::verify::peg_checks::peg_checks;
+use crate::verify::{Check, CheckKind, Limit, VOLUME_SUM_LIMIT_RATIO};
 
 /// The checks that are made of the whole, and not of each telescope.
 const OF_THE_WHOLE: [CheckKind; 5] = [
@@ -36,8 +39,12 @@ pub fn network_checks(promise: &NetworkPromise, facts: &NetworkFacts) -> Vec<Che
         too_large: facts.too_large.clone(),
     });
     let whole = whole(promise, facts);
+    let least_mm = promise.printer.minimum_wall_mm;
+    let divided = facts.divided.iter();
+    let divided = divided.flat_map(|own| of_divided(own, least_mm));
     let model = facts.model.iter().flat_map(|own| of_model(promise, own));
-    worst(limbs.chain(junctures).chain(whole).chain(model))
+    let all = limbs.chain(junctures).chain(whole);
+    worst(all.chain(divided).chain(model))
 }
 
 /// Returns a check of a telescope with its name before the place.
@@ -71,6 +78,42 @@ fn is_worse(check: &Check, known: &Check) -> bool {
         (false, false) => room(check) > room(known),
         (true, true) => room(check) < room(known),
     }
+}
+
+/// Returns the checks of a juncture in several parts; `least_mm` is the least wall.
+fn of_divided(facts: &DividedFacts, least_mm: f64) -> Vec<Check> {
+    let mut checks = peg_checks(&facts.pegs, least_mm);
+    checks.extend([
+        no_faults(
+            CheckKind::Overlap,
+            "no part reaches into another",
+            facts.overlaps,
+        ),
+        none(
+            CheckKind::PartSurfaces,
+            "the parts of a juncture meet in its cuts, with all pins, sockets and ids",
+            &facts.strays,
+        ),
+        none(
+            CheckKind::Glue,
+            "no cut goes through a socket or a peg of a limb",
+            &facts.cut_through,
+        ),
+        Check::new(
+            CheckKind::Volumes,
+            "the parts add up to the uncut juncture, its pins, sockets and engraved ids",
+            Some(facts.volume_error_ratio),
+            Limit::at_most(VOLUME_SUM_LIMIT_RATIO, ""),
+        ),
+    ]);
+    let named = checks.into_iter().map(|check| {
+        let place = match &check.detail {
+            Some(detail) => format!("{}: {detail}", facts.id),
+            None => facts.id.clone(),
+        };
+        check.at(Some(place))
+    });
+    named.collect()
 }
 
 /// Returns the checks of junctures that are pieces of a model.

@@ -3,12 +3,14 @@
 use rayon::prelude::*;
 
 use super::contact::{Body, moved};
+use super::divided::{DividedFacts, Joints};
 use super::facts::{
     APART_SHARE, BETWEEN, SAME_MM, TelescopeFacts, judge_bodies, mixed, shell_bodies,
 };
 use super::motion::frame_of;
 use super::network::{NetworkEvidence, Places};
-use super::network_model::{ModelFacts, measure_model};
+use super::network_ends::Ends;
+use super::network_model::{Made, ModelFacts, measure_model};
 use super::network_seats::Seats;
 use super::surfaces::{LyingPart, Surfaces};
 use crate::base::units::MM3_PER_CM3;
@@ -33,6 +35,8 @@ pub struct NetworkFacts {
     pub too_large: Vec<String>,
     /// Faults of roots in their sockets and pegs in their mouths, in words.
     pub seat_faults: Vec<String>,
+    /// The facts about every juncture in several parts.
+    pub divided: Vec<DividedFacts>,
     /// The facts about junctures that are pieces of a model; `None` if they are none.
     pub model: Option<ModelFacts>,
     /// Pairs of bodies that come too near at a state, in words.
@@ -73,15 +77,27 @@ pub fn judge_network(evidence: &NetworkEvidence, watch: &Watch) -> Result<Networ
     let limbs = evidence.limbs.iter().zip(&shells);
     let limbs = limbs.map(|(limb, bodies)| judge_bodies(limb, bodies, watch));
     let limbs = limbs.collect::<Result<Vec<_>, Cancelled>>()?;
-    let junctures: Vec<Body> = evidence.junctures.iter().cloned().map(Body::new).collect();
+    let junctures = evidence.whole_junctures().into_iter().map(Body::new);
+    let junctures: Vec<Body> = junctures.collect();
     let seat_faults = seats(evidence, &shells, &junctures);
-    let parts = promise.junctures.iter().zip(&evidence.junctures);
-    let parts = parts.map(|(part, mesh)| LyingPart {
-        id: &part.id,
-        pose: &part.print_from_model,
-        mesh,
+    let pieces: Vec<_> = evidence.pieces().collect();
+    let parts = pieces.iter().map(|piece| LyingPart {
+        id: &piece.promise.id,
+        pose: &piece.promise.print_from_model,
+        mesh: &piece.mesh,
     });
     let surfaces = Surfaces::of(parts, promise.printer.build_volume_mm, watch)?;
+    let made = Made {
+        ends: (0..limbs.len())
+            .map(|limb| Ends::of(evidence, limb))
+            .collect(),
+        joints: (0..promise.junctures.len())
+            .map(|juncture| Joints::of(evidence, juncture))
+            .collect(),
+    };
+    let joints = made.joints.iter().flatten();
+    let divided = joints.map(|joints| joints.facts(evidence, &made.ends, watch));
+    let divided = divided.collect::<Result<Vec<_>, Cancelled>>()?;
     let bodies = named(evidence, shells, junctures);
     let moments: Vec<Moments> = bodies
         .iter()
@@ -108,7 +124,8 @@ pub fn judge_network(evidence: &NetworkEvidence, watch: &Watch) -> Result<Networ
         above_plate_mm: surfaces.above_plate_mm,
         too_large: surfaces.too_large,
         seat_faults,
-        model: measure_model(evidence, watch)?,
+        divided,
+        model: measure_model(evidence, &made, watch)?,
         too_near: too_near(evidence, &bodies, watch)?,
         placement_error_mm: placement_error_mm(evidence),
         mass_g: volume * promise.material.density_g_cm3 / MM3_PER_CM3,

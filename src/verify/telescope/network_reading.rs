@@ -5,9 +5,8 @@ use std::path::Path;
 use serde::Deserialize;
 
 use super::evidence::TelescopeEvidence;
-use super::network::{
-    JuncturePromise, LimbPromise, NetworkEvidence, NetworkMotion, NetworkPromise,
-};
+use super::juncture::JuncturePartPromise;
+use super::network::{LimbPromise, NetworkEvidence, NetworkMotion, NetworkPromise};
 use super::network_checks::network_checks;
 use super::network_facts::judge_network;
 use super::packages::network_packages_check;
@@ -19,9 +18,10 @@ use super::scene::network_scene_check;
 use crate::base::watch::Watch;
 use crate::geom::Vector;
 use crate::io::read_model;
-use crate::mesh::TriMesh;
 use crate::verify::kit_folder::{KitFolder, all_inside_kit};
-use crate::verify::{CERTIFICATE_FILE, CHECKLIST_FILE, KindJudgement, KitFolderError, SHEET_FILE};
+use crate::verify::{
+    CERTIFICATE_FILE, CHECKLIST_FILE, KindJudgement, KitFolderError, PartEvidence, SHEET_FILE,
+};
 
 /// The word of a kit of several telescopes.
 const NETWORK: &str = "network";
@@ -73,7 +73,8 @@ fn read(folder: &KitFolder) -> Result<NetworkEvidence, TelescopeVerifyError> {
     }
     let of_limbs = promise.limbs.iter().flat_map(|limb| &limb.sheet.parts);
     let parts = of_limbs.map(|part| &part.file);
-    let junctures = promise.junctures.iter().map(|juncture| &juncture.file);
+    let pieces = promise.junctures.iter().flat_map(|own| &own.parts);
+    let junctures = pieces.map(|part| &part.file);
     let limbs = promise.limbs.iter();
     let curves: Vec<String> = limbs.map(|limb| limb_curve_file(&limb.id)).collect();
     all_inside_kit(
@@ -103,12 +104,17 @@ fn read(folder: &KitFolder) -> Result<NetworkEvidence, TelescopeVerifyError> {
     });
     let limbs = limbs.collect::<Result<Vec<_>, TelescopeVerifyError>>()?;
     let scale = promise.printer.print_scale_ratio.map(Vector::from);
-    let juncture = |own: &JuncturePromise| {
-        let nominal = read_nominal(folder, &own.file, scale)?;
-        Ok(nominal.map_vertices(|p| own.print_from_model.to_model(p)))
+    let part = |own: &JuncturePartPromise| {
+        Ok(PartEvidence {
+            id: own.id.clone(),
+            mesh: read_nominal(folder, &own.file, scale)?,
+            inner: Vec::new(),
+            pose: own.print_from_model,
+        })
     };
-    let junctures: Result<Vec<TriMesh>, KitFolderError> =
-        promise.junctures.iter().map(juncture).collect();
+    let junctures = promise.junctures.iter();
+    let junctures = junctures.map(|own| own.parts.iter().map(part).collect());
+    let junctures: Result<Vec<Vec<PartEvidence>>, KitFolderError> = junctures.collect();
     let model = promise.model.as_ref();
     let model = model.map(|file| read_model(&folder.path.join(file)));
     Ok(NetworkEvidence {
@@ -133,6 +139,9 @@ fn network_mismatch(promise: &NetworkPromise, motion: &NetworkMotion) -> Option<
     }
     if !is_tree(&promise.limbs, count) {
         return Some("its limbs and junctures are no tree");
+    }
+    if promise.junctures.iter().any(|own| own.parts.is_empty()) {
+        return Some("a juncture has no part");
     }
     let fits = |states: &Vec<Vec<[f64; 2]>>| {
         let joints = motion.limbs.iter().map(|limb| limb.joints.len());

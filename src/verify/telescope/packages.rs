@@ -1,6 +1,7 @@
 //! The 3MF files of a telescope: the parts all in, all out, and on their plates.
 
 use super::evidence::TelescopeEvidence;
+use super::juncture::Piece;
 use super::motion::MotionKey;
 use super::network::{NetworkEvidence, NetworkKey};
 use crate::geom::Vector;
@@ -58,8 +59,11 @@ pub fn network_packages_check(folder: &KitFolder, evidence: &NetworkEvidence) ->
         let parts = limb.promise.parts.iter().zip(&limb.parts);
         parts.map(|(part, mesh)| (&part.id, &part.print_from_shell, mesh))
     });
-    let junctures = promise.junctures.iter().zip(&evidence.junctures);
-    let junctures = junctures.map(|(own, mesh)| (&own.id, &own.print_from_model, mesh));
+    let pieces: Vec<Piece> = evidence.pieces().collect();
+    let junctures = pieces.iter().map(|piece| {
+        let own = piece.promise;
+        (&own.id, &own.print_from_model, &piece.mesh)
+    });
     let printed = limbs.chain(junctures).map(|(id, pose, mesh)| Named {
         name: id.clone(),
         body: mesh.map_vertices(|p| pose.to_print(p).coords.component_mul(&scale).into()),
@@ -88,9 +92,11 @@ fn all_together(evidence: &NetworkEvidence, key: &NetworkKey) -> Vec<Named> {
         let parts = limb.promise.parts.iter().zip(&limb.parts);
         parts.map(|(part, mesh)| (&part.id, &frames[part.shell - 1], mesh))
     });
-    let junctures = evidence.promise.junctures.iter().zip(&evidence.junctures);
-    let junctures = junctures.zip(&places.junctures);
-    let junctures = junctures.map(|((own, mesh), frame)| (&own.id, frame, mesh));
+    let pieces: Vec<Piece> = evidence.pieces().collect();
+    let junctures = pieces.iter().map(|piece| {
+        let frame = &places.junctures[piece.juncture];
+        (&piece.promise.id, frame, &piece.mesh)
+    });
     let all = shells.chain(junctures).map(|(id, frame, mesh)| Named {
         name: id.clone(),
         body: mesh.map_vertices(|p| frame.to_model(p)),

@@ -3,6 +3,7 @@
 use super::checks::none;
 use super::evidence::TelescopeEvidence;
 use super::facts::{BETWEEN, mixed};
+use super::juncture::Piece;
 use super::motion::TelescopeMotion;
 use super::network::NetworkEvidence;
 use super::standing::upright;
@@ -92,10 +93,10 @@ pub fn network_scene_check(folder: &KitFolder, evidence: &NetworkEvidence) -> Ch
             mesh,
         })
     });
-    let junctures = evidence.promise.junctures.iter().zip(&evidence.junctures);
-    let junctures = junctures.map(|(own, mesh)| Wanted {
-        name: &own.id,
-        mesh,
+    let pieces: Vec<Piece> = evidence.pieces().collect();
+    let junctures = pieces.iter().map(|piece| Wanted {
+        name: &piece.promise.id,
+        mesh: &piece.mesh,
     });
     let script = Script {
         bodies: limbs.chain(junctures).collect(),
@@ -109,7 +110,8 @@ pub fn network_scene_check(folder: &KitFolder, evidence: &NetworkEvidence) -> Ch
                 let parts = limb.promise.parts.iter();
                 parts.map(|part| frames[part.shell - 1])
             });
-            shells.chain(places.junctures.iter().copied()).collect()
+            let junctures = pieces.iter().map(|piece| places.junctures[piece.juncture]);
+            shells.chain(junctures).collect()
         }),
     };
     script.check(folder)

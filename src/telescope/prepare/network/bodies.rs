@@ -197,7 +197,8 @@ impl Shape<'_> {
     }
 }
 
-fn ring(frame: &Frame, radius_mm: f64) -> Vec<Point> {
+/// Returns points of a circle about the first axis of a frame.
+pub fn ring(frame: &Frame, radius_mm: f64) -> Vec<Point> {
     let at = |i: usize| {
         let (sin, cos) = (std::f64::consts::TAU * i as f64 / RING_POINTS as f64).sin_cos();
         frame.to_model(&Point::new(0.0, radius_mm * cos, radius_mm * sin))

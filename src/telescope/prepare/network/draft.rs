@@ -7,10 +7,10 @@ use super::super::files::curve_csv;
 use super::super::made::Made;
 use super::super::motion_file::{MOTION_SCHEMA, motion, pose_of};
 use super::super::sheet::{checklist, leaning, material, printer, untried};
-use super::made::{Workshop, WrittenJuncture, prefix};
+use super::made::{Workshop, prefix};
+use super::rows;
 use super::tree::Tree;
-use crate::base::digest::sha256_hex;
-use crate::base::numbers::measured_extent;
+use super::written::WrittenJuncture;
 use crate::base::units::MM3_PER_CM3;
 use crate::base::watch::Phase;
 use crate::geom::{Aabb, Point, Vector};
@@ -19,13 +19,13 @@ use crate::mass::moments_of_mesh;
 use crate::mesh::TriMesh;
 use crate::printer::Support;
 use crate::sheet::Verdict;
-use crate::sheet::network::{JunctureRow, LimbRow, NETWORK_SHEET_SCHEMA, NetworkSheet};
+use crate::sheet::network::{LimbRow, NETWORK_SHEET_SCHEMA, NetworkSheet};
 use crate::sheet::telescope::CurveRow;
 use crate::telescope::motion::Key;
 use crate::telescope::nest::JointState;
 use crate::verify::{
-    JuncturePromise, MODEL_FILE, NetworkEvidence, NetworkKey, NetworkMotion, NetworkPromise,
-    TelescopeEvidence, asked_points, judge_network, network_checks,
+    MODEL_FILE, NetworkEvidence, NetworkKey, NetworkMotion, NetworkPromise, TelescopeEvidence,
+    asked_points, judge_network, network_checks,
 };
 use crate::wing::{Unwritable, json, read_back};
 
@@ -68,9 +68,11 @@ impl MadeNetwork<'_> {
             parts.extend(placed);
         }
         let junctures = self.junctures.iter().zip(&frames.junctures);
-        let junctures =
-            junctures.map(|(own, frame)| own.in_model().map_vertices(|p| frame.to_model(p)));
-        parts.extend(junctures);
+        let pieces = junctures.flat_map(|(own, frame)| {
+            let pieces = own.parts.iter();
+            pieces.map(|part| part.in_model().map_vertices(|p| frame.to_model(p)))
+        });
+        parts.extend(pieces);
         parts
     }
 
@@ -128,7 +130,8 @@ pub fn draft(workshop: &Workshop, made: &MadeNetwork) -> Result<NetworkDraft, Te
         });
     }
     warnings.extend(round(workshop));
-    warnings.extend(too_large(workshop, made));
+    let junctures = made.junctures.iter();
+    warnings.extend(junctures.flat_map(|own| rows::warnings(workshop, own)));
     let skin = workshop.form.skin();
     let model_stl = skin.map(|skin| stl::encode(skin.mesh(), &workshop.job.name()));
     let mut sheet = sheet(workshop, made, limbs)?;
@@ -142,7 +145,7 @@ pub fn draft(workshop: &Workshop, made: &MadeNetwork) -> Result<NetworkDraft, Te
         junctures: made
             .junctures
             .iter()
-            .map(WrittenJuncture::in_model)
+            .map(WrittenJuncture::evidence)
             .collect(),
         model: model_stl.as_deref().map(stl::decode).transpose()?,
         promise,
@@ -197,6 +200,7 @@ fn sheet(
     let [collapsed_mm, extended_mm] =
         ends.map(|key| key.map_or([0.0; 3], |key| size_mm(made, key)));
     let loaded = workshop.loaded;
+    let junctures = || made.junctures.iter();
     Ok(NetworkSheet {
         schema: NETWORK_SHEET_SCHEMA,
         kind: "network",
@@ -213,12 +217,13 @@ fn sheet(
         glue_mm: first.least.glue_mm,
         groove_mm: first.least.groove_mm(),
         model: workshop.form.skin().map(|_| MODEL_FILE),
-        junctures: made.junctures.iter().map(promise_of).collect(),
-        juncture_rows: made
-            .junctures
-            .iter()
-            .map(|own| row_of(workshop, own))
+        junctures: junctures()
+            .map(|own| rows::promise(workshop, own))
             .collect(),
+        juncture_rows: junctures()
+            .flat_map(|own| rows::rows(workshop, own))
+            .collect(),
+        juncture_joints: junctures().flat_map(rows::joint_rows).collect(),
         order: made
             .sequence
             .iter()
@@ -234,26 +239,6 @@ fn sheet(
         checks: Vec::new(),
         files: BTreeMap::new(),
     })
-}
-
-fn promise_of(own: &WrittenJuncture) -> JuncturePromise {
-    JuncturePromise {
-        id: own.id.clone(),
-        file: own.file.clone(),
-        sha256: sha256_hex(&[&own.bytes]),
-        print_from_model: own.pose,
-    }
-}
-
-fn row_of(workshop: &Workshop, own: &WrittenJuncture) -> JunctureRow {
-    let volume_mm3 = moments_of_mesh(&own.read_back).volume();
-    JunctureRow {
-        id: own.id.clone(),
-        lies: own.lies.words().to_owned(),
-        size_mm: own.read_back.aabb().size().into(),
-        mass_g: volume_mm3 / MM3_PER_CM3 * workshop.shop.material.density_g_cm3.value,
-        is_free_of_support: workshop.shop.printer.support != Support::Breakaway,
-    }
 }
 
 /// Mass and centre of all parts.
@@ -313,21 +298,4 @@ fn round(workshop: &Workshop) -> Option<String> {
         None => "Junctures are round: support them below, and in sockets that lie across.",
     };
     needs_support.then(|| words.to_owned())
-}
-
-/// Returns a warning for every juncture that the printer has no room for.
-fn too_large(workshop: &Workshop, made: &MadeNetwork) -> Vec<String> {
-    let warning = |own: &WrittenJuncture| {
-        let size_mm: [f64; 3] = own.read_back.aabb().size().into();
-        let is_too_large = workshop.shop.printer.fits(size_mm) == Some(false);
-        is_too_large.then(|| {
-            format!(
-                "{} is {}, larger than the printer's room, and junctures are not cut yet. Order a \
-                 smaller size, balls as junctures, or a larger printer.",
-                own.id,
-                measured_extent(&size_mm)
-            )
-        })
-    };
-    made.junctures.iter().filter_map(warning).collect()
 }

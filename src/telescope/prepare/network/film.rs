@@ -19,12 +19,15 @@ pub fn moving(workshop: &Workshop, made: &MadeNetwork) -> Result<Moving, Telesco
         ..body
     });
     let junctures = made.junctures.iter().enumerate();
-    let junctures = junctures.map(|(index, own)| MovingBody {
-        id: own.id.clone(),
-        mesh: weld(&own.in_model()),
-        color: 0,
-        place: FilmPlace::Juncture(index),
-        is_named: true,
+    let junctures = junctures.flat_map(|(index, own)| {
+        let pieces = own.parts.iter();
+        pieces.map(move |part| MovingBody {
+            id: part.id.clone(),
+            mesh: weld(&part.in_model()),
+            color: 0,
+            place: FilmPlace::Juncture(index),
+            is_named: true,
+        })
     });
     let designed = made.tree.limbs.iter().zip(&made.tree.network.limbs);
     let curves = designed.zip(&made.limbs).map(|((designed, limb), own)| {

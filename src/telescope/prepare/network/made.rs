@@ -1,42 +1,19 @@
 //! The parts of a network as files: those of every limb, and the junctures.
 
-use rayon::prelude::*;
-
 use super::super::error::TelescopeRunError;
 use super::super::load_skeleton::{LoadedSkeleton, Shop};
-use super::super::made::{Made, Printing, make};
-use super::super::poses::{Laid, Lies, lay_juncture};
-use super::bodies::{body, body_of_model};
+use super::super::made::{Made, make};
+use super::super::poses::{Laid, lay_juncture};
 use super::ends::last;
 use super::held::held;
 use super::pieces::{NoPieces, pieces};
 use super::skin::Skin;
 use super::tree::Tree;
 use crate::base::verdict::Verdict;
-use crate::base::watch::{Phase, Watch};
+use crate::base::watch::Watch;
 use crate::geom::{Vector, orthonormal_basis};
 use crate::job::telescope::TelescopeJob;
-use crate::mesh::{ClipError, Solid, TriMesh};
-use crate::verify::Pose;
-
-/// A juncture as it was written.
-pub struct WrittenJuncture {
-    pub id: String,
-    pub lies: Lies,
-    /// Model frame, with all out, to print frame.
-    pub pose: Pose,
-    pub file: String,
-    pub bytes: Vec<u8>,
-    /// The triangles read back, in print pose, in the part's own size.
-    pub read_back: TriMesh,
-}
-
-impl WrittenJuncture {
-    /// Returns the mesh where it is when all is out, as the file holds it.
-    pub fn in_model(&self) -> TriMesh {
-        self.read_back.map_vertices(|p| self.pose.to_model(p))
-    }
-}
+use crate::mesh::TriMesh;
 
 /// The shape of junctures.
 #[derive(Clone, Copy)]
@@ -94,50 +71,10 @@ impl Workshop<'_> {
         }
     }
 
-    /// Makes the junctures; `pieces` are those of the model.
-    pub fn junctures(
-        &self,
-        tree: &Tree,
-        pieces: &[TriMesh],
-    ) -> Result<Vec<WrittenJuncture>, TelescopeRunError> {
-        self.watch.enter(Phase::Parts);
-        let count = 0..tree.network.junctures;
-        let solids: Vec<Solid> = count
-            .into_par_iter()
-            .map(|juncture| match self.form {
-                Form::Balls => body(tree, juncture, false),
-                Form::Hulls => body(tree, juncture, true),
-                Form::Model(_) => body_of_model(tree, juncture, &pieces[juncture]),
-            })
-            .collect::<Result<_, ClipError>>()?;
-        let printing = Printing {
-            shop: self.shop,
-            watch: self.watch,
-        };
-        let written = solids.into_par_iter().enumerate().map(|(index, solid)| {
-            let laid = self.lay(solid.mesh(), &self.down(tree, index));
-            let id = format!("N{:02}", index + 1);
-            let name = format!("{}_{id}", self.job.name());
-            let file = printing.write(&name, &laid, &solid)?;
-            Ok(WrittenJuncture {
-                id,
-                lies: laid.lies,
-                pose: laid.pose,
-                file: file.file,
-                bytes: file.bytes,
-                read_back: file.read_back,
-            })
-        });
-        written.collect()
-    }
-
     /// Lays a juncture with this direction down, or with another if it fits into the printer so.
-    fn lay(&self, mesh: &TriMesh, down: &Vector) -> Laid {
+    pub fn lay(&self, mesh: &TriMesh, down: &Vector) -> Laid {
         let (u, v) = orthonormal_basis(down);
-        let fits = |laid: &Laid| {
-            let printed = mesh.map_vertices(|p| laid.pose.to_print(p));
-            self.shop.printer.fits(printed.aabb().size().into()) != Some(false)
-        };
+        let fits = |laid: &Laid| self.has_room(mesh, laid);
         let others = [-down, u, -u, v, -v];
         let usual = lay_juncture(mesh, down);
         if fits(&usual) {
@@ -147,8 +84,14 @@ impl Workshop<'_> {
         laid.find(fits).unwrap_or(usual)
     }
 
+    /// Returns whether the printer has room for a mesh that lies so.
+    fn has_room(&self, mesh: &TriMesh, laid: &Laid) -> bool {
+        let printed = mesh.map_vertices(|p| laid.pose.to_print(p));
+        self.shop.printer.fits(printed.aabb().size().into()) != Some(false)
+    }
+
     /// Returns the direction that points down in print: away from the peg, or the model's down.
-    fn down(&self, tree: &Tree, juncture: usize) -> Vector {
+    pub fn down(&self, tree: &Tree, juncture: usize) -> Vector {
         let mut limbs = tree.network.limbs.iter();
         let carrier = limbs.find(|limb| limb.to == juncture);
         carrier.map_or(-self.loaded.up, |limb| {

@@ -6,6 +6,7 @@
 
 mod along;
 mod bodies;
+mod divide;
 mod draft;
 mod ends;
 mod film;
@@ -15,9 +16,11 @@ mod made;
 mod papers;
 mod pieces;
 mod plan;
+mod rows;
 mod skin;
 mod sweep;
 mod tree;
+mod written;
 
 use self::draft::{MadeNetwork, draft};
 use self::limb::Studio;
@@ -26,6 +29,7 @@ use self::plan::Measures;
 use self::skin::Skin;
 use self::sweep::{Bodies, Hit, Item};
 use self::tree::{Kept, Search, Tree};
+use self::written::{divide, junctures};
 use super::advise::Tried;
 use super::asked::basics;
 use super::error::TelescopeRunError;
@@ -138,7 +142,7 @@ fn attempt<'a>(
         Verdict::Found(limbs) => limbs,
         Verdict::No(refused) => return Ok(Verdict::No(barred(refused.limb, refused.why))),
     };
-    let junctures = workshop.junctures(&tree, &pieces)?;
+    let junctures = junctures(workshop, &tree, &pieces)?;
     let meshes: Vec<TriMesh> = junctures.iter().map(|own| own.in_model()).collect();
     let refs: Vec<_> = limbs.iter().collect();
     let bodies = Bodies::new(&tree.network, &refs, meshes);
@@ -147,9 +151,10 @@ fn attempt<'a>(
     match found {
         Ok(sequence) => Ok(Verdict::Found(MadeNetwork {
             solid: kept.iter().map(words).collect(),
-            tree,
             limbs,
-            junctures,
+            // What moves is the whole juncture: it is divided last.
+            junctures: divide(workshop, &tree, junctures)?,
+            tree,
             sequence,
         })),
         Err(hit) => {

@@ -48,8 +48,8 @@ pub fn finish(
     for part in made.limbs.iter().flat_map(|limb| &limb.parts) {
         kit.add(&part.file, part.bytes.clone());
     }
-    for juncture in &made.junctures {
-        kit.add(&juncture.file, juncture.bytes.clone());
+    for part in made.junctures.iter().flat_map(|own| &own.parts) {
+        kit.add(&part.file, part.bytes.clone());
     }
     for (file, bytes) in packages(workshop, made)? {
         kit.add(&file, bytes);
@@ -157,7 +157,8 @@ fn printed<'a>(made: &'a MadeNetwork, scale: &Vector) -> Vec<Printed<'a>> {
         pose: &part.pose,
         mesh: sized(&part.read_back),
     });
-    let junctures = made.junctures.iter().map(|own| Printed {
+    let pieces = made.junctures.iter().flat_map(|own| &own.parts);
+    let junctures = pieces.map(|own| Printed {
         id: &own.id,
         color: 0,
         pose: &own.pose,
@@ -229,7 +230,9 @@ fn frames(made: &MadeNetwork, state: &[Key]) -> Vec<Frame> {
     let frames = made.tree.network.frames(state);
     let limbs = made.limbs.iter().zip(&frames.shells);
     let shells = limbs.flat_map(|(limb, frames)| limb.parts.iter().map(|part| frames[part.shell]));
-    shells.chain(frames.junctures.iter().copied()).collect()
+    let junctures = made.junctures.iter().zip(&frames.junctures);
+    let pieces = junctures.flat_map(|(own, frame)| own.parts.iter().map(|_| *frame));
+    shells.chain(pieces).collect()
 }
 
 fn view(workshop: &Workshop, made: &MadeNetwork) -> NetworkView {
@@ -241,7 +244,8 @@ fn view(workshop: &Workshop, made: &MadeNetwork) -> NetworkView {
         color: part.shell + 1,
         is_named: false,
     });
-    let roots = made.junctures.iter().map(|own| ShownBody {
+    let pieces = made.junctures.iter().flat_map(|own| &own.parts);
+    let roots = pieces.map(|own| ShownBody {
         id: own.id.clone(),
         color: 0,
         is_named: true,
@@ -256,7 +260,7 @@ fn view(workshop: &Workshop, made: &MadeNetwork) -> NetworkView {
         half: state(keys.get(keys.len() / 2)),
         extended: state(keys.last()),
         up: workshop.loaded.up,
-        junctures: made.junctures.len(),
+        junctures: made.junctures.iter().map(|own| own.parts.len()).collect(),
     }
 }
 

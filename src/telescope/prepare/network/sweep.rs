@@ -8,7 +8,7 @@ use rayon::prelude::*;
 
 use super::super::made::Made;
 use crate::base::watch::{Cancelled, Watch};
-use crate::geom::{Frame, Point};
+use crate::geom::{Aabb, Frame, Point};
 use crate::mesh::{MeshDistance, TriMesh};
 use crate::telescope::motion::{Key, between};
 use crate::telescope::nest::JointState;
@@ -42,6 +42,7 @@ pub struct Hit {
 struct Body {
     item: Item,
     mesh: TriMesh,
+    bounds: Aabb,
     distance: MeshDistance,
     centre: Point,
     radius_mm: f64,
@@ -69,11 +70,13 @@ impl<'a> Bodies<'a> {
         let junctures = junctures.map(|(index, mesh)| (Item::Juncture(index), mesh));
         let all: Vec<(Item, TriMesh)> = shells.chain(junctures).collect();
         let bodies = all.into_par_iter().map(|(item, mesh)| {
-            let centre = mesh.aabb().center();
+            let bounds = mesh.aabb();
+            let centre = bounds.center();
             let far = mesh.vertices().iter().map(|p| (p - centre).norm());
             Body {
                 item,
                 radius_mm: far.fold(0.0, f64::max),
+                bounds,
                 centre,
                 distance: MeshDistance::new(&mesh),
                 mesh,
@@ -203,7 +206,16 @@ impl<'a> Bodies<'a> {
             return false;
         }
         let placed = other.inverse().frame_to_model(&own);
-        let bounds = still.mesh.aabb().inflated(limit_mm);
+        let bounds = still.bounds.inflated(limit_mm);
+        let are_apart = |placed: &Frame, own: &Aabb, other: &Aabb| {
+            let placed = placed_box(own, placed);
+            (0..3).any(|i| placed.max[i] < other.min[i] || placed.min[i] > other.max[i])
+        };
+        if are_apart(&placed, &moving.bounds, &bounds)
+            || are_apart(&placed.inverse(), &bounds, &moving.bounds)
+        {
+            return false;
+        }
         let mesh = moving.mesh.map_vertices(|p| placed.to_model(p));
         let mouth = self.mouth([moving.item, still.item], frames, &other);
         let mut near = mesh.iter_corners().filter(|corners| {
@@ -234,6 +246,15 @@ impl<'a> Bodies<'a> {
         let placed = frames.shells[limb][0].frame_to_model(&mouth);
         Some(other.inverse().frame_to_model(&placed))
     }
+}
+
+/// Returns the box around a box that is placed.
+fn placed_box(bounds: &Aabb, placed: &Frame) -> Aabb {
+    let corner = |index: usize| {
+        let pick = |axis: usize| [bounds.min, bounds.max][index >> axis & 1][axis];
+        placed.to_model(&Point::new(pick(0), pick(1), pick(2)))
+    };
+    (0..8).fold(Aabb::EMPTY, |aabb, index| aabb.grown_over(&corner(index)))
 }
 
 fn frame_of(item: Item, frames: &NetworkFrames) -> Frame {

@@ -1,0 +1,115 @@
+//! Junctures on the checklist: their parts, their joints, and what the shop is told of them.
+
+use super::made::Workshop;
+use super::written::{Division, WrittenJuncture, WrittenPiece};
+use crate::base::digest::sha256_hex;
+use crate::base::numbers::measured_extent;
+use crate::base::units::MM3_PER_CM3;
+use crate::cut::{Cut, JointNote, PartId};
+use crate::mass::moments_of_mesh;
+use crate::printer::Support;
+use crate::sheet::from_run::{mark, pin, socket};
+use crate::sheet::network::{JunctureJointRow, JunctureRow};
+use crate::verify::{DividedPromise, JuncturePartPromise, JuncturePromise, PromisedCut};
+
+/// Returns what is promised of a juncture.
+pub fn promise(workshop: &Workshop, own: &WrittenJuncture) -> JuncturePromise {
+    let clearance_mm = workshop.shop.printer.clearance_per_side_mm.value;
+    let division = own.division.as_ref();
+    JuncturePromise {
+        id: own.id.clone(),
+        parts: own
+            .parts
+            .iter()
+            .map(|part| promised_part(part, division))
+            .collect(),
+        divided: division.map(|division| DividedPromise {
+            volume_mm3: division.volume_mm3,
+            clearance_mm,
+            cuts: division.plan.cuts.iter().map(promised_cut).collect(),
+        }),
+    }
+}
+
+fn promised_part(own: &WrittenPiece, division: Option<&Division>) -> JuncturePartPromise {
+    let cut = own.cut.as_ref().zip(division);
+    let mut promise = JuncturePartPromise {
+        id: own.id.clone(),
+        file: own.file.clone(),
+        sha256: sha256_hex(&[&own.bytes]),
+        print_from_model: own.pose,
+        pins: Vec::new(),
+        sockets: Vec::new(),
+        marks: Vec::new(),
+    };
+    if let Some((part, Division { plan, .. })) = cut {
+        promise.pins = part.pins.iter().map(|site| pin(site, plan)).collect();
+        promise.sockets = part.sockets.iter().map(|site| socket(site, plan)).collect();
+        promise.marks = part.labels.iter().map(mark).collect();
+    }
+    promise
+}
+
+fn promised_cut(cut: &Cut) -> PromisedCut {
+    PromisedCut {
+        point_mm: cut.point_mm,
+        normal: cut.normal,
+    }
+}
+
+/// Returns the rows of the parts of a juncture.
+pub fn rows<'a>(
+    workshop: &'a Workshop,
+    own: &'a WrittenJuncture,
+) -> impl Iterator<Item = JunctureRow> + 'a {
+    own.parts.iter().map(|part| JunctureRow {
+        id: part.id.clone(),
+        lies: part.lies.clone(),
+        size_mm: part.read_back.aabb().size().into(),
+        mass_g: moments_of_mesh(&part.read_back).volume() / MM3_PER_CM3
+            * workshop.shop.material.density_g_cm3.value,
+        is_free_of_support: workshop.shop.printer.support != Support::Breakaway,
+    })
+}
+
+/// Returns the rows of the joints of a juncture, in the order in which they are glued.
+pub fn joint_rows(own: &WrittenJuncture) -> impl Iterator<Item = JunctureJointRow> + '_ {
+    let notes = own.division.iter().flat_map(|own| &own.plan.joints);
+    notes.map(|note| JunctureJointRow {
+        juncture: own.id.clone(),
+        parts: note.parts.map(|part| part_id(own, part)),
+        area_mm2: note.area_mm2,
+        pins: note.pins.len(),
+        is_aligned: note.is_aligned(),
+    })
+}
+
+fn part_id(own: &WrittenJuncture, part: PartId) -> String {
+    let own = own.parts.get(part.index());
+    own.map_or_else(|| part.to_string(), |own| own.id.clone())
+}
+
+/// Returns a warning for every juncture that the printer has no room for, and for every joint that
+/// its pins do not align.
+pub fn warnings(workshop: &Workshop, own: &WrittenJuncture) -> Vec<String> {
+    let mut warnings = Vec::new();
+    for part in &own.parts {
+        let size_mm: [f64; 3] = part.read_back.aabb().size().into();
+        if workshop.shop.printer.fits(size_mm) == Some(false) {
+            warnings.push(format!(
+                "{} is {}, larger than the printer's room, and no cut beside its sockets makes it \
+                 fit. Order a smaller size, balls as junctures, or a larger printer.",
+                part.id,
+                measured_extent(&size_mm)
+            ));
+        }
+    }
+    let notes = own.division.iter().flat_map(|own| &own.plan.joints);
+    let loose = notes.filter(|note| !note.is_aligned());
+    let warn = |note: &JointNote| {
+        let [below, above] = note.parts.map(|part| part_id(own, part));
+        format!("No pins align {below} and {above} fully: align their outlines by eye and touch.")
+    };
+    warnings.extend(loose.map(warn));
+    warnings
+}
