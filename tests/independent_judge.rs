@@ -219,12 +219,20 @@ fn an_independent_judge_finds_a_dent_of_a_tenth_in_one_part() {
 }
 
 #[test]
-fn an_independent_judge_proves_the_bound_of_a_kit_and_refuses_a_better_one() {
+#[ignore = "long: half a minute, and .ci/run does it with README's kit; run with -- --ignored"]
+fn an_independent_judge_proves_the_bound_of_a_kit() {
     let Some(python) = find_python(PACKAGES) else {
         return;
     };
     let (code, said) = judge(JUDGE_BOUND, &python, kit_in_both());
     assert_eq!(code, Some(0), "{said}");
+}
+
+#[test]
+fn an_independent_judge_refuses_a_better_bound() {
+    let Some(python) = find_python(PACKAGES) else {
+        return;
+    };
     let folder = tempfile::tempdir().unwrap();
     let kit = copy_of(kit_in_both(), folder.path());
     let mut sheet = checklist(&kit);
