@@ -202,7 +202,6 @@ mod tests {
 
     #[test]
     fn a_limit_presses_the_button_unless_a_signal_did() {
-        let stop = Stop::default();
         for cause in [Cause::Time, Cause::Memory(4_000_000_000)] {
             let stop = Stop::default();
             stop.press(cause);
