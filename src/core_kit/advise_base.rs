@@ -45,23 +45,26 @@ fn no_start(asked: &Asked, failed: &[FailedStart]) -> Impossible {
             return no_room(asked, why);
         }
     }
-    let mut answer = match failed {
-        [one] => Impossible::new(failure(asked, one)),
-        _ => Impossible::new("no start of moved vertices yields a base that is proved".to_owned()),
+    let distance_mm = asked.base.distance_mm;
+    let mut whys = failed.iter().map(|one| failure(one, distance_mm));
+    let mut answer = if failed.len() == 1 {
+        Impossible::new(whys.by_ref().collect())
+    } else {
+        let starts: Vec<String> = failed.iter().map(|one| one.start.to_string()).collect();
+        let starts = starts.join(", ");
+        Impossible::new(format!(
+            "moved vertices yield no base that is proved, from any start that was tried: {starts}"
+        ))
     };
-    if failed.len() > 1 {
-        answer
-            .tried
-            .extend(failed.iter().map(|one| failure(asked, one)));
-    }
+    answer.tried = whys.collect();
     answer.hints = other_methods(asked);
     answer
 }
 
 /// Words why one start yields no base.
-fn failure(asked: &Asked, failed: &FailedStart) -> String {
+fn failure(failed: &FailedStart, distance_mm: f64) -> String {
     let start = failed.start;
-    let distance = measured(asked.base.distance_mm, "mm");
+    let distance = measured(distance_mm, "mm");
     match &failed.why {
         NotFromStart::NoRoom(why) => format!(
             "the samples of the {start} keep {distance} from the surface at no size, though the \
@@ -199,7 +202,47 @@ fn tube(asked: &Asked, apart: &Unjoined) -> Option<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::core_kit::base::ByVertices;
     use crate::geom::Vector;
+    use crate::polyhedra::NotInside;
+    use crate::polyhedra::vertices::StartSolid;
+
+    #[test]
+    fn a_start_without_a_base_is_told_with_its_figures_and_the_error_of_its_proof() {
+        let start = StartSolid::Cube;
+        let no_room = FailedStart {
+            start,
+            why: NotFromStart::NoRoom(NoRoom {
+                deepest_mm: 20.0,
+                distance_mm: 5.0,
+                least_factor: None,
+            }),
+        };
+        assert_eq!(
+            failure(&no_room, 5.0),
+            "the samples of the cube keep 5\u{a0}mm from the surface at no size, though the \
+             deepest point lies 20\u{a0}mm below it"
+        );
+        let found = ByVertices {
+            start,
+            volume_mm3: 10.0,
+            sampled_mm: 5.0,
+            certified_mm: -1.0,
+            moved_mm: 0.0,
+        };
+        let unproved = FailedStart {
+            start,
+            why: NotFromStart::Unproved {
+                found,
+                why: NotInside::Unbounded,
+            },
+        };
+        assert_eq!(
+            failure(&unproved, 5.0),
+            "the faces of the cube prove -1\u{a0}mm of 5\u{a0}mm, though its samples keep \
+             5\u{a0}mm. Moved inward for the rest: the planes bound no body"
+        );
+    }
 
     #[test]
     fn a_smaller_disc_is_told_only_if_two_bolts_have_room_in_it() {
