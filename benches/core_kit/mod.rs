@@ -1,8 +1,9 @@
 //! The stages of an object on a base: growth, panels, shell, nesting, and the judge of its kit.
 //!
-//! Limits, on two cores and 600 mm models on a sheet of 5 mm:
+//! Aims, on two cores and 600 mm models on a sheet of 5 mm. Those of a whole kit are not measured
+//! yet (`benches/README.md`):
 //!
-//! | stage | limit |
+//! | stage | aim |
 //! |---|---|
 //! | the growth of one polyhedron | 10 s |
 //! | a whole kit of the bunny | 90 s and 2 GiB |

@@ -3,15 +3,16 @@
 //! `cargo run --release --example core_table -- MODELS` reads the models of the reference from a
 //! folder. They are made 600 mm long, and polyhedra keep 5 mm from their surface. Three tables come
 //! of it: one polyhedron without and with the limits of joints, two polyhedra, and growing planes
-//! beside the paper's moving vertices. A model that is not in the folder is left out.
+//! beside the paper's moving vertices. A model that is not in the folder is left out. Seconds are
+//! processor time of all threads.
 
 #![allow(clippy::print_stdout, reason = "the tables are the program's purpose")]
 
 mod methods;
+mod processor;
 
 use std::env;
 use std::path::Path;
-use std::time::Instant;
 
 use anyhow::{Context, Result, bail};
 use equipoise::base::verdict::Verdict;
@@ -23,6 +24,7 @@ use equipoise::polyhedra::{
     grow_polyhedra, grow_polyhedron,
 };
 use equipoise::repair::repair;
+use processor::timed;
 
 /// The longest side of the models, mm.
 const SIZE_MM: f64 = 600.0;
@@ -99,13 +101,6 @@ fn without_limits() -> Request {
 
 fn with_limits() -> Request {
     Request::new(DISTANCE_MM, Limits::for_sheet(SHEET_MM, SHEET_MM, ROOM_MM))
-}
-
-/// Returns what a search yields, and its seconds.
-fn timed<T>(search: impl FnOnce() -> Result<T>) -> Result<(T, f64)> {
-    let start = Instant::now();
-    let found = search()?;
-    Ok((found, start.elapsed().as_secs_f64()))
 }
 
 fn grown(ground: &Ground, request: &Request) -> Result<(Polyhedron, f64)> {

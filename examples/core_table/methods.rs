@@ -6,7 +6,8 @@ use equipoise::base::watch::Watch;
 use equipoise::polyhedra::Ground;
 use equipoise::polyhedra::vertices::{StartSolid, VertexRequest, grow_by_vertices, prove_vertices};
 
-use super::{DISTANCE_MM, Row, grown, timed, without_limits};
+use super::processor::timed;
+use super::{DISTANCE_MM, Row, grown, without_limits};
 
 /// Samples inside each edge while vertices move.
 const SAMPLES_PER_EDGE: usize = 8;

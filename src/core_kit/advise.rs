@@ -1,6 +1,6 @@
 //! The answers where there is no such object, with what helps.
 
-use super::advise_base::no_base;
+use super::advise_base::{is_by_vertices, no_base, other_methods};
 use super::asked::Asked;
 use super::ballast::ballasted;
 use super::build::Refused;
@@ -19,9 +19,6 @@ use crate::mass::moments_of_mesh;
 use crate::panels::PanelError;
 use crate::wing::{Impossible, Remedy};
 
-/// Words for a remedy against a sheet that is too thick.
-const THINNER: &str = "use a thinner sheet, ask for fewer faces, or make the model larger";
-
 /// Tells why there is no such object, and what helps.
 pub fn refused(asked: &Asked, refused: &Refused) -> Impossible {
     match refused {
@@ -34,7 +31,13 @@ pub fn refused(asked: &Asked, refused: &Refused) -> Impossible {
                     words: "brackets hold the edges that have no room for fingers".to_owned(),
                 });
             } else {
-                answer.hints.push(THINNER.to_owned());
+                let thinner = if is_by_vertices(asked) {
+                    "use a thinner sheet, or make the model larger"
+                } else {
+                    "use a thinner sheet, ask for fewer faces, or make the model larger"
+                };
+                answer.hints.push(thinner.to_owned());
+                answer.hints.extend(other_methods(asked));
             }
             answer
         }
@@ -71,9 +74,11 @@ fn unclad(asked: &Asked, why: &CladdingError) -> Impossible {
              from the plane",
             Setting::new(Key::Polyhedra, 1)
         ),
+        _ if is_by_vertices(asked) => "ask for a printer with more room".to_owned(),
         _ => "ask for another number of faces, or for a printer with more room".to_owned(),
     };
     answer.hints.push(hint);
+    answer.hints.extend(other_methods(asked));
     answer
 }
 

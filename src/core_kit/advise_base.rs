@@ -1,7 +1,8 @@
 //! The answers where there is no base, with what helps.
 
 use super::asked::Asked;
-use super::base::{ByVertices, NoBase};
+use super::base::{FailedStart, NoBase, NotFromStart};
+use super::method::other_starts;
 use crate::base::numbers::measured;
 use crate::base::setting::{Key, Setting};
 use crate::geom::Plane;
@@ -17,7 +18,7 @@ pub fn no_base(asked: &Asked, why: &NoBase) -> Impossible {
             Some(joined) => stay_apart(asked, apart, *joined),
             None => given_apart(asked, apart),
         },
-        NoBase::Unproved(found) => unproved(asked, found),
+        NoBase::NoStart(failed) => no_start(asked, failed),
     }
 }
 
@@ -32,48 +33,92 @@ fn no_room(asked: &Asked, why: &NoRoom) -> Impossible {
             words: "the least size at which a base has room".to_owned(),
         });
     }
-    if !asked.job.method.is_planes() && !answer.is_proved {
-        answer.hints.push(planes_instead());
-    }
     answer
 }
 
-/// Tells that what moved vertices yield is not proved.
-fn unproved(asked: &Asked, found: &ByVertices) -> Impossible {
-    let mut answer = Impossible::new(format!(
-        "the base that vertices of the {} yield is not proved: its samples keep {} from the \
-         surface, but its faces prove {} of {}; moved inward by the rest, nothing of it is left",
-        found.start,
-        measured(found.sampled_mm, "mm"),
-        measured(found.certified_mm, "mm"),
-        measured(asked.base.distance_mm, "mm"),
-    ));
-    answer.hints.push(planes_instead());
+/// Tells that no start of moved vertices yields a base, and what helps.
+fn no_start(asked: &Asked, failed: &[FailedStart]) -> Impossible {
+    for one in failed {
+        if let NotFromStart::NoRoom(why) = &one.why
+            && why.deepest_mm < why.distance_mm
+        {
+            return no_room(asked, why);
+        }
+    }
+    let distance_mm = asked.base.distance_mm;
+    let mut whys = failed.iter().map(|one| failure(one, distance_mm));
+    let mut answer = if failed.len() == 1 {
+        Impossible::new(whys.by_ref().collect())
+    } else {
+        let starts: Vec<String> = failed.iter().map(|one| one.start.to_string()).collect();
+        let starts = starts.join(", ");
+        Impossible::new(format!(
+            "moved vertices yield no base that is proved, from any start that was tried: {starts}"
+        ))
+    };
+    answer.tried = whys.collect();
+    answer.hints = other_methods(asked);
     answer
+}
+
+/// Words why one start yields no base.
+fn failure(failed: &FailedStart, distance_mm: f64) -> String {
+    let start = failed.start;
+    let distance = measured(distance_mm, "mm");
+    match &failed.why {
+        NotFromStart::NoRoom(why) => format!(
+            "the samples of the {start} keep {distance} from the surface at no size, though the \
+             deepest point lies {} below it",
+            measured(why.deepest_mm, "mm"),
+        ),
+        NotFromStart::Unproved { found, why } => format!(
+            "the faces of the {start} prove {} of {distance}, though its samples keep {}. Moved \
+             inward for the rest: {why}",
+            measured(found.certified_mm, "mm"),
+            measured(found.sampled_mm, "mm"),
+        ),
+    }
+}
+
+/// Returns what helps a base of moved vertices, whose faces are those of its start: planes, or
+/// another start. Empty for other bases.
+pub fn other_methods(asked: &Asked) -> Vec<String> {
+    if !is_by_vertices(asked) {
+        return Vec::new();
+    }
+    let mut hints = vec![planes_instead()];
+    let others = other_starts(asked.job).into_iter();
+    let others = others.map(|[method, faces]| format!("`{method}` with `{faces}`"));
+    let others: Vec<String> = others.collect();
+    if !others.is_empty() {
+        hints.push(format!("try another start: {}", others.join(", or ")));
+    }
+    hints
+}
+
+/// Returns true if the base is looked for by moved vertices.
+pub fn is_by_vertices(asked: &Asked) -> bool {
+    asked.job.base.is_none() && !asked.job.method.is_planes()
 }
 
 fn planes_instead() -> String {
     format!(
-        "planes keep the proof at every step: give `{}`",
+        "planes keep the proof at every step, and avoid narrow faces: give `{}`",
         Setting::new(Key::Method, BaseMethod::Planes)
     )
 }
 
 /// Tells that the polyhedra of a given base are not joined, and what helps.
 fn given_apart(asked: &Asked, apart: &Unjoined) -> Impossible {
-    let radius_mm = asked.connector.radius_mm;
     let [a, b] = apart.polyhedra.map(|at| at + 1);
     let mut answer = Impossible::new(format!(
-        "the polyhedra {a} and {b} of the base are not joined: {}, and a disc of {} radius is \
-         asked for",
-        shared(apart),
-        measured(radius_mm, "mm")
+        "the polyhedra {a} and {b} of the base are not joined. {}",
+        shared(asked, apart)
     ));
-    let halved = format!("{}mm", (0.5 * radius_mm).max(1.0));
-    answer.hints.push(format!(
-        "ask for a smaller disc, such as `{}`, or lock larger faces on the planes",
-        Setting::new(Key::Connector, halved)
-    ));
+    answer.hints.extend(smaller_disc(asked, apart));
+    answer
+        .hints
+        .push("lock larger faces on the planes of the base".to_owned());
     answer.hints.extend(tube(asked, apart));
     answer
 }
@@ -82,23 +127,11 @@ fn given_apart(asked: &Asked, apart: &Unjoined) -> Impossible {
 fn stay_apart(asked: &Asked, apart: &Unjoined, joined: usize) -> Impossible {
     let [a, b] = apart.polyhedra.map(|at| at + 1);
     let mut answer = Impossible::new(format!(
-        "{} polyhedra have room, but {a} and {b} cannot be joined: {}, and a disc of {} radius is \
-         asked for",
+        "{} polyhedra have room, but {a} and {b} were not joined by any plane that was tried. {}",
         joined + 1,
-        shared(apart),
-        measured(asked.connector.radius_mm, "mm")
+        shared(asked, apart)
     ));
-    let bolts_mm = asked
-        .bolt
-        .as_ref()
-        .map(|bolt| bolt.disc_mm(asked.panels.sheet_mm));
-    let smaller_mm = apart.disc_mm.floor();
-    if bolts_mm.is_some_and(|least_mm| smaller_mm >= least_mm) {
-        answer.hints.push(format!(
-            "two bolts have room in that disc: ask for it by `{}`",
-            Setting::new(Key::Connector, format!("{smaller_mm}mm"))
-        ));
-    }
+    answer.hints.extend(smaller_disc(asked, apart));
     answer.hints.extend(tube(asked, apart));
     let fewer = Setting::new(Key::Polyhedra, joined);
     answer.hints.push(match joined {
@@ -108,14 +141,37 @@ fn stay_apart(asked: &Asked, apart: &Unjoined, joined: usize) -> Impossible {
     answer
 }
 
-/// Words the disc that two polyhedra share.
-fn shared(apart: &Unjoined) -> String {
+/// Tells to ask for the disc that two polyhedra share, if two bolts have room in it.
+fn smaller_disc(asked: &Asked, apart: &Unjoined) -> Option<String> {
+    let least_mm = asked.bolt.as_ref()?.disc_mm(asked.panels.sheet_mm);
+    let smaller_mm = disc_for_bolts(apart.disc_mm, least_mm)?;
+    Some(format!(
+        "two bolts have room in that disc: ask for it by `{}`",
+        Setting::new(Key::Connector, format!("{smaller_mm}mm"))
+    ))
+}
+
+/// Returns a disc in whole mm, if it is at least as large as two bolts need.
+fn disc_for_bolts(disc_mm: f64, least_mm: f64) -> Option<f64> {
+    let whole_mm = disc_mm.floor();
+    (whole_mm >= least_mm).then_some(whole_mm)
+}
+
+/// Words the disc that two polyhedra share, and the one asked for.
+fn shared(asked: &Asked, apart: &Unjoined) -> String {
     let plane = plane_words(&apart.plane);
+    let radius = measured(asked.connector.radius_mm, "mm");
     if apart.disc_mm > 0.0 {
         let disc = measured(apart.disc_mm, "mm");
-        format!("across the plane {plane} their panels share a disc of {disc} radius")
+        format!(
+            "Across the plane {plane} their panels share a disc of {disc} radius; {radius} are \
+             asked for"
+        )
     } else {
-        format!("across the plane {plane} their panels share no disc")
+        format!(
+            "Across the plane {plane} their panels share no disc; one of {radius} radius is asked \
+             for"
+        )
     }
 }
 
@@ -146,7 +202,54 @@ fn tube(asked: &Asked, apart: &Unjoined) -> Option<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::core_kit::base::ByVertices;
     use crate::geom::Vector;
+    use crate::polyhedra::NotInside;
+    use crate::polyhedra::vertices::StartSolid;
+
+    #[test]
+    fn a_start_without_a_base_is_told_with_its_figures_and_the_error_of_its_proof() {
+        let start = StartSolid::Cube;
+        let no_room = FailedStart {
+            start,
+            why: NotFromStart::NoRoom(NoRoom {
+                deepest_mm: 20.0,
+                distance_mm: 5.0,
+                least_factor: None,
+            }),
+        };
+        assert_eq!(
+            failure(&no_room, 5.0),
+            "the samples of the cube keep 5\u{a0}mm from the surface at no size, though the \
+             deepest point lies 20\u{a0}mm below it"
+        );
+        let found = ByVertices {
+            start,
+            volume_mm3: 10.0,
+            sampled_mm: 5.0,
+            certified_mm: -1.0,
+            moved_mm: 0.0,
+        };
+        let unproved = FailedStart {
+            start,
+            why: NotFromStart::Unproved {
+                found,
+                why: NotInside::Unbounded,
+            },
+        };
+        assert_eq!(
+            failure(&unproved, 5.0),
+            "the faces of the cube prove -1\u{a0}mm of 5\u{a0}mm, though its samples keep \
+             5\u{a0}mm. Moved inward for the rest: the planes bound no body"
+        );
+    }
+
+    #[test]
+    fn a_smaller_disc_is_told_only_if_two_bolts_have_room_in_it() {
+        assert_eq!(disc_for_bolts(17.9, 17.0), Some(17.0));
+        assert_eq!(disc_for_bolts(17.9, 17.5), None);
+        assert_eq!(disc_for_bolts(0.0, 17.5), None);
+    }
 
     #[test]
     fn planes_are_told_by_their_place_along_an_axis() {

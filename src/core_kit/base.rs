@@ -2,16 +2,17 @@
 
 use super::asked::Asked;
 use super::error::CoreRunError;
-use super::method::fewer_than_start;
+use super::method::starts_tried;
 use crate::base::verdict::Verdict;
 use crate::base::watch::{Cancelled, Watch};
 use crate::job::base_choice::Polyhedra;
+use crate::panels::PanelSet;
 use crate::polyhedra::vertices::{StartSolid, VertexRequest, grow_by_vertices, prove_vertices};
 use crate::polyhedra::{
-    BasePlan, Count, NoPlan, NoRoom, Several, Unjoined, grow_polyhedra, grow_polyhedron,
+    BasePlan, Count, NoPlan, NoRoom, NotInside, Several, Unjoined, grow_polyhedra, grow_polyhedron,
 };
 
-/// Samples inside each edge while vertices move. More change the volume by less than 1 %.
+/// Samples inside each edge while vertices move.
 const SAMPLES_PER_EDGE: usize = 8;
 
 /// A base that is proved.
@@ -46,8 +47,24 @@ pub enum NoBase {
         apart: Unjoined,
         joined: Option<usize>,
     },
-    /// Nothing is left of what the method of the paper yields when it is proved.
-    Unproved(ByVertices),
+    /// No start of the method of the paper yields a base: why each does not.
+    NoStart(Vec<FailedStart>),
+}
+
+/// A start from which moved vertices yield no base.
+#[derive(Debug)]
+pub struct FailedStart {
+    pub start: StartSolid,
+    pub why: NotFromStart,
+}
+
+/// A reason why a start yields no base.
+#[derive(Debug)]
+pub enum NotFromStart {
+    /// Its samples keep the distance at no size.
+    NoRoom(NoRoom),
+    /// Nothing is left of what it yields when that is proved.
+    Unproved { found: ByVertices, why: NotInside },
 }
 
 /// Returns the base that is given, or the one that is found.
@@ -57,7 +74,7 @@ pub fn base(asked: &Asked, watch: &Watch) -> Result<Verdict<Base, NoBase>, CoreR
             let text = [given.file.as_str(), given.toml.as_str()];
             BasePlan::from_toml(text, asked.ground, &asked.base, &asked.connector)?
         }
-        None if !asked.job.method.is_planes() => return by_vertices(asked, watch),
+        None if !asked.job.method.is_planes() => return Ok(by_vertices(asked, watch)?),
         None => match by_planes(asked, watch)? {
             Verdict::Found(plan) => plan,
             Verdict::No(why) => return Ok(Verdict::No(why)),
@@ -104,24 +121,32 @@ fn by_planes(asked: &Asked, watch: &Watch) -> Result<Verdict<BasePlan, NoBase>, 
 }
 
 /// Returns the largest base that moved vertices yield and that is proved, of all starts that have
-/// no more faces than asked for.
-fn by_vertices(asked: &Asked, watch: &Watch) -> Result<Verdict<Base, NoBase>, CoreRunError> {
-    let starts = asked.job.method.starts().into_iter();
-    let mut best: Option<Verdict<Base, NoBase>> = None;
-    for start in starts.filter(|start| start.face_count() <= asked.job.faces) {
-        let found = from_start(asked, start, watch)?;
-        let volume_mm3 = |verdict: &Verdict<Base, NoBase>| match verdict {
-            Verdict::Found(base) => base.plan.volume_mm3(),
-            Verdict::No(_) => 0.0,
+/// no more faces than asked for. A base that gets panels comes before a larger one that gets none.
+fn by_vertices(asked: &Asked, watch: &Watch) -> Result<Verdict<Base, NoBase>, Cancelled> {
+    let mut best: Option<(bool, Base)> = None;
+    let mut failed = Vec::new();
+    for start in starts_tried(asked.job) {
+        let base = match from_start(asked, start, watch)? {
+            Verdict::Found(base) => base,
+            Verdict::No(why) => {
+                failed.push(FailedStart { start, why });
+                continue;
+            }
         };
+        let mut bodies = base.plan.polyhedra.iter();
+        let has_panels = bodies.all(|body| PanelSet::of(body, &asked.panels).is_ok());
+        let rank = (has_panels, base.plan.volume_mm3());
         let is_better = best
             .as_ref()
-            .is_none_or(|best| volume_mm3(&found) > volume_mm3(best));
+            .is_none_or(|(panels, best)| rank > (*panels, best.plan.volume_mm3()));
         if is_better {
-            best = Some(found);
+            best = Some((has_panels, base));
         }
     }
-    best.map_or_else(|| Err(fewer_than_start(asked.job)), Ok)
+    Ok(match best {
+        Some((_, base)) => Verdict::Found(base),
+        None => Verdict::No(NoBase::NoStart(failed)),
+    })
 }
 
 /// Moves the vertices of one start, and proves what they yield.
@@ -129,7 +154,7 @@ fn from_start(
     asked: &Asked,
     start: StartSolid,
     watch: &Watch,
-) -> Result<Verdict<Base, NoBase>, Cancelled> {
+) -> Result<Verdict<Base, NotFromStart>, Cancelled> {
     let request = VertexRequest {
         distance_mm: asked.base.distance_mm,
         start,
@@ -137,9 +162,9 @@ fn from_start(
     };
     let grown = match grow_by_vertices(asked.ground, &request, watch)? {
         Verdict::Found(grown) => grown,
-        Verdict::No(why) => return Ok(Verdict::No(NoBase::NoRoom(why))),
+        Verdict::No(why) => return Ok(Verdict::No(NotFromStart::NoRoom(why))),
     };
-    let before = ByVertices {
+    let found = ByVertices {
         start,
         volume_mm3: grown.volume_mm3,
         sampled_mm: grown.sampled_mm,
@@ -151,9 +176,9 @@ fn from_start(
             plan: BasePlan::one(proved.polyhedron),
             vertices: Some(ByVertices {
                 moved_mm: proved.moved_mm,
-                ..before
+                ..found
             }),
         }),
-        Err(_) => Verdict::No(NoBase::Unproved(before)),
+        Err(why) => Verdict::No(NotFromStart::Unproved { found, why }),
     })
 }

@@ -88,13 +88,11 @@ pub enum CoreRunError {
     },
     /// Fewer faces than the start of moved vertices has.
     #[error(
-        "moved vertices keep the faces of their start, which has {fewest}; remedy: leave `{}` \
-         away, or give `{}`",
-        Setting::new(Key::Faces, .faces), Setting::new(Key::Method, BaseMethod::Planes)
+        "moved vertices keep the faces of their start, which has {fewest}; remedy: give `{}`, or \
+         `{}`",
+        Setting::new(Key::Faces, .fewest), Setting::new(Key::Method, BaseMethod::Planes)
     )]
     FewerThanStart {
-        /// The number asked for.
-        faces: usize,
         /// The faces of the start, or of the one with the fewest.
         fewest: usize,
     },

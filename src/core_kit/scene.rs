@@ -44,6 +44,7 @@ pub fn pictures(
     let view = CoreView {
         things: &things,
         units: units.iter().map(|unit| unit.id.clone()).collect(),
+        ways: units.iter().map(|unit| Vector::from(unit.way)).collect(),
         apart: units.iter().map(|unit| apart(unit, &joins)).collect(),
         polyhedra: units.iter().map(|unit| unit.polyhedron).collect(),
         steps: steps(&units, &joins),

@@ -95,9 +95,8 @@
 //! those of a sheet of 5 mm on a bed of 900 × 600. With them 0.85 is asked, or the name of the one
 //! that binds. All rows reach it, and none breaks a limit.
 //!
-//! Seconds are processor time of the development build on a busy machine, for both searches of a
-//! row. One search thus takes less than 10 s on 2 cores. Two polyhedra take 28.6 s of it for the
-//! bunny: that is 14 s on 2 cores, 7 s for each.
+//! Seconds are processor time of all threads, of the development build on a busy machine. Those of
+//! the first table are the sum of both searches of a row.
 //!
 //! | model | reference | no limits | of it | with limits | of it | broken limits | s, both |
 //! | --- | --- | --- | --- | --- | --- | --- | --- |
@@ -148,5 +147,5 @@
 //!
 //! Samples alone reach more than planes in the bunny and the elephant, but none of that is a base.
 //! The faces prove at most 3.6 of 5 mm, and in 11 of 17 rows they cut the model. Proved, planes
-//! fill more in five of six models. The elephant's icosahedron is proved at 0.252, by 20 panels.
+//! fill more in five of six models. The elephant's icosahedron is proved at 0.252, planes at 0.242.
 //! The descent often stalls where a vertex meets the surface.

@@ -21,7 +21,8 @@ pub enum BaseMethod {
     #[default]
     Planes,
     /// The vertices of a regular polyhedron move, as in the paper, and the proof is made for what
-    /// they yield. `None` tries all polyhedra and keeps the one with the largest proved volume.
+    /// they yield. `None` tries all polyhedra with no more faces than asked for. It keeps the one
+    /// with the largest proved volume, first of all of those that get panels.
     Vertices(Option<StartSolid>),
 }
 

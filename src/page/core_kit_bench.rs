@@ -43,7 +43,7 @@ fn bench<'a>(view: &'a CoreView, unit: usize) -> Draft<'a> {
     let alt = format!("The parts of {name} drawn apart, with pins that point to their sockets.");
     let file = format!("pictures/bench-{:02}.svg", unit + 1);
     let draft = view.draft(file, items.collect(), [&caption, &alt]);
-    let way = view.apart[unit].try_normalize(0.0).unwrap_or(view.up);
+    let way = view.ways[unit].try_normalize(0.0).unwrap_or(view.up);
     Draft {
         role: Role::Bench,
         shot: Shot {
@@ -74,7 +74,7 @@ pub(super) fn ballast<'a>(view: &'a CoreView) -> Option<Draft<'a>> {
     let shown = (0..view.things.len()).filter(|&at| {
         let (kind, unit) = (view.things[at].kind, view.things[at].unit);
         let is_beside = view.polyhedra[unit] == view.polyhedra[floor];
-        let is_behind = view.apart[unit].dot(&toward) < FACING;
+        let is_behind = view.ways[unit].dot(&toward) < FACING;
         let is_seen = unit == floor || is_behind;
         (kind.is_base() || kind == ThingKind::Ballast) && is_beside && is_seen
     });

@@ -15,6 +15,9 @@ use crate::verify::{
     PanelsFile,
 };
 
+/// Moves below this are rounding, mm.
+const LEAST_MOVE_MM: f64 = 1e-3;
+
 /// The proofs of a base as the kit holds them.
 #[derive(Debug, Clone, Copy)]
 pub struct CoreProof<'a> {
@@ -94,12 +97,39 @@ fn moved_vertices(sheet: &CoreSheet) -> Markup {
     let lost = 100.0 * (1.0 - sheet.base.volume_mm3 / found.volume_mm3);
     html! {
         p {
-            "The base is that of CofiFab (2016): the vertices of the " (found.start) " moved. That method samples the surface of its polyhedron: here the samples keep "
-            (quantity(found.sampled_mm, "mm")) ", but the faces alone prove " (quantity(found.certified_mm, "mm"))
-            ". So its faces were moved inward, by up to " (quantity(found.moved_mm, "mm")) ", until every piece was parted. That cost "
-            (quantity(lost, "%")) " of its volume."
+            "The base is that of CofiFab (2016): the vertices of the " (found.start) " moved. That method samples the surface of its polyhedron. "
+            (proof_of_faces([found.sampled_mm, found.certified_mm], found.moved_mm))
+            " " (proof_cost(lost))
         }
     }
+}
+
+/// Tells how far samples and faces keep from the surface, and by how much faces then moved, mm.
+fn proof_of_faces([sampled_mm, certified_mm]: [f64; 2], moved_mm: f64) -> String {
+    let [sampled, certified] = [sampled_mm, certified_mm].map(|mm| quantity(mm, "mm"));
+    if moved_mm < LEAST_MOVE_MM {
+        return format!(
+            "Here the samples keep {sampled}, and the faces alone prove {certified}. So no face \
+             had to move."
+        );
+    }
+    format!(
+        "Here the samples keep {sampled}, but the faces alone prove {certified}. So its faces were \
+         moved inward, by up to {}, until every piece was parted.",
+        quantity(moved_mm, "mm")
+    )
+}
+
+/// Tells the share of the volume that a proof cost, %. Less than nothing is a gain: each plane
+/// begins as far out as the farthest corner of its face.
+fn proof_cost(lost: f64) -> String {
+    if lost >= 0.0 {
+        return format!("That cost {} of its volume.", quantity(lost, "%"));
+    }
+    format!(
+        "The flat faces, each as far out as its farthest corner, hold {} more than the bent ones.",
+        quantity(-lost, "%")
+    )
 }
 
 /// Returns the number of pieces that a plane parts.
@@ -205,5 +235,24 @@ fn table(title: &str, heads: [&str; 2], rows: &[(&str, String)]) -> Markup {
                 }
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_proof_that_moves_no_face_and_costs_nothing_is_told_as_such() {
+        let still = proof_of_faces([5.0, 5.0], 0.0);
+        assert!(
+            still.contains("the faces alone prove 5\u{a0}mm. So no face"),
+            "{still}"
+        );
+        let moved = proof_of_faces([5.0, -1.0], 6.0);
+        assert!(moved.contains("by up to 6\u{a0}mm"), "{moved}");
+        assert_eq!(proof_cost(4.0), "That cost 4\u{a0}% of its volume.");
+        let gained = proof_cost(-0.4);
+        assert!(gained.contains("hold 0.4\u{a0}% more"), "{gained}");
     }
 }

@@ -77,7 +77,10 @@ pub struct CoreView<'a> {
     pub things: &'a [ShownThing<'a>],
     /// The names of the units in the order in which they are joined.
     pub units: Vec<String>,
-    /// The ways by which units are drawn apart, each as a multiple of the usual one.
+    /// The direction in which each unit leaves its own polyhedron, a unit vector.
+    pub ways: Vec<Vector>,
+    /// The ways by which units are drawn apart, each as a multiple of the usual one. They hold
+    /// those of their polyhedra too.
     pub apart: Vec<Vector>,
     /// The number of each unit's polyhedron; `None` if there is one.
     pub polyhedra: Vec<Option<usize>>,

@@ -138,13 +138,6 @@ impl BasePlan {
         [below, above].map(|side| leaves_of(&self.splits, side))
     }
 
-    /// Returns true if the connections join all polyhedra to one.
-    pub fn is_joined(&self) -> bool {
-        self.joined_to_first()
-            .into_iter()
-            .all(|is_joined| is_joined)
-    }
-
     /// Returns two polyhedra across a plane of which connections join only one to the first
     /// polyhedron; `None` if all are joined. Of several such pairs it is the one whose faces share
     /// the largest disc.

@@ -25,6 +25,7 @@
 
 mod base_file;
 mod base_plan;
+mod branch;
 mod connection;
 mod convex;
 mod dealing;

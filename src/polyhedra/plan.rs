@@ -3,6 +3,7 @@
 use rayon::prelude::*;
 
 use super::base_plan::{BasePlan, Child, Split, connected};
+use super::branch::{Branch, Leaf, Parted, most_apart, most_gainful, part_branch};
 use super::connection::{ConnectorRequest, Pair};
 use super::ground::Ground;
 use super::inscribe::{Region, Request};
@@ -41,66 +42,6 @@ pub struct Several {
     pub connector: ConnectorRequest,
 }
 
-/// One side of a plane, and its polyhedron.
-#[derive(Debug, Clone)]
-struct Leaf {
-    locked: Vec<Plane>,
-    polyhedron: Polyhedron,
-}
-
-/// A leaf, and the best way to part it as far as one was looked for.
-struct Branch {
-    leaf: Leaf,
-    parted: Option<Parted>,
-    is_tried: bool,
-}
-
-impl Branch {
-    fn new(leaf: Leaf) -> Self {
-        Self {
-            leaf,
-            parted: None,
-            is_tried: false,
-        }
-    }
-
-    fn polyhedron(&self) -> &Polyhedron {
-        &self.leaf.polyhedron
-    }
-}
-
-/// Returns the branch that gains most by being parted, if it gains more than the least.
-fn most_gainful(branches: &[Branch], least_mm3: f64) -> Option<usize> {
-    let joined = gains(branches).filter(|(_, parted)| parted.unjoined.is_none());
-    let enough = joined
-        .map(|(index, parted)| (index, parted.gain_mm3))
-        .filter(|(_, gain)| *gain > least_mm3);
-    let best = enough.reduce(|a, b| if b.1 > a.1 { b } else { a });
-    best.map(|(index, _)| index)
-}
-
-/// Returns the branches for which a plane is known, with it.
-fn gains(branches: &[Branch]) -> impl Iterator<Item = (usize, &Parted)> {
-    let all = branches.iter().enumerate();
-    all.filter_map(|(index, branch)| Some((index, branch.parted.as_ref()?)))
-}
-
-/// A leaf parted by a plane.
-struct Parted {
-    plane: Plane,
-    leaves: [Leaf; 2],
-    gain_mm3: f64,
-    /// Both sides, if nothing joins them.
-    unjoined: Option<Unjoined>,
-}
-
-impl Parted {
-    /// Returns what makes one plane better than another: first of all, both sides are joined.
-    fn rank(&self) -> (bool, f64) {
-        (self.unjoined.is_none(), self.gain_mm3)
-    }
-}
-
 /// A model that was parted as often as was asked for and could be.
 struct Divided {
     polyhedra: Vec<Polyhedron>,
@@ -129,8 +70,8 @@ struct Planner<'a> {
 /// than asked for because nothing joins them.
 ///
 /// Each side of a plane grows its own, with one face locked on the plane. Planes are square to the
-/// axes of the model. Every polyhedron costs a search of its own and some trials of planes, about
-/// 10 s on 2 cores. A plane is taken only if connections join all polyhedra.
+/// axes of the model. Every polyhedron costs a search of its own and some trials of planes: two of
+/// them took 21 to 29 s of processor time. A plane is taken only if connections join all polyhedra.
 ///
 /// The same bytes on any number of threads.
 pub fn grow_polyhedra(
@@ -172,7 +113,6 @@ impl Planner<'_> {
         };
         let mut branches = vec![Branch::new(first)];
         let mut splits: Vec<Split> = Vec::new();
-        let mut unjoined = None;
         while branches.len() < most {
             for branch in branches.iter_mut().filter(|branch| !branch.is_tried) {
                 branch.parted = self.part(&branch.leaf)?;
@@ -190,17 +130,17 @@ impl Planner<'_> {
             add_split(&mut next, index, parted.plane, branches.len());
             let plan = self.with_parted(&branches, index, &parted, &next);
             let apart = plan.unjoined(self.ground, self.connector);
-            if apart.is_none() {
-                splits = next;
-                let [below, above] = parted.leaves;
-                branches[index] = Branch::new(below);
-                branches.push(Branch::new(above));
+            if apart.is_some() {
+                branches[index].parted = Some(parted);
+                branches[index].apart = apart;
+                continue;
             }
-            unjoined = apart.or(unjoined);
+            splits = next;
+            part_branch(&mut branches, index, parted.leaves);
         }
         let is_short = branches.len() < most;
         Ok(Divided {
-            unjoined: apart_alone(&branches).or(unjoined).filter(|_| is_short),
+            unjoined: most_apart(&branches).filter(|_| is_short),
             polyhedra: branches
                 .into_iter()
                 .map(|branch| branch.leaf.polyhedron)
@@ -339,18 +279,6 @@ impl Planner<'_> {
         let extent = Aabb::of_points(points.filter(is_inside));
         (!extent.is_empty()).then_some(extent)
     }
-}
-
-/// Returns both sides of the plane that would gain most, of those that nothing joins; the new
-/// polyhedron is the last.
-fn apart_alone(branches: &[Branch]) -> Option<Unjoined> {
-    let apart = gains(branches).filter(|(_, parted)| parted.unjoined.is_some());
-    let best = apart.reduce(|a, b| if b.1.gain_mm3 > a.1.gain_mm3 { b } else { a });
-    let (index, parted) = best?;
-    Some(Unjoined {
-        polyhedra: [index, branches.len()],
-        ..parted.unjoined?
-    })
 }
 
 /// Puts a new split in the place of a polyhedron; the one above it is new.

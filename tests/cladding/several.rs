@@ -84,7 +84,8 @@ fn clad(ground: &Ground, plan: &BasePlan) -> CladShell {
 fn polyhedra_at_a_waist_come_together_though_their_units_bar_each_other() {
     let ground = waisted();
     let plan = plan(&ground);
-    assert!(plan.is_joined() && plan.connections.len() == 1);
+    assert_eq!(plan.connections.len(), 1);
+    assert_eq!(plan.connections[0].polyhedra, [0, 1]);
     let shell = clad(&ground, &plan);
     let assembly = &shell.assembly;
     let bodies = unit_bodies(&shell);

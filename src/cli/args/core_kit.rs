@@ -75,7 +75,8 @@ pub struct BaseArgs {
     ///
     /// Vertices start from a cube, a dodecahedron or an icosahedron, such as vertices:cube. They
     /// make one polyhedron. What they yield is not proved, so its faces move inward until
-    /// it is. Without a start all three are tried, and the largest is kept.
+    /// it is. Without a start, those with no more faces than asked for are tried. The largest is
+    /// kept, first of all of those that get panels.
     #[arg(long, value_name = "planes|vertices[:START]")]
     pub method: Option<BaseMethod>,
     /// The number of polyhedra inside, bolted together: auto, or 1 to 6 [default: 1]
