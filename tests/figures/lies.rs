@@ -55,8 +55,7 @@ impl Lie {
             Self::Moved | Self::Swapped | Self::NoPin | Self::NoPins => {
                 (1, "every pin and socket has its size")
             }
-            // One part of two is left.
-            Self::Lost => (2, "or one in one part does"),
+            Self::Lost => (1, "add up to the uncut juncture"),
             Self::NoCuts => (2, "states no cuts"),
             Self::NoPegs => (1, "with all pins, sockets and ids"),
             Self::Elsewhere => (1, "keep the model's surface"),
