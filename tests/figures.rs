@@ -7,6 +7,8 @@
 )]
 
 mod common;
+#[path = "figures/lies.rs"]
+mod lies;
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -15,12 +17,12 @@ use common::{
     assert_exit, checklist, equipoise, judge_telescope, list, number, path, printed, shared_model,
     telescope_judge_says, text, verify, words,
 };
-use equipoise::geom::{Frame, Plane, Point, Vector};
+use equipoise::geom::{Plane, Point, Vector};
 use equipoise::io::stl;
 use equipoise::mesh::primitives::{self, ball};
 use equipoise::mesh::{Csg, Solid, TriMesh, bodies};
 use equipoise::repair::weld;
-use equipoise::verify::{Peg, Pose};
+use lies::{LIES, Lie, assert_found, lie_about_a_part};
 use serde_json::Value;
 
 /// A ball of the figure: its centre and its radius, mm.
@@ -164,17 +166,19 @@ fn a_trunk_larger_than_the_printer_is_cut_and_the_judge_finds_what_is_wrong_with
     assert!(page.contains("Parts of N01") && page.contains("N01-P02"));
     let (code, said) = verify(&kit);
     assert_eq!(code, Some(0), "{said}");
-    for (lie, expected) in LIES {
+    // Those that cost little; the others are told in the long test.
+    for lie in [Lie::NoCuts, Lie::NoPins] {
         let untrue = lie_about_a_part(folder.path(), &kit, lie);
-        let (code, said) = verify(&untrue);
-        assert_eq!(code, Some(1), "{lie:?}: {said}");
-        let broken = said.lines().filter(|line| line.contains("FAIL"));
-        let broken: Vec<&str> = broken.collect();
-        assert!(
-            broken.iter().any(|line| line.contains(expected)),
-            "{lie:?}: {broken:?}"
-        );
+        assert_found(&untrue, lie);
     }
+    let older = folder.path().join("older");
+    common::copy(&kit, &older);
+    let list = older.join("checklist.json");
+    let mut sheet: Value = serde_json::from_slice(&fs::read(&list).unwrap()).unwrap();
+    sheet["schema"] = 1.into();
+    fs::write(&list, sheet.to_string()).unwrap();
+    let (code, said) = verify(&older);
+    assert!(code == Some(2) && said.contains("make it again"), "{said}");
 }
 
 #[test]
@@ -198,10 +202,28 @@ fn both_judges_agree_on_a_cut_trunk_and_its_bytes_are_those_of_one_thread() {
         );
     }
     judge_telescope(&kit);
-    for (lie, _) in LIES {
-        let untrue = lie_about_a_part(folder.path(), &kit, lie);
+}
+
+#[test]
+#[ignore = "takes minutes; run before a change of junctures"]
+fn both_judges_find_every_lie_about_a_cut_trunk() {
+    let folder = tempfile::tempdir().unwrap();
+    write_figure(folder.path());
+    let kit = prepare_small(folder.path(), "kit", "--threads 2");
+    let lies = LIES.map(|lie| (lie, lie_about_a_part(folder.path(), &kit, lie)));
+    for (lie, untrue) in &lies {
+        assert_found(untrue, *lie);
+    }
+    for (lie, untrue) in lies {
         if let Some(output) = telescope_judge_says(&untrue) {
             assert_exit(&output, 1);
+            // The Python judge needs no cuts. That its list was changed is not enough for the rest.
+            let said = printed(&output);
+            let is_found = said.lines().any(|line| {
+                let is_of_part = line.contains("N0") || line.contains("pin ");
+                line.starts_with("FAIL") && is_of_part
+            });
+            assert!(is_found || matches!(lie, Lie::Elsewhere), "{lie:?}: {said}");
         }
     }
 }
@@ -222,75 +244,6 @@ fn the_torso_of_an_armadillo_of_300_mm_is_cut_for_a_form_4() {
     let (code, said) = verify(&kit);
     assert_eq!(code, Some(0), "{said}");
     judge_telescope(&kit);
-}
-
-/// Something that is wrong with a part of the cut trunk.
-#[derive(Debug, Clone, Copy)]
-enum Lie {
-    /// Its pose is a tenth of a millimetre aside.
-    Moved,
-    /// Its file is that of another.
-    Swapped,
-    /// It is not on the list.
-    Lost,
-    /// A pin is cut off.
-    NoPin,
-}
-
-/// The lies with words of a promise that each breaks.
-const LIES: [(Lie, &str); 4] = [
-    (Lie::Moved, "every pin and socket has its size"),
-    (Lie::Swapped, "every pin and socket has its size"),
-    (Lie::Lost, "add up to the uncut juncture"),
-    (Lie::NoPin, "every pin and socket has its size"),
-];
-
-/// Copies the kit and lies in the copy.
-fn lie_about_a_part(folder: &Path, kit: &Path, lie: Lie) -> PathBuf {
-    let copy = folder.join(format!("{lie:?}"));
-    common::copy(kit, &copy);
-    let list = copy.join("checklist.json");
-    let mut sheet: Value = serde_json::from_slice(&fs::read(&list).unwrap()).unwrap();
-    let junctures = sheet["junctures"].as_array_mut().unwrap();
-    let mut junctures = junctures.iter_mut();
-    let cut = junctures.find(|own| own.get("divided").is_some()).unwrap();
-    let parts = cut["parts"].as_array_mut().unwrap();
-    let file = |part: &Value| copy.join(part["file"].as_str().unwrap());
-    match lie {
-        Lie::Moved => {
-            let shift = &mut parts[1]["print_from_model"][0][3];
-            *shift = (shift.as_f64().unwrap() + 0.1).into();
-        }
-        Lie::Swapped => {
-            let bytes = [&parts[0], &parts[1]].map(|part| fs::read(file(part)).unwrap());
-            fs::write(file(&parts[0]), &bytes[1]).unwrap();
-            fs::write(file(&parts[1]), &bytes[0]).unwrap();
-        }
-        Lie::Lost => drop(parts.pop()),
-        Lie::NoPin => cut_off_a_pin(parts, file),
-    }
-    fs::write(&list, sheet.to_string()).unwrap();
-    copy
-}
-
-/// Cuts the first pin off the part that has it.
-fn cut_off_a_pin(parts: &[Value], file: impl Fn(&Value) -> PathBuf) {
-    let has_pin = |part: &&Value| part["pins"].as_array().is_some_and(|pins| !pins.is_empty());
-    let part = parts.iter().find(has_pin).unwrap();
-    let pose: Pose = serde_json::from_value(part["print_from_model"].clone()).unwrap();
-    let pin: Peg = serde_json::from_value(part["pins"][0].clone()).unwrap();
-    // A block from just above the cut to beyond the tip.
-    let frame = Frame::with_axis(Point::from(pin.center_mm), &Vector::from(pin.axis));
-    let (wide, low) = (pin.diameter_mm, 0.01);
-    let block = primitives::cuboid(
-        &Point::new(-wide, -wide, low),
-        &Point::new(wide, wide, 2.0 * pin.length_mm),
-    );
-    let block = block.map_vertices(|p| pose.to_print(&frame.to_model(p)));
-    let mesh = weld(&stl::decode(&fs::read(file(part)).unwrap()).unwrap());
-    let rest = Csg::of_mesh(&mesh).unwrap();
-    let rest = rest.subtract(&Csg::of_mesh(&block).unwrap()).unwrap();
-    fs::write(file(part), stl::encode(&rest.to_mesh().unwrap(), "part")).unwrap();
 }
 
 #[test]

@@ -1,33 +1,67 @@
 //! The steps of gluing: two bodies of parts at a time, in an order that works.
 
+use crate::sheet::network::JunctureJointRow;
 use crate::sheet::{Checklist, JointRow};
 
 /// Number of pins that align a joint fully, if it has no note.
 const ONE_WAY_PINS: usize = 2;
 
+/// A joint that is glued.
+pub(super) trait Glued {
+    /// Returns the parts that meet.
+    fn parts(&self) -> &[String; 2];
+    /// Returns the cut in which they meet.
+    fn cut(&self) -> &str;
+}
+
+impl Glued for JointRow {
+    fn parts(&self) -> &[String; 2] {
+        &self.parts
+    }
+
+    fn cut(&self) -> &str {
+        &self.cut
+    }
+}
+
+impl Glued for JunctureJointRow {
+    fn parts(&self) -> &[String; 2] {
+        &self.parts
+    }
+
+    fn cut(&self) -> &str {
+        &self.cut
+    }
+}
+
 /// A step of gluing: all joints between two bodies of parts, which close in one movement.
-pub(super) struct Closing<'a> {
+pub(super) struct Closing<'a, J = JointRow> {
     /// The joints that close.
-    pub(super) joints: Vec<&'a JointRow>,
+    pub(super) joints: Vec<&'a J>,
     /// Ids of the parts of each body.
     pub(super) sides: [Vec<&'a str>; 2],
 }
 
+/// Returns the steps of gluing the parts of a kit.
+pub(super) fn closings<'a>(sheet: &'a Checklist) -> Vec<Closing<'a>> {
+    let parts = sheet.parts.iter().map(|part| part.id.as_str());
+    closings_of(parts, sheet.joints.iter().collect())
+}
+
 /// Returns the steps of gluing in an order that works, cut by cut. What is closed first lies wholly
 /// on one side of every later cut, so two bodies meet along one plane.
-pub(super) fn closings<'a>(sheet: &'a Checklist) -> Vec<Closing<'a>> {
-    let mut bodies: Vec<Vec<&str>> = sheet
-        .parts
-        .iter()
-        .map(|part| vec![part.id.as_str()])
-        .collect();
-    let mut open: Vec<&JointRow> = sort_by_cut(&sheet.joints);
+pub(super) fn closings_of<'a, J: Glued>(
+    parts: impl Iterator<Item = &'a str>,
+    joints: Vec<&'a J>,
+) -> Vec<Closing<'a, J>> {
+    let mut bodies: Vec<Vec<&str>> = parts.map(|part| vec![part]).collect();
+    let mut open = sort_by_cut(joints);
     let mut closings = Vec::new();
     while let Some(first) = open.first() {
-        let sides = first.parts.each_ref().map(|part| body_of(&bodies, part));
-        let closes = |joint: &&JointRow| {
+        let sides = first.parts().each_ref().map(|part| body_of(&bodies, part));
+        let closes = |joint: &&J| {
             joint
-                .parts
+                .parts()
                 .iter()
                 .all(|part| sides.iter().any(|side| side.contains(&part.as_str())))
         };
@@ -41,10 +75,10 @@ pub(super) fn closings<'a>(sheet: &'a Checklist) -> Vec<Closing<'a>> {
 }
 
 /// Sorts the joints by cut, with the cuts in the order of their first joints.
-fn sort_by_cut(joints: &[JointRow]) -> Vec<&JointRow> {
-    let first = |cut: &str| joints.iter().position(|joint| joint.cut == cut);
-    let mut sorted: Vec<&JointRow> = joints.iter().collect();
-    sorted.sort_by_key(|joint| first(&joint.cut));
+fn sort_by_cut<J: Glued>(joints: Vec<&J>) -> Vec<&J> {
+    let first = |cut: &str| joints.iter().position(|joint| joint.cut() == cut);
+    let mut sorted = joints.clone();
+    sorted.sort_by_key(|joint| first(joint.cut()));
     sorted
 }
 
@@ -57,6 +91,20 @@ fn body_of<'a>(bodies: &[Vec<&'a str>], part: &'a str) -> Vec<&'a str> {
         .unwrap_or_else(|| vec![part])
 }
 
+impl<J: Glued> Closing<'_, J> {
+    /// Names the parts of the two bodies that meet: `P01 + P03`.
+    pub(super) fn bodies(&self) -> [String; 2] {
+        let meets = |part: &&str| {
+            let mut parts = self.joints.iter().flat_map(|joint| joint.parts());
+            parts.any(|met| met == part)
+        };
+        self.sides.each_ref().map(|side| {
+            let met: Vec<&str> = side.iter().copied().filter(meets).collect();
+            met.join(" + ")
+        })
+    }
+}
+
 impl Closing<'_> {
     /// Names the joints: `J6 and J7 together`.
     pub(super) fn name(&self) -> String {
@@ -66,18 +114,6 @@ impl Closing<'_> {
             Some((last, others)) => format!("{} and {last} together", others.join(", ")),
             None => String::new(),
         }
-    }
-
-    /// Names the parts of the two bodies that meet: `P01 + P03`.
-    pub(super) fn bodies(&self) -> [String; 2] {
-        let meets = |part: &&str| {
-            let mut parts = self.joints.iter().flat_map(|joint| &joint.parts);
-            parts.any(|met| met == part)
-        };
-        self.sides.each_ref().map(|side| {
-            let met: Vec<&str> = side.iter().copied().filter(meets).collect();
-            met.join(" + ")
-        })
     }
 
     /// Words how the bodies come together, the lighter onto the heavier: `push P03 onto P01`.

@@ -2,6 +2,7 @@
 
 use maud::{Markup, html};
 
+use super::closing::{Closing, closings_of};
 use super::document::styled_document;
 use super::fields::file_name;
 use super::figure::{Picture, Role, figures};
@@ -17,7 +18,7 @@ use crate::base::numbers::{measured, measured_extent, number};
 use crate::base::units::format_count;
 use crate::sheet::network::{JunctureJointRow, LimbRow, NetworkSheet};
 use crate::sheet::telescope::JointRow;
-use crate::verify::JuncturePartPromise;
+use crate::verify::{JuncturePartPromise, JuncturePromise};
 
 /// Everything the pages of several telescopes show.
 #[derive(Debug, Clone, Copy)]
@@ -217,28 +218,50 @@ fn glue_parts(sheet: &NetworkSheet) -> Markup {
         @for own in divided {
             h3 { "Parts of " (own.id) }
             p {
-                "Glue them before any limb goes in. Put all together dry first: the pins fit one way only. "
-                "Wipe off what comes out at the seams, above all in the sockets."
+                "Glue them before any limb goes in. Put all together dry first"
+                @if fits_one_way(sheet, &own.id) { ": the pins fit one way only" }
+                ". Wipe off what comes out at the seams, above all in the sockets."
             }
             ul class="ticks" {
-                @for joint in &sheet.juncture_joints {
-                    @if joint.juncture == own.id { li { (joint_words(joint)) } }
-                }
+                @for closing in gluing_steps(sheet, own) { li { (closing_words(&closing)) } }
             }
         }
     }
 }
 
-fn joint_words(joint: &JunctureJointRow) -> String {
-    let [below, above] = &joint.parts;
-    let pins = match joint.pins {
-        0 => "no pins: align the outlines".to_owned(),
-        count if joint.is_aligned => format_count(count, "pin"),
-        count => format!("{}: align the outlines too", format_count(count, "pin")),
+/// Returns true if the pins of all joints of a juncture fit one way only.
+fn fits_one_way(sheet: &NetworkSheet, juncture: &str) -> bool {
+    let joints = sheet.juncture_joints.iter();
+    let mut own = joints.filter(|joint| joint.juncture == juncture);
+    own.all(|joint| joint.is_aligned)
+}
+
+/// Returns the steps in which the parts of a juncture are glued.
+fn gluing_steps<'a>(
+    sheet: &'a NetworkSheet,
+    own: &'a JuncturePromise,
+) -> Vec<Closing<'a, JunctureJointRow>> {
+    let joints = sheet.juncture_joints.iter();
+    let joints = joints.filter(|joint| joint.juncture == own.id);
+    let parts = own.parts.iter().map(|part| part.id.as_str());
+    closings_of(parts, joints.collect())
+}
+
+fn closing_words(closing: &Closing<JunctureJointRow>) -> String {
+    let [one, other] = closing.bodies();
+    let joints = || closing.joints.iter();
+    let area_mm2 = joints().map(|joint| joint.area_mm2).sum();
+    // Pins that align one joint align all that close with it.
+    let is_aligned = joints().any(|joint| joint.is_aligned);
+    let mut notes: Vec<&str> = joints().filter_map(|joint| joint.note).collect();
+    notes.dedup();
+    let pins = match is_aligned {
+        true => format_count(joints().map(|joint| joint.pins).sum(), "pin"),
+        false => notes.join("; "),
     };
     format!(
-        "Glue {below} to {above}, {}, {pins}.",
-        measured(joint.area_mm2, "mm²")
+        "Glue {one} to {other}, {}, {pins}.",
+        measured(area_mm2, "mm²")
     )
 }
 
@@ -284,5 +307,42 @@ fn test(page: &NetworkPage) -> Markup {
                 }
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn joints_that_close_in_one_move_are_one_line_and_loose_ones_say_why() {
+        let id = |part: usize| format!("N01-P0{part}");
+        let row = |below: usize, above: usize, cut: &str| JunctureJointRow {
+            juncture: "N01".to_owned(),
+            cut: cut.to_owned(),
+            parts: [id(below), id(above)],
+            area_mm2: 100.0,
+            pins: 2,
+            is_aligned: true,
+            note: None,
+        };
+        let loose = JunctureJointRow {
+            pins: 1,
+            is_aligned: false,
+            note: Some("do not turn it"),
+            ..row(1, 2, "C2")
+        };
+        let joints = [loose, row(1, 3, "C1"), row(2, 3, "C1")];
+        let ids = [1, 2, 3].map(id);
+        let steps = closings_of(ids.iter().map(String::as_str), joints.iter().collect());
+        let said: Vec<String> = steps.iter().map(closing_words).collect();
+        assert_eq!(said.len(), 2);
+        assert!(said[0].contains("N01-P01 to N01-P02") && said[0].contains("do not turn it"));
+        assert!(
+            said[1].contains("N01-P01 + N01-P02 to N01-P03, 200"),
+            "{}",
+            said[1]
+        );
+        assert!(said[1].contains("4 pins"));
     }
 }

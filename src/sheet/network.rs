@@ -7,10 +7,10 @@ use serde::Serialize;
 use super::kind::kind_sheet;
 use super::telescope::{CurveRow, TelescopeMaterial, TelescopePrinter, TelescopeSheet};
 use super::{KindSheet, Verdict};
-use crate::verify::{Check, JuncturePromise};
+use crate::verify::{Check, JuncturePromise, NETWORK_SCHEMA};
 
 /// The version of the keys.
-pub const NETWORK_SHEET_SCHEMA: u32 = 1;
+pub const NETWORK_SHEET_SCHEMA: u32 = NETWORK_SCHEMA;
 
 /// Everything the sheets of several telescopes say: `checklist.json`.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -87,6 +87,8 @@ pub struct LimbRow {
 pub struct JunctureJointRow {
     /// The juncture.
     pub juncture: String,
+    /// The cut in which they meet.
+    pub cut: String,
     /// The parts below and above the cut.
     pub parts: [String; 2],
     /// The area that is glued, mm².
@@ -95,6 +97,9 @@ pub struct JunctureJointRow {
     pub pins: usize,
     /// True if the pins let them together in one way only, and hold them.
     pub is_aligned: bool,
+    /// The reason why they are not, with what to do.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub note: Option<&'static str>,
 }
 
 /// A part of a juncture as the shop handles it.

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
+use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
 
@@ -62,15 +63,29 @@ pub enum KitFolderError {
         /// The fault and its line.
         source: serde_json::Error,
     },
-    /// A file has another schema.
+    /// A file has the schema of a newer version.
     #[error(
-        "{path} has schema {found}, this program reads schema {SCHEMA}; use the version that wrote it"
+        "{path} has schema {found}, this program reads schema {known}; use the version that wrote it"
     )]
     Schema {
         /// The file.
         path: PathBuf,
         /// Its schema.
         found: u32,
+        /// The schema that this version reads.
+        known: u32,
+    },
+    /// A file has the schema of an older version.
+    #[error(
+        "{path} was made by an older version (schema {found}, this one reads {known}); make it again"
+    )]
+    Older {
+        /// The file.
+        path: PathBuf,
+        /// Its schema.
+        found: u32,
+        /// The schema that this version reads.
+        known: u32,
     },
     /// Files do not belong together.
     #[error("{path} does not belong to this kit: {why}; copy the kit again")]
@@ -86,6 +101,12 @@ pub enum KitFolderError {
     /// A file of the kit cannot be read, or lies outside of it.
     #[error(transparent)]
     Folder(#[from] VerifyError),
+}
+
+/// The key that every list has.
+#[derive(Deserialize)]
+struct Head {
+    schema: u32,
 }
 
 /// The folder of a kit.
@@ -105,23 +126,34 @@ impl KitFolder<'_> {
         Ok(std::fs::read(&path).map_err(|source| VerifyError::File { path, source })?)
     }
 
-    /// Returns a list in the kit, and refuses one of another schema. `schema` reads it.
-    pub fn list<T: DeserializeOwned>(
+    /// Returns a list in the kit, and refuses one of another schema.
+    pub fn list<T: DeserializeOwned>(&self, file: &str) -> Result<T, KitFolderError> {
+        self.list_of_schema(file, SCHEMA)
+    }
+
+    /// Returns a list in the kit, and refuses one of another schema than the one that is `known`.
+    pub fn list_of_schema<T: DeserializeOwned>(
         &self,
         file: &str,
-        schema: fn(&T) -> u32,
+        known: u32,
     ) -> Result<T, KitFolderError> {
+        // The schema comes first: keys of another version may have another shape.
+        let Head { schema: found } = self.parsed(file)?;
+        let path = self.path.join(file);
+        if found < known {
+            return Err(KitFolderError::Older { path, found, known });
+        }
+        if found > known {
+            return Err(KitFolderError::Schema { path, found, known });
+        }
+        self.parsed(file)
+    }
+
+    /// Returns keys of a file, of any schema.
+    pub fn parsed<T: DeserializeOwned>(&self, file: &str) -> Result<T, KitFolderError> {
         let path = self.path.join(file);
         let list = serde_json::from_slice(&self.bytes(file)?);
-        let list = list.map_err(|source| KitFolderError::Json {
-            path: path.clone(),
-            source,
-        })?;
-        let found = schema(&list);
-        if found != SCHEMA {
-            return Err(KitFolderError::Schema { path, found });
-        }
-        Ok(list)
+        list.map_err(|source| KitFolderError::Json { path, source })
     }
 
     /// Returns the error that a file does not belong to the others.

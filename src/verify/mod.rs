@@ -195,7 +195,7 @@ pub use telescope::{
 pub use telescope::{CURVE_FILE, MOTION_FILE, MOTION_SCENE_FILE, OPENING, asked_points};
 // Several telescopes on junctures.
 pub use telescope::{
-    DividedFacts, DividedPromise, JuncturePartPromise, JuncturePromise, LimbPromise, ModelFacts,
-    NetworkEvidence, NetworkFacts, NetworkKey, NetworkMotion, NetworkPromise, judge_network,
-    limb_curve_file, network_checks,
+    DividedFacts, DividedPromise, JunctureJointPromise, JuncturePartPromise, JuncturePromise,
+    LimbPromise, ModelFacts, NETWORK_SCHEMA, NetworkEvidence, NetworkFacts, NetworkKey,
+    NetworkMotion, NetworkPromise, judge_network, limb_curve_file, network_checks,
 };

@@ -176,6 +176,17 @@ pub(super) fn measure_pins<'a>(
     })
 }
 
+/// Returns the sockets that no part has a pin for, as pins that are not there.
+pub(super) fn lone_sockets<'a>(bearers: &'a [PegBearer]) -> impl Iterator<Item = PegFacts> + 'a {
+    let has_pin = |id: &String| {
+        let mut pins = bearers.iter().flat_map(|bearer| bearer.pins);
+        pins.any(|pin| pin.id == *id)
+    };
+    let sockets = bearers.iter().flat_map(|bearer| bearer.sockets);
+    let lone = sockets.filter(move |socket| !has_pin(&socket.id));
+    lone.map(|socket| PegFacts::lost(&socket.id))
+}
+
 /// Returns the first socket for a pin on each part that has one.
 fn sockets_of<'a>(pin: &str, bearers: &[PegBearer<'a>]) -> Vec<PegOnPart<'a>> {
     let socket = |bearer: &PegBearer<'a>| {

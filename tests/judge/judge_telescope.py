@@ -70,6 +70,10 @@ SUM_RATIO = 1e-5
 AROUND_MM = 20.0
 
 
+class OlderKit(Exception):
+    """A kit whose lists have another shape."""
+
+
 def screw(curvature, torsion, arc):
     """Returns the 4×4 motion along a helix: the exponential of its twist."""
     twist = np.array([[0, -curvature, 0, 1], [curvature, 0, -torsion, 0], [0, torsion, 0, 0], [0, 0, 0, 0]], float)
@@ -399,6 +403,27 @@ def judge_pin(kit, pin, carrier, socket, receiver, clearance):
     kit.say(f"pin {pin['id']} in its socket", lack < SHARED_MM3 and apart < 1e-6 and gap > clearance - 1e-3, f"gap {gap:.3f} of {clearance} mm, {lack:.5f} mm³ off")
 
 
+def judge_joints_of_parts(kit, own):
+    """As many pins and sockets as the joints of a juncture state, two where one way is promised, and no part without a joint."""
+    parts = {part["id"]: part for part in own["parts"]}
+    joints = [joint for joint in kit.sheet.get("juncture_joints", []) if joint["juncture"] == own["id"]]
+    ids = {name: [{peg["id"] for peg in part.get(kind, [])} for kind in ("pins", "sockets")] for name, part in parts.items()}
+    reached = {own["parts"][0]["id"]}
+    for joint in joints:
+        (one_pins, one_sockets), (other_pins, other_sockets) = (ids.get(name, (set(), set())) for name in joint["parts"])
+        found = len(one_pins & other_sockets) + len(other_pins & one_sockets)
+        kept = found == joint["pins"] and (found >= 2 or not joint["is_aligned"])
+        kit.say(f"{' and '.join(joint['parts'])} have their pins", kept, f"{found} of {joint['pins']}")
+    for _ in joints:
+        for joint in joints:
+            if reached & set(joint["parts"]):
+                reached |= set(joint["parts"])
+    kit.say(f"joints join all parts of {own['id']}", reached >= set(parts))
+    stated = sum(joint["pins"] for joint in joints)
+    found = [sum(len(part.get(kind, [])) for part in own["parts"]) for kind in ("pins", "sockets")]
+    kit.say(f"{own['id']} has all pins of its joints", found == [stated, stated], f"{found} of {stated}")
+
+
 def judge_divided(kit):
     """Junctures in several parts: they fit the room, meet in their cuts, hold by pins, and are the whole together."""
     room = kit.sheet["printer"].get("build_volume_mm")
@@ -409,8 +434,10 @@ def judge_divided(kit):
             size = np.ptp(trimesh.transform_points(mesh.vertices, np.array(part["print_from_model"])), axis=0)
             fits = room is None or (size[2] <= room[2] and (bool(np.all(size[:2] <= room[:2])) or bool(np.all(size[1::-1] <= room[:2]))))
             kit.say(f"{part['id']} fits the room", fits, f"{size.round(1)} in {room}")
-        if not own.get("divided"):
+        kit.say(f"{own['id']} states its cuts if it has parts", (len(meshes) > 1) == bool(own.get("divided")))
+        if len(meshes) == 1 or not own.get("divided"):
             continue
+        judge_joints_of_parts(kit, own)
         solids = [kit.solid([mesh]) for mesh in meshes]
         both = [body for i in range(len(solids)) for j in range(i) for body in (solids[i] ^ solids[j]).decompose()]
         deep = max((body.volume() / body.surface_area() for body in both), default=0.0)
@@ -514,6 +541,8 @@ def judge_all(folder):
 
 def judge(folder):
     sheet = json.loads((Path(folder) / "checklist.json").read_text())
+    if any("parts" not in own for own in sheet.get("junctures", [])):
+        raise OlderKit(f"{folder} was made by an older version, its junctures list no parts; make it again")
     if sheet["kind"] == "network":
         kit = judge_all(folder)
         kit.say("the kit's own verdict", kit.sheet["verdict"] == "pass")
@@ -533,6 +562,9 @@ def main():
         return 2
     try:
         return 1 if sum(judge(folder) + judge_scene.judge(folder) for folder in sys.argv[1:]) else 0
+    except OlderKit as error:
+        print(error)
+        return 2
     except FileNotFoundError as error:
         print(f"no kit: {error}")
         return 2

@@ -149,8 +149,9 @@ fn divide_around(
     let mut best: Option<(Worth, Layout)> = None;
     for some in planes_around(scene, layout, piece).chunks(TRIED_AT_ONCE) {
         scene.request.watch.check()?;
-        let next = some.par_iter().map(|plane| with_cut(scene, layout, plane));
-        for next in next.collect::<Result<Vec<Layout>, CutError>>()? {
+        let next = some.par_iter().map(|plane| tried(scene, layout, plane));
+        let next = next.collect::<Result<Vec<Option<Layout>>, CutError>>()?;
+        for next in next.into_iter().flatten() {
             let Some(worth) =
                 worth(scene, &next).filter(|_| next.pieces.len() > layout.pieces.len())
             else {
@@ -168,6 +169,15 @@ fn divide_around(
         }
     }
     Ok(best.map(|(_, layout)| layout))
+}
+
+/// Returns the layout with one more cut; `None` if this plane cannot be made, as others may.
+fn tried(scene: &Scene, layout: &Layout, plane: &Plane) -> Result<Option<Layout>, CutError> {
+    match with_cut(scene, layout, plane) {
+        Ok(next) => Ok(Some(next)),
+        Err(CutError::Cancelled(stopped)) => Err(stopped.into()),
+        Err(_) => Ok(None),
+    }
 }
 
 /// Returns the worth of a layout; `None` if a cut of it enters a region that is kept whole.

@@ -101,9 +101,15 @@ pub fn joint_rows(facts: &Facts) -> Vec<JointRow> {
 
 /// Returns the warning of a joint that neither pins nor a jig align fully; `None` if they do.
 fn joint_warning(made: &Made, index: usize) -> Option<&'static str> {
-    let joint = &made.plan.joints[index];
+    match made.jig_of(index) {
+        Some(_) => None,
+        None => pin_warning(&made.plan.joints[index]),
+    }
+}
+
+/// Returns the warning of a joint that its pins do not align fully; `None` if they do.
+pub fn pin_warning(joint: &JointNote) -> Option<&'static str> {
     match joint.pins.len() {
-        _ if made.jig_of(index).is_some() => None,
         0 => Some("no room for pins: align the outlines by eye and touch"),
         1 => Some("room for one pin only: do not turn it, align the outlines"),
         _ if !joint.one_way => Some("the pins fit in more than one way: align the outlines"),

@@ -20,5 +20,6 @@ mod voids;
 pub use checklist::checklist;
 pub use facts::Facts;
 pub use figures::promised_figure;
+pub use joints::pin_warning;
 pub use printer::{material_row, printer_row};
 pub use promise::{mark, pin, promise, socket};

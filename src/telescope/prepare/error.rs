@@ -158,3 +158,13 @@ pub enum TelescopeRunError {
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
 }
+
+impl TelescopeRunError {
+    /// Returns whether the caller stopped the run.
+    pub(super) fn is_stop(&self) -> bool {
+        matches!(
+            self,
+            Self::Cancelled(_) | Self::Cut(CutError::Cancelled(_)) | Self::Shared(Error::Cancelled)
+        )
+    }
+}

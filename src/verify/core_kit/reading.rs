@@ -41,9 +41,9 @@ pub fn verify_core(folder: &Path, watch: &Watch) -> Result<KindJudgement, CoreVe
 }
 
 fn read(folder: &KitFolder) -> Result<CoreEvidence, CoreVerifyError> {
-    let promise: CorePromise = folder.list(CHECKLIST_FILE, |list: &CorePromise| list.schema)?;
-    let panels: PanelsFile = folder.list(PANELS_FILE, |list: &PanelsFile| list.schema)?;
-    let certificate = folder.list(CORE_CERTIFICATE_FILE, |list: &CoreCertificate| list.schema)?;
+    let promise: CorePromise = folder.list(CHECKLIST_FILE)?;
+    let panels: PanelsFile = folder.list(PANELS_FILE)?;
+    let certificate = folder.list::<CoreCertificate>(CORE_CERTIFICATE_FILE)?;
     let drawn = promise.cut_sheets.iter();
     let drawn = drawn.flat_map(|sheet| [&sheet.dxf, &sheet.svg]);
     let named = promise.parts.iter().map(|part| &part.file);

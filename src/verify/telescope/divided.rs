@@ -6,12 +6,13 @@ use rayon::prelude::*;
 use super::juncture::{DividedPromise, JuncturePromise, in_model};
 use super::network::NetworkEvidence;
 use super::network_ends::Ends;
+use super::pinned::joint_faults;
 use crate::base::watch::{Cancelled, Watch};
 use crate::geom::{Bvh, Plane, Point, Vector};
 use crate::mass::moments_of_mesh;
 use crate::verify::cover::{Lie, ON_SHEET_MM, Sheet, Sheets, Whose};
 use crate::verify::part_probe::PartProbe;
-use crate::verify::pegs::{PegBearer, count_overlaps, measure_pins};
+use crate::verify::pegs::{PegBearer, count_overlaps, lone_sockets, measure_pins};
 use crate::verify::{Mark, PartEvidence, Peg, PegFacts};
 
 /// A triangle, mm.
@@ -112,12 +113,18 @@ impl<'a> Joints<'a> {
             .collect();
         let whole = Bvh::new(self.outside().into_iter());
         watch.check()?;
-        let pegs = measure_pins(&bearers, |_| self.divided.clearance_mm, &whole).collect();
+        let pegs = measure_pins(&bearers, |_| self.divided.clearance_mm, &whole);
+        let pegs = pegs.chain(lone_sockets(&bearers)).collect();
+        let mut strays = self.strays();
+        strays.extend(joint_faults(
+            self.promise,
+            &evidence.promise.juncture_joints,
+        ));
         Ok(DividedFacts {
             id: self.promise.id.clone(),
             pegs,
             overlaps: count_overlaps(&probes, watch)?,
-            strays: self.strays(),
+            strays,
             volume_error_ratio: self.volume_error_ratio(),
             cut_through: self.cut_through(evidence, ends),
         })
@@ -193,13 +200,9 @@ impl<'a> Joints<'a> {
         let limbs = evidence.promise.limbs.iter().zip(ends);
         let is_own = |number: usize| evidence.promise.junctures[number - 1].id == *id;
         let faults = limbs.flat_map(|(limb, ends)| {
-            let holding = |is_of: &(dyn Fn(&Corners) -> bool + Sync)| {
-                let parts = self.parts.iter();
-                let holding = parts.filter(|part| part.par_iter().any(is_of));
-                holding.count()
-            };
-            let socket = is_own(limb.from) && holding(&|corners| ends.is_in_bore(corners)) != 1;
-            let peg = is_own(limb.to) && holding(&|corners| ends.is_on_peg(corners)) != 1;
+            let [sockets, pegs] = holders(&self.parts, ends);
+            let socket = is_own(limb.from) && sockets != 1;
+            let peg = is_own(limb.to) && pegs != 1;
             let name = &limb.id;
             let socket =
                 socket.then(|| format!("no part of {id} holds the socket of {name} alone"));
@@ -208,6 +211,18 @@ impl<'a> Joints<'a> {
         });
         faults.collect()
     }
+}
+
+/// Counts the parts with a piece of a limb's bore, and those with a piece of its peg.
+fn holders(parts: &[Vec<Corners>], ends: &Ends) -> [usize; 2] {
+    let holding = |is_of: &(dyn Fn(&Corners) -> bool + Sync)| {
+        let holding = parts.iter().filter(|part| part.par_iter().any(is_of));
+        holding.count()
+    };
+    [
+        holding(&|corners| ends.is_in_bore(corners)),
+        holding(&|corners| ends.is_on_peg(corners)),
+    ]
 }
 
 /// Returns the sheets of triangles that belong to parts.
@@ -219,4 +234,47 @@ fn owned(parts: &[Vec<Corners>]) -> Sheets {
         triangles.map(move |&corners| Sheet { corners, whose })
     });
     Sheets::new(sheets.collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::TAU;
+
+    use super::super::network_ends::tests::with_straight;
+    use super::*;
+
+    /// Returns the walls of a rod of 10 mm along x between two heights.
+    fn wall(radius_mm: f64, from_mm: f64, to_mm: f64) -> Vec<Corners> {
+        let at = |i: usize, x: f64| {
+            let (sin, cos) = (TAU * i as f64 / 24.0).sin_cos();
+            Point::new(x, radius_mm * cos, radius_mm * sin)
+        };
+        let flats = (0..24).flat_map(|i| {
+            let [a, b] = [at(i, from_mm), at(i + 1, from_mm)];
+            let [c, d] = [at(i, to_mm), at(i + 1, to_mm)];
+            [[a, c, b], [b, c, d]]
+        });
+        flats.collect()
+    }
+
+    #[test]
+    fn a_bore_and_a_peg_that_are_split_by_hand_are_held_by_two_parts() {
+        with_straight(|ends| {
+            let beside = wall(30.0, 0.0, 10.0);
+            let whole = vec![
+                [wall(5.0, 0.0, 10.0), beside.clone()].concat(),
+                beside.clone(),
+            ];
+            assert_eq!(holders(&whole, ends), [1, 0]);
+            let split = vec![wall(5.0, 0.0, 4.0), wall(5.0, 4.0, 10.0)];
+            assert_eq!(holders(&split, ends)[0], 2);
+            assert_eq!(holders(&[beside.clone(), beside], ends), [0, 0]);
+            let peg = |from_mm, to_mm| wall(3.0, from_mm, to_mm);
+            assert_eq!(holders(&[peg(100.0, 110.0)], ends), [0, 1]);
+            assert_eq!(
+                holders(&[peg(100.0, 105.0), peg(105.0, 110.0)], ends),
+                [0, 2]
+            );
+        });
+    }
 }

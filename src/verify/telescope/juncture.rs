@@ -50,6 +50,19 @@ pub struct DividedPromise {
     pub cuts: Vec<PromisedCut>,
 }
 
+/// A joint between two parts of a juncture as the kit names it.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+pub struct JunctureJointPromise {
+    /// The juncture.
+    pub juncture: String,
+    /// The parts that meet.
+    pub parts: [String; 2],
+    /// The number of pins between them.
+    pub pins: usize,
+    /// True if the pins let them together in one way only, and hold them.
+    pub is_aligned: bool,
+}
+
 /// A part of a juncture, where it is when all is out.
 pub(super) struct Piece<'a> {
     /// The juncture, from 0.

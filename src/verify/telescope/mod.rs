@@ -20,6 +20,7 @@ mod network_model;
 mod network_reading;
 mod network_seats;
 mod packages;
+mod pinned;
 mod promise;
 mod reading;
 mod scene;
@@ -32,9 +33,11 @@ pub use checks::telescope_checks;
 pub use divided::DividedFacts;
 pub use evidence::TelescopeEvidence;
 pub use facts::{TelescopeFacts, judge_telescope};
-pub use juncture::{DividedPromise, JuncturePartPromise, JuncturePromise};
+pub use juncture::{DividedPromise, JunctureJointPromise, JuncturePartPromise, JuncturePromise};
 pub use motion::{JointMotion, MotionKey, ShellMotion, TelescopeMotion};
-pub use network::{LimbPromise, NetworkEvidence, NetworkKey, NetworkMotion, NetworkPromise};
+pub use network::{
+    LimbPromise, NETWORK_SCHEMA, NetworkEvidence, NetworkKey, NetworkMotion, NetworkPromise,
+};
 pub use network_checks::network_checks;
 pub use network_facts::{NetworkFacts, judge_network};
 pub use network_model::ModelFacts;

@@ -5,12 +5,15 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use super::evidence::TelescopeEvidence;
-use super::juncture::{JuncturePromise, Piece, in_model};
+use super::juncture::{JunctureJointPromise, JuncturePromise, Piece, in_model};
 use super::motion::{TelescopeMotion, frame_of};
 use super::promise::TelescopePromise;
 use crate::geom::Frame;
 use crate::mesh::TriMesh;
 use crate::verify::{Density, PartEvidence, Pose, PrinterLimits};
+
+/// The version of the keys of its checklist. Since 2 a juncture lists its parts.
+pub const NETWORK_SCHEMA: u32 = 2;
 
 /// The promises of a kit of several telescopes.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
@@ -34,6 +37,9 @@ pub struct NetworkPromise {
     pub limbs: Vec<LimbPromise>,
     /// The junctures. The first stands still.
     pub junctures: Vec<JuncturePromise>,
+    /// The joints between parts of one juncture.
+    #[serde(default)]
+    pub juncture_joints: Vec<JunctureJointPromise>,
     /// The names of the telescopes in the order in which they open.
     pub order: Vec<String>,
     /// The mass of all parts, g.

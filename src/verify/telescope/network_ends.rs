@@ -22,7 +22,9 @@ const STATIONS: usize = 24;
 const ANGLES: usize = 24;
 /// Steps in which the nearest place of an axis is looked for, and refined.
 const STEPS: usize = 32;
-const REFINED: usize = 6;
+const REFINED: usize = 20;
+/// A step so small ends the refining, mm.
+const SETTLED_MM: f64 = 1e-9;
 
 /// The ends of a limb where they are when all is out.
 pub(super) struct Ends<'a> {
@@ -196,7 +198,11 @@ fn is_about(shell: &ShellMotion, p: &Point, within: &Within) -> bool {
     let nearest = (0..=STEPS).min_by(|a, b| off(at(*a)).total_cmp(&off(at(*b))));
     let mut arc_mm = at(nearest.unwrap_or_default());
     for _ in 0..REFINED {
-        arc_mm += shell.along(arc_mm).to_local(p).x;
+        let step_mm = shell.along(arc_mm).to_local(p).x;
+        arc_mm += step_mm;
+        if step_mm.abs() < SETTLED_MM {
+            break;
+        }
     }
     let local = shell.along(arc_mm).to_local(p);
     // Far from a bent axis the steps do not end at its nearest place.
@@ -205,4 +211,63 @@ fn is_about(shell: &ShellMotion, p: &Point, within: &Within) -> bool {
     let is_aside = within.aside_mm.is_infinite()
         || local.y > 0.0 && local.z.abs() <= within.aside_mm + BESIDE_MM;
     is_across && is_between && is_aside && local.y.hypot(local.z) <= within.radius_mm + BESIDE_MM
+}
+
+#[cfg(test)]
+pub(super) mod tests {
+    use super::*;
+
+    fn shell(curvature: f64) -> ShellMotion {
+        ShellMotion {
+            id: "S1".to_owned(),
+            curvature,
+            torsion: 0.0,
+            length_mm: 10.0,
+            ends_mm: [0.0, 10.0],
+        }
+    }
+
+    /// Tries something on straight ends: a bore of 5 mm from 0 to 10 along x, a peg of 3 mm from
+    /// 100 to 110.
+    pub(in super::super) fn with_straight(try_out: impl FnOnce(&Ends)) {
+        let own = shell(0.0);
+        let at = |x: f64| Frame {
+            origin: Point::new(x, 0.0, 0.0),
+            ..Frame::identity()
+        };
+        try_out(&Ends {
+            root: at(0.0),
+            first: &own,
+            root_tail: at(0.0),
+            root_mouth: at(10.0),
+            last: at(100.0),
+            last_shell: &own,
+            last_mouth: at(110.0),
+            last_mm: 3.0,
+            bore_mm: 5.0,
+            groove_mm: 0.0,
+        });
+    }
+
+    #[test]
+    fn points_of_a_bore_on_a_strongly_bent_axis_are_in_it() {
+        // The axis turns about a centre 7 mm away, and the bore reaches 5 mm towards it.
+        let shell = shell(1.0 / 7.0);
+        let within = Within {
+            arcs_mm: shell.ends_mm,
+            radius_mm: 5.0,
+            aside_mm: f64::INFINITY,
+        };
+        for i in 0..=100 {
+            let frame = shell.along(0.1 * f64::from(i));
+            for turn in 0..24 {
+                let (sin, cos) = (TAU * f64::from(turn) / 24.0).sin_cos();
+                let on = |radius_mm: f64| {
+                    frame.to_model(&Point::new(0.0, radius_mm * cos, radius_mm * sin))
+                };
+                assert!(is_about(&shell, &on(5.0), &within), "{i} {turn}");
+                assert!(!is_about(&shell, &on(5.1), &within), "{i} {turn}");
+            }
+        }
+    }
 }

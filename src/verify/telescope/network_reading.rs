@@ -5,8 +5,8 @@ use std::path::Path;
 use serde::Deserialize;
 
 use super::evidence::TelescopeEvidence;
-use super::juncture::JuncturePartPromise;
-use super::network::{LimbPromise, NetworkEvidence, NetworkMotion, NetworkPromise};
+use super::juncture::{JuncturePartPromise, JuncturePromise};
+use super::network::{LimbPromise, NETWORK_SCHEMA, NetworkEvidence, NetworkMotion, NetworkPromise};
 use super::network_checks::network_checks;
 use super::network_facts::judge_network;
 use super::packages::network_packages_check;
@@ -31,11 +31,10 @@ pub fn limb_curve_file(limb: &str) -> String {
     format!("curves/{limb}.csv")
 }
 
-/// The keys that tell one telescope from several.
+/// The key that tells one telescope from several.
 #[derive(Deserialize)]
 struct Head {
     kind: String,
-    schema: u32,
 }
 
 /// Reads every file of the kit of a telescope, or of several on junctures, and judges it.
@@ -47,7 +46,7 @@ pub fn verify_telescope(
     watch: &Watch,
 ) -> Result<KindJudgement, TelescopeVerifyError> {
     let folder = KitFolder { path: folder };
-    let head = folder.list(CHECKLIST_FILE, |head: &Head| head.schema)?;
+    let head: Head = folder.parsed(CHECKLIST_FILE)?;
     if head.kind != NETWORK {
         return verify_curve(&folder, watch);
     }
@@ -66,20 +65,22 @@ pub fn verify_telescope(
 }
 
 fn read(folder: &KitFolder) -> Result<NetworkEvidence, TelescopeVerifyError> {
-    let promise = folder.list(CHECKLIST_FILE, |list: &NetworkPromise| list.schema)?;
-    let motion = folder.list(MOTION_FILE, |list: &NetworkMotion| list.schema)?;
+    let promise: NetworkPromise = folder.list_of_schema(CHECKLIST_FILE, NETWORK_SCHEMA)?;
+    let motion: NetworkMotion = folder.list(MOTION_FILE)?;
     if let Some(why) = network_mismatch(&promise, &motion) {
         return Err(folder.mismatch(MOTION_FILE, why).into());
+    }
+    if let Some(why) = junctures_mismatch(&promise.junctures) {
+        return Err(folder.mismatch(CHECKLIST_FILE, why).into());
     }
     let of_limbs = promise.limbs.iter().flat_map(|limb| &limb.sheet.parts);
     let parts = of_limbs.map(|part| &part.file);
     let pieces = promise.junctures.iter().flat_map(|own| &own.parts);
-    let junctures = pieces.map(|part| &part.file);
     let limbs = promise.limbs.iter();
     let curves: Vec<String> = limbs.map(|limb| limb_curve_file(&limb.id)).collect();
     all_inside_kit(
         parts
-            .chain(junctures)
+            .chain(pieces.map(|part| &part.file))
             .chain(promise.files.keys())
             .chain(&promise.model)
             .chain(&curves),
@@ -140,9 +141,6 @@ fn network_mismatch(promise: &NetworkPromise, motion: &NetworkMotion) -> Option<
     if !is_tree(&promise.limbs, count) {
         return Some("its limbs and junctures are no tree");
     }
-    if promise.junctures.iter().any(|own| own.parts.is_empty()) {
-        return Some("a juncture has no part");
-    }
     let fits = |states: &Vec<Vec<[f64; 2]>>| {
         let joints = motion.limbs.iter().map(|limb| limb.joints.len());
         states.iter().map(Vec::len).eq(joints)
@@ -154,6 +152,16 @@ fn network_mismatch(promise: &NetworkPromise, motion: &NetworkMotion) -> Option<
     let names: Vec<&String> = promise.limbs.iter().map(|limb| &limb.id).collect();
     let is_told = promise.order == motion.order && motion.opens_in_order(&names);
     (!is_told).then_some("its keys do not open the limbs in the order of the sheet")
+}
+
+/// Returns the reason why junctures are not as this program writes them.
+fn junctures_mismatch(junctures: &[JuncturePromise]) -> Option<&'static str> {
+    if junctures.iter().any(|own| own.parts.is_empty()) {
+        return Some("a juncture has no part");
+    }
+    let is_told = |own: &JuncturePromise| (own.parts.len() > 1) == own.divided.is_some();
+    let is_told = junctures.iter().all(is_told);
+    (!is_told).then_some("a juncture in several parts states no cuts, or one in one part does")
 }
 
 /// Returns true if every juncture but the first is carried by one limb.

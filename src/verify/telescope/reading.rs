@@ -60,8 +60,8 @@ pub(super) fn verify_curve(
 }
 
 fn read(folder: &KitFolder) -> Result<TelescopeEvidence, TelescopeVerifyError> {
-    let promise = folder.list(CHECKLIST_FILE, |list: &TelescopePromise| list.schema)?;
-    let motion = folder.list(MOTION_FILE, |list: &TelescopeMotion| list.schema)?;
+    let promise = folder.list::<TelescopePromise>(CHECKLIST_FILE)?;
+    let motion = folder.list::<TelescopeMotion>(MOTION_FILE)?;
     if let Some(why) = mismatch(&promise, &motion) {
         return Err(folder.mismatch(MOTION_FILE, why).into());
     }

@@ -20,7 +20,7 @@ const COLLAR_WALLS: f64 = 2.0;
 /// Length of a root that its collar holds, in its radii; and what the cap takes.
 const HELD_RADII: f64 = 0.6;
 /// Length ahead of a root's mouth that is bored for what comes out of it, in its radii.
-const CLEAR_RADII: f64 = 2.0;
+pub const CLEAR_RADII: f64 = 2.0;
 /// The same in a piece of the model, mm: it ends at the mouth.
 const CLEAR_IN_MODEL_MM: f64 = 1.0;
 /// Least radius of a ball, in walls: thinner ends snap.

@@ -130,8 +130,10 @@ pub fn draft(workshop: &Workshop, made: &MadeNetwork) -> Result<NetworkDraft, Te
         });
     }
     warnings.extend(round(workshop));
-    let junctures = made.junctures.iter();
-    warnings.extend(junctures.flat_map(|own| rows::warnings(workshop, own)));
+    for (index, own) in made.junctures.iter().enumerate() {
+        warnings.extend(rows::warnings(workshop, own));
+        warnings.extend(rows::peg_warning(workshop, tree, index, own));
+    }
     let skin = workshop.form.skin();
     let model_stl = skin.map(|skin| stl::encode(skin.mesh(), &workshop.job.name()));
     let mut sheet = sheet(workshop, made, limbs)?;

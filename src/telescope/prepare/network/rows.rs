@@ -1,14 +1,18 @@
 //! Junctures on the checklist: their parts, their joints, and what the shop is told of them.
 
+use super::divide::NO_CUT;
+use super::ends::last;
 use super::made::Workshop;
+use super::tree::Tree;
 use super::written::{Division, WrittenJuncture, WrittenPiece};
 use crate::base::digest::sha256_hex;
 use crate::base::numbers::measured_extent;
 use crate::base::units::MM3_PER_CM3;
 use crate::cut::{Cut, JointNote, PartId};
+use crate::geom::Vector;
 use crate::mass::moments_of_mesh;
 use crate::printer::Support;
-use crate::sheet::from_run::{mark, pin, socket};
+use crate::sheet::from_run::{mark, pin, pin_warning, socket};
 use crate::sheet::network::{JunctureJointRow, JunctureRow};
 use crate::verify::{DividedPromise, JuncturePartPromise, JuncturePromise, PromisedCut};
 
@@ -77,10 +81,12 @@ pub fn joint_rows(own: &WrittenJuncture) -> impl Iterator<Item = JunctureJointRo
     let notes = own.division.iter().flat_map(|own| &own.plan.joints);
     notes.map(|note| JunctureJointRow {
         juncture: own.id.clone(),
+        cut: note.cut.to_string(),
         parts: note.parts.map(|part| part_id(own, part)),
         area_mm2: note.area_mm2,
         pins: note.pins.len(),
         is_aligned: note.is_aligned(),
+        note: pin_warning(note),
     })
 }
 
@@ -97,19 +103,49 @@ pub fn warnings(workshop: &Workshop, own: &WrittenJuncture) -> Vec<String> {
         let size_mm: [f64; 3] = part.read_back.aabb().size().into();
         if workshop.shop.printer.fits(size_mm) == Some(false) {
             warnings.push(format!(
-                "{} is {}, larger than the printer's room, and no cut beside its sockets makes it \
-                 fit. Order a smaller size, balls as junctures, or a larger printer.",
+                "{} is {}, larger than the printer's room, and stays whole: {}. Order a smaller \
+                 size, balls as junctures, or a larger printer.",
                 part.id,
-                measured_extent(&size_mm)
+                measured_extent(&size_mm),
+                own.undivided.as_deref().unwrap_or(NO_CUT)
             ));
         }
     }
     let notes = own.division.iter().flat_map(|own| &own.plan.joints);
-    let loose = notes.filter(|note| !note.is_aligned());
     let warn = |note: &JointNote| {
         let [below, above] = note.parts.map(|part| part_id(own, part));
-        format!("No pins align {below} and {above} fully: align their outlines by eye and touch.")
+        pin_warning(note).map(|why| format!("{below} and {above}: {why}."))
     };
-    warnings.extend(loose.map(warn));
+    warnings.extend(notes.filter_map(warn));
     warnings
+}
+
+/// Returns a warning for the part of a cut juncture, counted from 0, that has its peg. It lies as
+/// its cuts ask, so that the slicer may put supports there.
+pub fn peg_warning(
+    workshop: &Workshop,
+    tree: &Tree,
+    juncture: usize,
+    own: &WrittenJuncture,
+) -> Option<String> {
+    own.division.as_ref()?;
+    let is_free = workshop.shop.printer.support != Support::Breakaway;
+    let mut limbs = tree.network.limbs.iter();
+    let carrier = limbs
+        .find(|limb| limb.to == juncture)
+        .filter(|_| !is_free)?;
+    let (_, mouth) = last(&carrier.telescope);
+    let along: Vector = mouth.axes.column(0).into();
+    let tip = mouth.origin - along * carrier.telescope.sizes.spigot_mm;
+    let away_mm = |part: &WrittenPiece| {
+        let mesh = part.in_model();
+        let points = mesh.vertices().iter().map(|p| (p - tip).norm());
+        points.fold(f64::INFINITY, f64::min)
+    };
+    let parts = own.parts.iter();
+    let part = parts.min_by(|a, b| away_mm(a).total_cmp(&away_mm(b)))?;
+    Some(format!(
+        "{} has the peg for limb {}: keep supports off the peg.",
+        part.id, carrier.id
+    ))
 }

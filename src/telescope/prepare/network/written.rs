@@ -8,8 +8,9 @@ use super::bodies::{body, body_of_model};
 use super::divide::{Divided, Divider};
 use super::made::{Form, Workshop};
 use super::tree::Tree;
+use crate::base::verdict::Verdict;
 use crate::base::watch::Phase;
-use crate::cut::{CutPlan, Part, PartId};
+use crate::cut::{CutId, CutPlan, JointNote, Lie, Part, PartId};
 use crate::make::write;
 use crate::mesh::{ClipError, Solid, TriMesh};
 use crate::verify::{PartEvidence, Pose};
@@ -21,6 +22,8 @@ pub struct WrittenJuncture {
     pub parts: Vec<WrittenPiece>,
     /// The cuts between its parts.
     pub division: Option<Division>,
+    /// The reason why it stays whole though the printer has no room for it.
+    pub undivided: Option<String>,
     /// Its body before it was cut.
     solid: Solid,
 }
@@ -110,10 +113,26 @@ pub fn divide(
         if workshop.shop.printer.fits(size_mm) != Some(false) {
             return Ok(own);
         }
-        let Some(divided) = divider.divide(index, &own.solid, numbered)? else {
-            return Ok(own);
+        let divided = divider.divide(index, &own.solid, numbered);
+        let written = divided.and_then(|divided| match divided {
+            Verdict::Found(divided) => {
+                let written = writer.write_divided(&own, divided, numbered)?;
+                Ok(Verdict::Found(written))
+            }
+            Verdict::No(why) => Ok(Verdict::No(why)),
+        });
+        // A juncture that cannot be cut stays whole, with a warning: the kit is made all the same.
+        let written = match written {
+            Err(error) if !error.is_stop() => Verdict::No(error.to_string()),
+            other => other?,
         };
-        let own = writer.write_divided(own, divided, numbered)?;
+        let own = match written {
+            Verdict::Found(own) => own,
+            Verdict::No(why) => WrittenJuncture {
+                undivided: Some(why),
+                ..own
+            },
+        };
         numbered += own.division.as_ref().map_or(0, |_| own.parts.len());
         Ok(own)
     };
@@ -159,6 +178,7 @@ impl JunctureWriter<'_> {
             id,
             parts: vec![whole],
             division: None,
+            undivided: None,
             solid,
         })
     }
@@ -166,23 +186,24 @@ impl JunctureWriter<'_> {
     /// Writes a juncture in the parts of its division.
     fn write_divided(
         &self,
-        own: WrittenJuncture,
+        whole: &WrittenJuncture,
         divided: Divided,
         numbered: usize,
     ) -> Result<WrittenJuncture, TelescopeRunError> {
-        let WrittenJuncture { id, solid, .. } = own;
+        let WrittenJuncture { id, solid, .. } = whole;
         let is_whole = divided.plan.cuts.is_empty();
         let scale_ratio = self.workshop.shop.printer.print_scale_ratio();
+        let name_of = |index: usize| match is_whole {
+            true => id.clone(),
+            false => format!("{id}-{}", PartId::of(numbered + index)),
+        };
+        let joints = &divided.plan.joints;
         let parts = divided.parts.into_iter().enumerate().map(|(index, part)| {
-            let own = PartId::of(numbered + index);
-            let id = match is_whole {
-                true => id.clone(),
-                false => format!("{id}-{own}"),
-            };
+            let id = name_of(index);
             let name = format!("{}_{id}", self.workshop.job.name());
             let written = write(part, &name, scale_ratio, self.workshop.watch)?;
             Ok(WrittenPiece {
-                lies: written.part.pose.lies.to_string(),
+                lies: words(&written.part.pose.lies, &mates(joints, index, &name_of)),
                 pose: Pose {
                     rows: written.part.pose.print_from_model,
                 },
@@ -199,10 +220,67 @@ impl JunctureWriter<'_> {
             volume_mm3: solid.mesh().signed_volume_mm3(),
         });
         Ok(WrittenJuncture {
-            id,
+            id: id.clone(),
             parts,
             division,
-            solid,
+            undivided: None,
+            solid: solid.clone(),
         })
+    }
+}
+
+/// A part that another is glued to, in a cut.
+struct Mate {
+    cut: CutId,
+    id: String,
+}
+
+/// Returns the parts that the one with this index is glued to.
+fn mates(joints: &[JointNote], index: usize, name_of: &dyn Fn(usize) -> String) -> Vec<Mate> {
+    let own = joints.iter().filter_map(|joint| {
+        let [below, above] = joint.parts.map(|part| part.index());
+        let other = match index {
+            _ if index == below => above,
+            _ if index == above => below,
+            _ => return None,
+        };
+        Some(Mate {
+            cut: joint.cut.clone(),
+            id: name_of(other),
+        })
+    });
+    own.collect()
+}
+
+/// Words the way in which a part lies: the shop knows its mates, not its cuts.
+fn words(lies: &Lie, mates: &[Mate]) -> String {
+    let face = |cut: &CutId| {
+        let ids = mates.iter().filter(|mate| mate.cut == *cut);
+        let ids: Vec<&str> = ids.map(|mate| mate.id.as_str()).collect();
+        format!("the face glued to {}", ids.join(" and "))
+    };
+    match lies {
+        Lie::CutFaceDown(cut) => format!("on {}", face(cut)),
+        Lie::CutFaceUp(cut) => format!("{} up", face(cut)),
+        other => other.to_string(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_part_lies_on_the_face_glued_to_its_mates() {
+        let mate = |cut: usize, id: &str| Mate {
+            cut: CutId::of(cut),
+            id: id.to_owned(),
+        };
+        let mates = [mate(0, "N01-P02"), mate(1, "N01-P03"), mate(0, "N01-P04")];
+        let down = words(&Lie::CutFaceDown(CutId::of(0)), &mates);
+        assert_eq!(down, "on the face glued to N01-P02 and N01-P04");
+        let up = words(&Lie::CutFaceUp(CutId::of(1)), &mates);
+        assert_eq!(up, "the face glued to N01-P03 up");
+        assert_eq!(words(&Lie::Upright, &mates), "upright");
     }
 }
