@@ -14,7 +14,7 @@ fn orders_that_moved_vertices_cannot_carry_out_are_refused_with_what_to_type() {
     let kit = folder.path().join("kit");
     for (options, words) in [
         ("--method vertices:cube --polyhedra 2", "--method=planes"),
-        ("--method vertices:cube --faces 5", "give `--faces=6`"),
+        ("--method vertices:cube --faces 5", "give --faces=6"),
         ("--method vertices:ball", "vertices:icosahedron"),
         ("--method vertices --base base.toml", "cannot be used with"),
     ] {

@@ -321,7 +321,7 @@ fn a_disc_larger_than_the_common_panels_is_an_answer_with_what_helps() {
         "{answer}"
     );
     assert!(
-        answer["hints"][0].as_str().unwrap().contains("45mm"),
+        answer["hints"][0].as_str().unwrap().contains("55mm"),
         "{answer}"
     );
     assert!(!kit.exists());
