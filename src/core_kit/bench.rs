@@ -1,6 +1,7 @@
 //! The parts of a unit as they lie on the bench, drawn off each other along their pins.
 
 use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
 
 use super::made::Made;
 use crate::cladding::{BoundKind, Part};
@@ -98,8 +99,8 @@ fn drawn_apart(pieces: &[Piece], joints: &[([usize; 2], Vector)]) -> Vec<Vector>
                     at if at == into.cell() => (into, on, -way),
                     _ => continue,
                 };
-                if !cells.contains_key(&far.cell()) {
-                    cells.insert(far.cell(), from + near.way + by - far.way);
+                if let Entry::Vacant(cell) = cells.entry(far.cell()) {
+                    cell.insert(from + near.way + by - far.way);
                     waiting.push(far.cell());
                 }
             }

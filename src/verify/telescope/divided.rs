@@ -111,7 +111,7 @@ impl<'a> Joints<'a> {
                 part: probe,
             })
             .collect();
-        let whole = Bvh::new(self.outside().into_iter());
+        let whole = Bvh::new(self.outside());
         watch.check()?;
         let pegs = measure_pins(&bearers, |_| self.divided.clearance_mm, &whole);
         let pegs = pegs.chain(lone_sockets(&bearers)).collect();
