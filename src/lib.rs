@@ -80,7 +80,7 @@ pub mod stages {
 }
 
 /// Telescopes: the curves and skeletons that they are to follow, and the shells that do. Their
-/// junctures are cut for a small printer as models are, by [`cut`](crate::cut).
+/// junctures are cut for a small printer as models are, by [`cut`].
 pub mod extend {
     #[doc(inline)]
     pub use crate::{curve, skeleton, telescope};
