@@ -307,6 +307,7 @@ fn toolpaths_of_three_densities_lay_what_the_sheet_says() {
 }
 
 #[test]
+#[ignore = "long: rounds of a slicer, as tests/rounds.rs has; run with -- --ignored"]
 fn a_kit_of_three_densities_that_was_made_with_its_toolpaths_keeps_its_promise_by_them() {
     if Command::new("prusa-slicer").arg("--help").output().is_err() {
         let install = "apt-get install --no-install-recommends prusa-slicer";
