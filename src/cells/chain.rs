@@ -1,6 +1,7 @@
 //! Signed boundaries of regions, and their cuts by planes.
 
 use crate::geom::{Aabb, Plane, Point};
+use crate::mesh::primitives;
 
 /// A triangle, its corners counter-clockwise as seen from outside.
 pub type Corners = [Point; 3];
@@ -21,28 +22,10 @@ impl Chain {
         Self { triangles }
     }
 
-    /// Makes the boundary of a box.
+    /// Makes the boundary of a box. Each two triangles after another are a side.
     pub fn of_box(room: &Aabb) -> Self {
-        let corner = |k: usize| {
-            let pick = |axis: usize| {
-                let ends = [room.min[axis], room.max[axis]];
-                ends[(k >> axis) & 1]
-            };
-            Point::new(pick(0), pick(1), pick(2))
-        };
-        // Corner k has the upper end of every axis whose bit is set.
-        const SIDES: [[usize; 4]; 6] = [
-            [0, 4, 6, 2],
-            [1, 3, 7, 5],
-            [0, 1, 5, 4],
-            [2, 6, 7, 3],
-            [0, 2, 3, 1],
-            [4, 5, 7, 6],
-        ];
-        let halves = SIDES
-            .iter()
-            .flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]].map(|corners| corners.map(corner)));
-        Self::new(halves.collect())
+        let mesh = primitives::cuboid(&room.min, &room.max);
+        Self::new(mesh.iter_corners().collect())
     }
 
     /// Returns the triangles.

@@ -15,7 +15,7 @@ const LEAST_SIDE_RATIO: f64 = 1e-3;
 /// side. Points on a cut are off it by rounding.
 const SIDE_RATIO: f64 = 1e-13;
 
-/// How much of a side may be missing, as a part of it, where it counts as covered or as free.
+/// The part of a side that may be missing where it counts as covered or as free.
 const COVER_RATIO: f64 = 1e-11;
 
 /// A region that is divided into cells.

@@ -18,7 +18,7 @@ const SAMPLES_PER_EDGE: usize = 8;
 /// A base that is proved.
 pub struct Base {
     pub plan: BasePlan,
-    /// What the method of the paper yielded before its proof, if it made the base.
+    /// The yield of the paper's method before its proof, if it made the base.
     pub vertices: Option<ByVertices>,
 }
 

@@ -20,7 +20,7 @@ const CRUMB_MM3: f64 = 2000.0;
 /// The object as drawn.
 pub struct Built {
     pub plan: BasePlan,
-    /// What the method of the paper yielded before its proof, if it made the base.
+    /// The yield of the paper's method before its proof, if it made the base.
     pub vertices: Option<ByVertices>,
     pub shell: CladShell,
     pub brackets: Vec<Bracket>,

@@ -1,4 +1,4 @@
-//! What the pictures and the view of an object on a base show.
+//! The bodies and ways in the pictures and the view of an object on a base.
 
 use crate::draw::{BALLAST, Color, HARDWARE, Hatch, Item, PIN, part_color};
 use crate::geom::Vector;
@@ -70,7 +70,7 @@ pub struct JoinStep {
     pub way: Vector,
 }
 
-/// What the pictures of an object on a base show.
+/// The bodies and ways in the pictures of an object on a base.
 #[derive(Debug)]
 pub struct CoreView<'a> {
     /// The parts and panels.

@@ -86,7 +86,7 @@ const ARROWS: &[(&str, &[&str])] = &[
     // A base is found in a solid alone: it knows of sheets and printers only lengths and angles.
     ("polyhedra", &["base", "geom", "mesh"]),
     // Cells are geometry of sites in a closed surface; which surface, they do not ask.
-    ("cells", &["base", "geom"]),
+    ("cells", &["base", "geom", "mesh"]),
     // Profiles of cutters, sheets and fasteners are data, checked as those of printers are.
     ("cutter", &["base"]),
     // Outlines and joints are plane geometry, and a polyhedron gives panels their places. The sheet
