@@ -92,6 +92,38 @@ fn lie_about_a_stop(kit: &Path) {
 }
 
 #[test]
+fn a_curve_that_comes_down_below_its_start_is_not_said_to_stand() {
+    let folder = tempfile::tempdir().unwrap();
+    let kit = folder.path().join("kit");
+    // Three quarters of a circle end a radius below the start, which points up.
+    let curve = "telescope arc:60,270 --printer prusa-mk4 --shells 3";
+    let arguments = [&words(curve)[..], &["--goal", "stand", "--json"]].concat();
+    let output = equipoise(&[&arguments[..], &["--out", path(&kit)]].concat());
+    assert_exit(&output, 1);
+    let answer = json(&output);
+    assert!(
+        answer["reason"]
+            .as_str()
+            .unwrap()
+            .contains("below the table")
+    );
+    assert_eq!(answer["remedies"][0]["settings"][0]["value"], "none");
+    assert!(!kit.exists());
+
+    make(&kit, curve);
+    let mut sheet = checklist(&kit);
+    assert!(sheet["worst_toppling_deg"].is_null());
+    assert!(sheet["balance"][0]["toppling_deg"].is_number());
+    judge_telescope(&kit);
+    // The same kit, said to stand: its foot is in the air before it is open.
+    sheet["least_angle_deg"] = 1.0.into();
+    fs::write(kit.join("checklist.json"), sheet.to_string()).unwrap();
+    let (code, said) = verify(&kit);
+    assert_eq!(code, Some(1), "{said}");
+    assert!(said.contains("nothing reaches below its foot"), "{said}");
+}
+
+#[test]
 fn a_root_too_thin_for_its_shells_is_impossible_and_told_what_helps() {
     let output = equipoise(&words(
         "telescope arc:80,90 --printer prusa-mk4 --shells 4 --root-radius 6mm --json",

@@ -51,7 +51,7 @@ fn lines(sheet: &TelescopeSheet) -> String {
         format!(
             "stands     on a foot of {} in radius, until leaned by {}\n",
             measured(foot, "mm"),
-            measured(sheet.worst_toppling_deg, "°")
+            measured(sheet.worst_toppling_deg.unwrap_or(0.0), "°")
         )
     });
     format!(

@@ -290,7 +290,10 @@ fn test(page: &TelescopePage) -> Markup {
             @if let Some(least) = sheet.least_angle_deg {
                 li {
                     "Set it on a level table, all in, half open and all out. Lean its foot by " (measured(least, "°"))
-                    ": it must come back. By calculation it topples at " (measured(sheet.worst_toppling_deg, "°")) " where it is worst."
+                    ": it must come back."
+                    @if let Some(worst) = sheet.worst_toppling_deg {
+                        " By calculation it topples at " (measured(worst, "°")) " where it is worst."
+                    }
                 }
             }
         }

@@ -135,7 +135,10 @@ fn balance(sheet: &TelescopeSheet) -> Markup {
                     ", a foot of " (quantity(foot.radius_mm, "mm")) " in radius and "
                     (quantity(foot.height_mm, "mm")) " in height"
                 }
-                ". With all play taken up it topples at " (quantity(sheet.worst_toppling_deg, "°")) " where it is worst."
+                @match sheet.worst_toppling_deg {
+                    Some(worst) => { ". With all play taken up it topples at " (quantity(worst, "°")) " where it is worst." }
+                    None => { ". It reaches below the root's tail, so it cannot stand there: hold it or hang it." }
+                }
             }
             table class="stack" {
                 thead { tr { th scope="col" { "Key" } th scope="col" class="n" { "Centre of mass, mm" } th scope="col" class="n" { "Topples at" } } }
@@ -144,7 +147,7 @@ fn balance(sheet: &TelescopeSheet) -> Markup {
                         tr {
                             th scope="row" { (index) }
                             td class="n" data-head="Centre of mass" { (row.centre_mm.map(number).join(", ")) }
-                            td class="n" data-head="Topples at" { (quantity(row.toppling_deg, "°")) }
+                            td class="n" data-head="Topples at" { (lean(row.toppling_deg)) }
                         }
                     }
                 }
@@ -178,4 +181,9 @@ fn trade(sheet: &TelescopeSheet) -> Markup {
             }
         }
     }
+}
+
+/// Returns the lean at which it topples, or a dash if it cannot stand there.
+fn lean(toppling_deg: Option<f64>) -> String {
+    toppling_deg.map_or_else(|| "–".to_owned(), |deg| quantity(deg, "°"))
 }

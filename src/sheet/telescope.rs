@@ -77,8 +77,9 @@ pub struct TelescopeSheet {
     pub mass_g: f64,
     /// The balance at every key of the motion.
     pub balance: Vec<BalancePromise>,
-    /// The least lean at which it topples over the whole motion, with all play taken up, degrees.
-    pub worst_toppling_deg: f64,
+    /// The least lean at which it topples over the whole motion, with all play taken up, degrees;
+    /// `None` if it reaches below its root: it cannot stand there.
+    pub worst_toppling_deg: Option<f64>,
     /// The toppling angle that is promised, degrees; `None` if it need not stand.
     pub least_angle_deg: Option<f64>,
     /// The foot; `None` without one.

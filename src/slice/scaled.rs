@@ -279,7 +279,11 @@ impl Portions for OfField<'_> {
         } else {
             self.field.at(&place)
         };
-        wanted / laid
+        // Beside sparse infill, solid lines back skins that slope. They stay as dense as a line
+        // must be; how far the whole is off is told by what is laid.
+        let is_skin = feature == Feature::SolidInfill && self.sparse_ratio.is_some_and(|r| r < 1.0);
+        let least = if is_skin { FACTORS[0] } else { 0.0 };
+        (wanted / laid).max(least)
     }
 }
 

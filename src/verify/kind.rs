@@ -171,6 +171,8 @@ pub enum CheckKind {
     Centres,
     /// Toppling angles along a motion.
     Toppling,
+    /// Nothing reaches below the foot along a motion.
+    Ground,
     /// The certificate that a base keeps its distance from the model's surface.
     Separation,
     /// Distance of a base from the model's surface at sampled points.
@@ -237,6 +239,7 @@ impl CheckKind {
             Self::Mass => "mass",
             Self::Centres => "centres",
             Self::Toppling => "toppling",
+            Self::Ground => "ground",
             Self::Separation => "separation",
             Self::BaseDistance => "base distance",
             Self::BaseInside => "base inside",
@@ -328,7 +331,7 @@ mod tests {
     use serde_json::json;
 
     /// The keys and names of all kinds without data.
-    const KEYS: [(CheckKind, &str, &str); 86] = [
+    const KEYS: [(CheckKind, &str, &str); 87] = [
         (CheckKind::Held, "held", "held parts"),
         (CheckKind::Stock, "stock", "stock"),
         (CheckKind::Grain, "grain", "grain"),
@@ -437,6 +440,7 @@ mod tests {
         (CheckKind::Mass, "mass", "mass"),
         (CheckKind::Centres, "centres", "centres"),
         (CheckKind::Toppling, "toppling", "toppling"),
+        (CheckKind::Ground, "ground", "ground"),
         (CheckKind::Separation, "separation", "separation"),
         (CheckKind::BaseDistance, "base-distance", "base distance"),
         (CheckKind::BaseInside, "base-inside", "base inside"),

@@ -41,6 +41,7 @@ SEARCH_RATIO = 1.2
 DEVIATION_LIMIT_MM = 0.05
 MASS_LIMIT_RATIO = 1e-4
 CENTRE_LIMIT_MM = 0.01
+GROUND_LIMIT_MM = 0.01
 TOPPLING_LIMIT_DEG = 0.05
 BOX_LIMIT_MM = 0.02
 # Slides at which a joint's gap is sampled, as shares of its free stroke, and states of a move.
@@ -251,6 +252,7 @@ def judge_balance(kit):
     ground = local[:, 0].min()
     feet = local[local[:, 0] < ground + 1e-2][:, 1:3]
     hull = feet[scipy.spatial.ConvexHull(feet).vertices]
+    must_stand = kit.sheet["least_angle_deg"] is not None
     worst_centre, worst_lean, least = 0.0, 0.0, np.inf
     for key, promise in zip(kit.motion["keys"], kit.sheet["balance"], strict=True):
         frames = kit.frames(key["states"])
@@ -262,12 +264,28 @@ def judge_balance(kit):
         normals = np.stack([-edges[:, 1], edges[:, 0]], axis=1) / np.linalg.norm(edges, axis=1)[:, None]
         margin = ((np.array(foot) - hull) * normals).sum(axis=1).min()
         lean = np.degrees(np.arctan2(margin, x - ground))
-        worst_lean = max(worst_lean, abs(lean - promise["toppling_deg"]))
+        if must_stand or promise["toppling_deg"] is not None:
+            stated = promise["toppling_deg"] if promise["toppling_deg"] is not None else -np.inf
+            worst_lean = max(worst_lean, abs(lean - stated))
         least = min(least, lean)
     kit.say("centres", worst_centre < CENTRE_LIMIT_MM, f"{worst_centre:.5f} mm off at worst")
     kit.say("toppling", worst_lean < TOPPLING_LIMIT_DEG, f"{worst_lean:.4f}° off at worst, least {least:.2f}°")
-    if kit.sheet["least_angle_deg"] is not None:
+    if must_stand:
         kit.say("stands", least >= kit.sheet["least_angle_deg"], f"{least:.2f} of {kit.sheet['least_angle_deg']}°")
+        judge_ground(kit, to_ground, ground)
+
+
+def judge_ground(kit, to_ground, ground):
+    """Nothing of it may reach below the foot, at any of ten states of each move."""
+    depth = 0.0
+    for first, last in zip(kit.motion["keys"], kit.motion["keys"][1:]):
+        for share in np.linspace(0, 1, 10):
+            states = (1 - share) * np.array(first["states"]) + share * np.array(last["states"])
+            for frame, meshes in zip(kit.frames(states), kit.shells):
+                vertices = np.concatenate([mesh.vertices for mesh in meshes])
+                heights = (to_ground @ frame @ np.c_[vertices, np.ones(len(vertices))].T)[0]
+                depth = max(depth, ground - heights.min())
+    kit.say("ground", depth < GROUND_LIMIT_MM, f"{depth:.4f} mm below the foot at worst")
 
 
 def judge_boxes(kit):

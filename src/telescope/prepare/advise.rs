@@ -11,7 +11,7 @@ use crate::base::setting::{Key, Setting};
 use crate::base::units::Length;
 use crate::base::verdict::Verdict;
 use crate::base::watch::{Phase, Watch};
-use crate::job::telescope::{FootSize, ShellCount, TelescopeJob};
+use crate::job::telescope::{FootSize, ShellCount, Stance, TelescopeJob};
 use crate::sheet::telescope::TradeRow;
 use crate::telescope::limits::Limit;
 use crate::wing::{Impossible, Remedy};
@@ -123,6 +123,12 @@ fn changes(asked: &Asked, reason: &Reason) -> Vec<Vec<Change>> {
                 job.foot = FootSize::Auto;
             });
             vec![is_given.then_some(auto).into_iter().collect()]
+        }
+        Reason::UnderGround { .. } => {
+            let held = change(asked, Key::Goal, Stance::None, |job| {
+                job.goal = Stance::None;
+            });
+            vec![vec![held]]
         }
         Reason::TooLarge { .. } => Vec::new(),
         Reason::Fit(_) => vec![vec![auto()]],

@@ -12,7 +12,7 @@ use crate::telescope::sizes::JointSizes;
 use crate::telescope::tube::TubeMass;
 
 /// States of each move at which the balance is taken.
-const STATES: usize = 20;
+pub(super) const STATES: usize = 20;
 
 /// Step in which the radius of a foot grows, mm.
 const FOOT_STEP_MM: f64 = 1.0;
@@ -154,11 +154,24 @@ pub fn choose_foot(
         return Verdict::Found(None);
     }
     let height_mm = FOOT_HEIGHT_MM.max(2.0 * telescope.sizes.wall_mm);
+    let foot = |radius_mm: f64| DiscFoot {
+        radius_mm,
+        height_mm,
+    };
+    let least = Standing {
+        telescope,
+        masses,
+        foot: foot(telescope.shells[0].body_mm),
+    };
+    let lowest = least.lowest_over(opening);
+    if let Some(lowest) = lowest.filter(|lowest| !least.is_clear(lowest)) {
+        return Verdict::No(Reason::UnderGround {
+            shell: lowest.shell + 1,
+            below_mm: -lowest.height_mm - height_mm,
+        });
+    }
     let angle_deg = |radius_mm: f64| {
-        let foot = DiscFoot {
-            radius_mm,
-            height_mm,
-        };
+        let foot = foot(radius_mm);
         let mut masses = masses.to_vec();
         masses[0] = with_foot(&masses[0], telescope, &foot);
         let standing = Standing {
@@ -169,10 +182,6 @@ pub fn choose_foot(
         standing.worst(opening).1.sagged_rad.to_degrees()
     };
     let least_deg = asked.job.least_angle_deg;
-    let foot = |radius_mm: f64| DiscFoot {
-        radius_mm,
-        height_mm,
-    };
     let room = asked.shop.printer.usable_volume_mm();
     let most_mm = room.map_or(MOST_FOOT_MM, |[x, y, _]| 0.5 * x.min(y) - PLATE_ROOM_MM);
     let falls = |radius_mm: f64| {

@@ -66,6 +66,8 @@ pub enum Reason {
         least_deg: f64,
         foot_mm: f64,
     },
+    /// It reaches below the foot on which it should stand.
+    UnderGround { shell: usize, below_mm: f64 },
     /// Parts are larger than the printer.
     TooLarge { part: String, size_mm: [f64; 3] },
 }
@@ -286,6 +288,11 @@ impl std::fmt::Display for Reason {
                 f,
                 "it topples at {angle_deg:.1}° on a foot of {foot_mm:.0} mm in radius, the greatest \
                  that can be printed, where {least_deg:.1}° is asked"
+            ),
+            Self::UnderGround { shell, below_mm } => write!(
+                f,
+                "as it opens, shell S{shell:02} reaches {below_mm:.1} mm below the table: the root \
+                 stands where the curve begins, and points up along it"
             ),
             Self::TooLarge {
                 part,

@@ -8,6 +8,7 @@ mod balance;
 mod best;
 mod error;
 mod files;
+mod ground;
 mod judge;
 mod load;
 mod load_skeleton;

@@ -84,7 +84,7 @@ fn ordered(asked: &Asked, made: &Made) -> TelescopeSheet {
         tip_play_mm: 0.0,
         mass_g: 0.0,
         balance: Vec::new(),
-        worst_toppling_deg: 0.0,
+        worst_toppling_deg: None,
         least_angle_deg: asked.stands().then_some(asked.job.least_angle_deg),
         foot: made.foot.map(foot_row),
         collapsed_mm: [0.0; 3],
@@ -143,8 +143,10 @@ fn add_balance(sheet: &mut TelescopeSheet, made: &Made) {
     sheet.mass_g = volume_mm3 / MM3_PER_CM3 * sheet.material.density_g_cm3;
     let keys = design.opening.keys.iter();
     sheet.balance = keys.map(|key| balance_row(&standing, key)).collect();
-    let worst = standing.worst(&design.opening).1;
-    sheet.worst_toppling_deg = worst.sagged_rad.to_degrees();
+    let lowest = standing.lowest_over(&design.opening);
+    let is_clear = lowest.is_none_or(|lowest| standing.is_clear(&lowest));
+    let worst = is_clear.then(|| standing.worst(&design.opening).1);
+    sheet.worst_toppling_deg = worst.map(|worst| worst.sagged_rad.to_degrees());
 }
 
 pub fn material(asked: &Asked) -> TelescopeMaterial {
@@ -321,9 +323,10 @@ fn standing<'a>(telescope: &'a Telescope, made: &'a Made) -> Standing<'a> {
 
 fn balance_row(standing: &Standing, key: &Key) -> BalancePromise {
     let found = standing.at(key);
+    let is_clear = standing.is_clear(&standing.lowest(key));
     BalancePromise {
         centre_mm: found.centre.into(),
-        toppling_deg: found.toppling_rad.to_degrees(),
+        toppling_deg: is_clear.then(|| found.toppling_rad.to_degrees()),
     }
 }
 

@@ -21,6 +21,8 @@ pub(super) const MASS_LIMIT_RATIO: f64 = 1e-4;
 pub(super) const CENTRE_LIMIT_MM: f64 = 0.01;
 /// By how much a toppling angle may differ, degrees: the corners of a round foot.
 const TOPPLING_LIMIT_DEG: f64 = 0.05;
+/// Parts may reach this far below the foot, mm.
+const GROUND_LIMIT_MM: f64 = 0.01;
 /// By how much a box may differ, mm.
 pub(super) const BOX_LIMIT_MM: f64 = 0.02;
 /// By how much a part may be above or below the plate, mm.
@@ -206,7 +208,12 @@ fn of_balance(promise: &TelescopePromise, facts: &TelescopeFacts) -> Vec<Check> 
     let is_whole = promise.balance.len() == facts.balance.len();
     let centre = pairs()
         .map(|(stated, found)| (crate::geom::Point::from(stated.centre_mm) - found.centre).norm());
-    let lean = pairs().map(|(stated, found)| (stated.toppling_deg - found.toppling_deg).abs());
+    let stands = promise.least_angle_deg.is_some();
+    let lean = pairs().filter(|(stated, _)| stands || stated.toppling_deg.is_some());
+    let lean = lean.map(|(stated, found)| {
+        let stated = stated.toppling_deg.unwrap_or(f64::NEG_INFINITY);
+        (stated - found.toppling_deg).abs()
+    });
     let [centre, lean] = [centre.fold(0.0, f64::max), lean.fold(0.0, f64::max)];
     let mut checks = vec![
         Check::new(
@@ -235,6 +242,12 @@ fn of_balance(promise: &TelescopePromise, facts: &TelescopeFacts) -> Vec<Check> 
             "it stands at every key, until leaned by",
             Some(worst.fold(f64::INFINITY, f64::min)),
             Limit::at_least(least_deg, "°"),
+        ));
+        checks.push(Check::new(
+            CheckKind::Ground,
+            "nothing reaches below its foot as it opens",
+            Some(facts.below_foot_mm),
+            Limit::at_most(GROUND_LIMIT_MM, "mm"),
         ));
     }
     checks

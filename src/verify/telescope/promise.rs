@@ -88,6 +88,7 @@ pub struct DeviationPromise {
 pub struct BalancePromise {
     /// The centre of mass in the model frame, mm.
     pub centre_mm: [f64; 3],
-    /// The lean at which it topples, degrees.
-    pub toppling_deg: f64,
+    /// The lean at which it topples, degrees; `None` if it reaches below its root's tail, so it
+    /// cannot stand there.
+    pub toppling_deg: Option<f64>,
 }
