@@ -372,11 +372,10 @@ fn without_a_field_toolpaths_follow_the_density_that_their_kit_states() {
         let field = sheet["infill"][key].as_str().unwrap();
         assert!(field.starts_with(start), "{field}");
         let [before, after] = off_mm(&found, &sheet);
-        // From 0.59 to 0.075 mm: the slicer's walls are not those of the kit, and no round is made.
-        assert!(
-            after < 0.15 && after < 0.3 * before,
-            "{key}: {before} {after} mm"
-        );
+        // Without a trim 0.075 mm: the slicer's walls are not those of the kit.
+        eprintln!("{key}: {before:.4} mm before, {after:.4} mm after");
+        assert!(before > 0.1 && after < 0.01, "{key}: {before} {after} mm");
+        assert!(found["scaled"]["tilt"]["slope_per_mm"].is_array());
         let topples_deg = number(&found, "/together/1/topples_deg");
         let broken = list(&found, "broken").iter().map(|check| &check["kind"]);
         let expected: &[&str] = if topples_deg < 3.5 {
@@ -411,19 +410,19 @@ fn without_a_field_toolpaths_follow_the_density_that_their_kit_states() {
 }
 
 #[test]
-#[ignore = "ten minutes: a rocker arm of 200 mm"]
-fn a_rocker_arm_is_balanced_by_its_optimum_and_by_a_wave() {
+#[ignore = "a minute and more: a rocker arm of 200 mm"]
+fn a_rocker_arm_is_balanced_by_its_optimum() {
     let model = common::shared_model("rocker-arm.obj");
     let Some(model) = model.filter(|_| has_slicer()) else {
         return;
     };
-    for options in ["", "--field sine"] {
-        let order = format!("--goal balance --size 200mm --levels 6 {options}");
-        let (found, sheet) = follow(path(&model), &order, "40%");
-        let [before, after] = off_mm(&found, &sheet);
-        eprintln!("{options}: {before:.4} mm before, {after:.4} mm after");
-        assert!(after < 0.15 && after < 0.1 * before, "{before} {after}");
-    }
+    // No wave does it: above 15 %..92 % there are no shells in sparse infill.
+    let order = "--goal balance --size 200mm --levels 6";
+    let (found, sheet) = follow(path(&model), order, "40%");
+    let [before, after] = off_mm(&found, &sheet);
+    eprintln!("{before:.4} mm before, {after:.4} mm after");
+    // From 13.48 mm to 0.0019 mm.
+    assert!(before > 10.0 && after < 0.01, "{before} {after}");
 }
 
 #[test]

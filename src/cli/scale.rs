@@ -16,8 +16,13 @@ use crate::base::numbers::quantity;
 use crate::base::watch::Watch;
 use crate::field::FileError;
 use crate::job::InfillDensity;
-use crate::slice::{ScaleError, ScaleOrder, Scaled, scale_toolpaths};
+use crate::slice::{ScaleError, ScaleOrder, Scaled, Tilt, scale_toolpaths, trim};
 use crate::verify::{Check, Figures, PrintedError, PrintedJudgement, PrintedPart, verify_printed};
+
+/// Most times that toolpaths are trimmed.
+const PASSES: usize = 4;
+/// A centre this near to its place is there, mm: a hundredth of what a round of slicing may miss.
+const TRIMMED_MM: f64 = 0.002;
 
 /// A reason why no toolpaths were written.
 #[derive(Debug, thiserror::Error)]
@@ -81,6 +86,7 @@ pub fn scale_extrusion(
         field: args.field.as_ref().map(FieldChoice::order).transpose()?,
         infill_ratio: args.infill.map(InfillDensity::ratio),
         most_flow_mm3_s: args.most_flow,
+        tilt: None,
     };
     let written = write(&order, &args.out, &watch);
     if written.is_err()
@@ -152,20 +158,74 @@ fn write(
         source,
     };
     let draft = draft(path);
-    let mut output = BufWriter::new(File::create(&draft).map_err(refused)?);
-    let written = scale_toolpaths(order, &mut output, watch).map_err(ScaleCommandError::from);
-    let written = written.and_then(|scaled| {
-        output.flush().map_err(refused)?;
-        let weigh = |file: &PathBuf| verify_printed(&order.kit, std::slice::from_ref(file), watch);
-        let weighed = [weigh(&order.toolpaths)?, weigh(&draft)?];
+    let written = trimmed(order, &draft, watch).and_then(|(scaled, after)| {
+        let before = weigh(order, &order.toolpaths, watch)?;
         fs::rename(&draft, path).map_err(refused)?;
-        Ok((scaled, weighed))
+        Ok((scaled, [before, after]))
     });
     if written.is_err() {
         // The fault that matters is reported, not that of removing the draft.
         let _ = fs::remove_file(&draft);
     }
     written
+}
+
+/// Toolpaths as they were scaled, with their weight.
+struct Pass {
+    scaled: Scaled,
+    judged: PrintedJudgement,
+    /// The tilt that should bring them nearer, and how far they are off, mm.
+    next: Option<(Tilt, f64)>,
+}
+
+/// Scales toolpaths into a draft, again and again until their centre lies where the kit has it, or
+/// comes no nearer.
+fn trimmed(
+    order: &ScaleOrder,
+    draft: &Path,
+    watch: &Watch,
+) -> Result<(Scaled, PrintedJudgement), ScaleCommandError> {
+    let tilted = |tilt| ScaleOrder {
+        tilt,
+        ..order.clone()
+    };
+    let mut best = pass(order, draft, watch)?;
+    for _ in 0..PASSES {
+        let Some((tilt, off_mm)) = best.next.filter(|(_, off_mm)| *off_mm > TRIMMED_MM) else {
+            break;
+        };
+        let next = pass(&tilted(Some(tilt)), draft, watch)?;
+        if next.next.is_none_or(|(_, next_mm)| next_mm >= off_mm) {
+            best = pass(&tilted(best.scaled.tilt), draft, watch)?;
+            break;
+        }
+        best = next;
+    }
+    Ok((best.scaled, best.judged))
+}
+
+/// Scales toolpaths into a draft, and weighs it.
+fn pass(order: &ScaleOrder, draft: &Path, watch: &Watch) -> Result<Pass, ScaleCommandError> {
+    let refused = |source| NewFileError::Write {
+        path: draft.to_owned(),
+        source,
+    };
+    let mut output = BufWriter::new(File::create(draft).map_err(refused)?);
+    let scaled = scale_toolpaths(order, &mut output, watch)?;
+    output.flush().map_err(refused)?;
+    let judged = weigh(order, draft, watch)?;
+    let free = scaled.free.as_ref();
+    let next = free.and_then(|free| trim(free, &judged, scaled.tilt));
+    Ok(Pass {
+        scaled,
+        judged,
+        next,
+    })
+}
+
+/// Weighs toolpaths against the kit.
+fn weigh(order: &ScaleOrder, file: &Path, watch: &Watch) -> Result<PrintedJudgement, PrintedError> {
+    verify_printed(&order.kit, &[file.to_owned()], watch)
 }
 
 /// Words what was scaled, and what the parts weigh before and after.
@@ -191,6 +251,14 @@ fn text(found: &Found) -> String {
         written.beads,
         written.pieces,
     );
+    if let Some(tilt) = found.scaled.tilt {
+        let slope = tilt.slope_per_mm.map(|slope| 1e4 * slope);
+        let [x, y, z] = slope.map(|percent| format!("{percent:+.2}"));
+        said += &format!(
+            "infill was trimmed by {x}, {y}, {z} % per 100 mm along x, y, z of the model, to \
+             bring its centre to where the kit has it\n"
+        );
+    }
     if written.slowed > 0 {
         said += &format!(
             "{} pieces are laid more slowly, as the hot end melts no more\n",

@@ -6,6 +6,7 @@
 //! * `images` draws each plate layer by layer.
 //! * `dither` prints a model in two materials, whose density follows a field.
 //! * `scaled` scales the extrusion of toolpaths, so that densities follow a field.
+//! * `tilt` trims them, so that their centre lies where the kit has it.
 
 mod dither;
 mod error;
@@ -14,6 +15,7 @@ mod images;
 mod plates;
 mod row;
 mod scaled;
+mod tilt;
 
 pub use dither::{
     BodyRow, DITHER_FILE, DitherError, DitherOrder, DitherRow, MaterialRow, Off, dither_model,
@@ -25,3 +27,4 @@ pub use images::{ImageOrder, Imaged, image_kit};
 pub use plates::{SliceOrder, Sliced, slice_kit};
 pub use row::{PlateSlice, Slices};
 pub use scaled::{MOST_FLOW_MM3_S, ScaleError, ScaleOrder, Scaled, scale_toolpaths};
+pub use tilt::{Tilt, trim};

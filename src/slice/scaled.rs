@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 
+use super::tilt::Tilt;
 use crate::base::setting::{Key, Setting};
 use crate::base::watch::Watch;
 use crate::field::{
@@ -13,6 +14,7 @@ use crate::field::{
 };
 use crate::geom::Point;
 use crate::io::gcode::{Feature, Portions, RewriteError, Rewriting, Rewritten, rewrite_text};
+use crate::mass::Moments;
 use crate::mesh::{MeshDistance, Solid};
 use crate::verify::{LocatedPart, LocatedPlate, PrintedError, locate_parts};
 
@@ -42,6 +44,8 @@ pub struct ScaleOrder {
     pub infill_ratio: Option<f64>,
     /// Most that the hot end melts, mm³/s.
     pub most_flow_mm3_s: f64,
+    /// A change of the density that the kit states for its interior.
+    pub tilt: Option<Tilt>,
 }
 
 /// A reason why toolpaths are not scaled.
@@ -111,6 +115,12 @@ pub struct Scaled {
     pub parts: Vec<String>,
     /// What was written.
     pub written: Rewritten,
+    /// The change of the kit's own density that brings the centre to its place.
+    pub tilt: Option<Tilt>,
+    /// The moments of infill that could be more or less, model frame; `None` beside other parts, or
+    /// with a field that was ordered.
+    #[serde(skip)]
+    pub free: Option<Moments>,
 }
 
 /// Writes the toolpaths of a kit's plate again, so that the infill of its parts has the density of
@@ -146,6 +156,7 @@ pub fn scale_toolpaths(
     check(&solid, field.as_ref())?;
     let portions = OfField {
         field: field.as_ref(),
+        tilt: order.tilt,
         wall,
         sparse_ratio: match (order.infill_ratio, &order.field) {
             (None, Some(_)) => plate.laid_ratio.or(plate.stated_ratio),
@@ -169,8 +180,14 @@ pub fn scale_toolpaths(
         return Err(ScaleError::Nothing);
     }
     let parts = plate.parts.iter().map(|part| part.id.clone());
+    let alone = match plate.parts.as_slice() {
+        [part] if order.field.is_none() => Some(part),
+        _ => None,
+    };
     Ok(Scaled {
         parts: parts.collect(),
+        free: alone.map(|part| part.moments_to_model(&written.free)),
+        tilt: order.tilt,
         written,
     })
 }
@@ -212,6 +229,8 @@ struct OfField<'a> {
     /// The density of sparse infill as sliced, over that of solid print, if it is known.
     sparse_ratio: Option<f64>,
     plate: &'a LocatedPlate,
+    /// A change of the field.
+    tilt: Option<Tilt>,
 }
 
 impl OfField<'_> {
@@ -274,7 +293,7 @@ impl Portions for OfField<'_> {
             Feature::Infill => self.sparse_ratio.unwrap_or(1.0),
             _ => 1.0,
         };
-        let wanted = if self.is_wall(&place) {
+        let plain = if self.is_wall(&place) {
             1.0
         } else {
             self.field.at(&place)
@@ -283,7 +302,20 @@ impl Portions for OfField<'_> {
         // must be; how far the whole is off is told by what is laid.
         let is_skin = feature == Feature::SolidInfill && self.sparse_ratio.is_some_and(|r| r < 1.0);
         let least = if is_skin { FACTORS[0] } else { 0.0 };
-        (wanted / laid).max(least)
+        let factor = (plain / laid).max(least);
+        match self.tilt.filter(|_| plain < 1.0) {
+            None => factor,
+            // A trimmed line stays one that can be laid, and no denser than solid.
+            Some(tilt) => {
+                let most = (1.0 / laid).min(FACTORS[1]).max(factor);
+                (factor * tilt.factor(&place)).clamp(FACTORS[0].min(factor), most)
+            }
+        }
+    }
+
+    fn is_free(&self, at: &Point) -> bool {
+        let place = self.part(at).map(|part| part.to_model(at));
+        place.is_some_and(|place| !self.is_wall(&place) && self.field.at(&place) < 1.0)
     }
 }
 

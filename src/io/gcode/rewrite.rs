@@ -15,11 +15,14 @@ use super::parse::WATCHED;
 use super::pieces::{Piece, cut};
 use crate::base::watch::{Cancelled, Watch};
 use crate::geom::{Point, Vector};
+use crate::mass::Moments;
 
 /// The first line of a program that was written so. Twice would scale it twice.
 pub const MARK: &str = "; extrusion scaled by equipoise";
 /// Steps of E in the written program, mm or mm³: what slicers write.
 const E_STEP: f64 = 1e-5;
+/// A factor may leave its bounds by this: a mean over a piece is rounded.
+const ROUNDING: f64 = 1e-9;
 /// Bytes of a line that is copied. Slicers put whole programs of the machine into a comment.
 const MOST_LINE: u64 = 1 << 20;
 /// Seconds in a minute.
@@ -38,6 +41,9 @@ pub trait Portions {
 
     /// Returns the factor on what a feature lays at a place.
     fn factor(&self, feature: Feature, at: &Point) -> f64;
+
+    /// Returns whether a place could be given more or less than it gets.
+    fn is_free(&self, at: &Point) -> bool;
 }
 
 /// An order to write a program again.
@@ -68,6 +74,9 @@ pub struct Rewritten {
     pub factors: [f64; 2],
     /// Feed of E in these beads, before and after: mm of filament, or mm³ if it is volumetric.
     pub fed: [f64; 2],
+    /// The moments of what was laid at places that are free, on the plate, mm³ to mm⁵.
+    #[serde(skip)]
+    pub free: Moments,
 }
 
 /// A reason why a program is not written again.
@@ -270,6 +279,7 @@ impl Writer<'_> {
                 before + steps as f64 * E_STEP
             };
             self.lay(stroke, piece, [at_e, fed])?;
+            self.add_free(&(piece.middle - bead.down), fed);
         }
         self.done.beads += 1;
         self.done.pieces += pieces.len() as u64;
@@ -277,6 +287,22 @@ impl Writer<'_> {
         self.done.fed[1] += steps as f64 * E_STEP;
         self.shift_steps += steps - (stroke.feed / E_STEP).round() as i64;
         Ok(())
+    }
+
+    /// Adds a piece to the moments of what could be given more or less.
+    fn add_free(&mut self, at: &Point, fed: f64) {
+        if self.rewriting.portions.is_free(at) {
+            let moments = Moments(Moments::monomials(at.x, at.y, at.z));
+            self.done.free = self.done.free + moments * self.volume_mm3(fed);
+        }
+    }
+
+    /// Returns the volume of what a step of E feeds, mm³.
+    fn volume_mm3(&self, fed: f64) -> f64 {
+        match self.follower.machine.is_volumetric {
+            true => fed,
+            false => fed * self.rewriting.filament_mm2,
+        }
     }
 
     /// Returns what absolute places of E are ahead of those of the slicer, mm or mm³.
@@ -297,7 +323,7 @@ impl Writer<'_> {
     /// Notes the factor of a piece.
     fn note(&mut self, factor: f64, at: &Point) -> Result<(), RewriteError> {
         let [least, most] = self.rewriting.factors;
-        if !(least..=most).contains(&factor) {
+        if !(least - ROUNDING..=most + ROUNDING).contains(&factor) {
             return Err(RewriteError::Factor {
                 line: self.follower.number,
                 factor,
@@ -333,10 +359,7 @@ impl Writer<'_> {
             let [i, j] = [x - piece.from.x, y - piece.from.y].map(short);
             write!(self.output, " I{i} J{j}")?;
         }
-        let volume_mm3 = match machine.is_volumetric {
-            true => fed,
-            false => fed * self.rewriting.filament_mm2,
-        };
+        let volume_mm3 = self.volume_mm3(fed);
         let most = self.rewriting.most_flow_mm3_s * S_PER_MIN * piece.length_mm / volume_mm3;
         let speed = self.asked_speed.min(most);
         if speed < self.asked_speed {

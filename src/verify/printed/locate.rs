@@ -7,6 +7,7 @@ use super::judge::catalogue;
 use super::source::read_sources;
 use crate::base::watch::Watch;
 use crate::geom::{Aabb, Matrix, Point, Vector};
+use crate::mass::Moments;
 use crate::mesh::TriMesh;
 use crate::verify::{Body, read_kit};
 
@@ -52,6 +53,11 @@ impl LocatedPart {
     /// Returns a point of the plate in the model frame, mm.
     pub fn to_model(&self, plate: &Point) -> Point {
         Point::from(self.turn * plate.coords + self.shift)
+    }
+
+    /// Returns moments of the plate in the model frame.
+    pub fn moments_to_model(&self, plate: &Moments) -> Moments {
+        plate.rotated(&self.turn).translated(&self.shift)
     }
 
     /// Returns whether a place on the plate lies in the part's box, seen from above.

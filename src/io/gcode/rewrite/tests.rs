@@ -14,6 +14,10 @@ impl Portions for AlongX {
     fn factor(&self, _: Feature, at: &Point) -> f64 {
         1.0 + at.x / 100.0
     }
+
+    fn is_free(&self, at: &Point) -> bool {
+        at.x < 8.0
+    }
 }
 
 fn rewrite(program: &str, flow_mm3_s: f64) -> Result<(String, Rewritten), RewriteError> {
