@@ -3,6 +3,8 @@
 use super::asked::Asked;
 use super::error::CoreRunError;
 use super::made::{Made, WrittenPart};
+use super::rods::rod_id;
+use crate::cladding::Rod;
 use crate::draw::part_color;
 use crate::geom::{Matrix, Plane, Point, Vector};
 use crate::io::threemf::{Build, Object, Package, Transform};
@@ -186,6 +188,15 @@ pub fn packages(asked: &Asked, made: &Made) -> Result<Vec<File>, CoreRunError> {
     for (index, panel) in made.built.shell.panels.panels.iter().enumerate() {
         let name = format!("panel {}", index + 1);
         objects.push(Object::new(&name, part_color(PANEL_COLOR), &panel.body()));
+        places.push((objects.len() - 1, Transform::default()));
+    }
+    let rods: Vec<TriMesh> = made.built.rods.iter().map(Rod::body).collect();
+    for (index, body) in rods.iter().enumerate() {
+        objects.push(Object::new(
+            &format!("rod {}", rod_id(index)),
+            part_color(PANEL_COLOR),
+            body,
+        ));
         places.push((objects.len() - 1, Transform::default()));
     }
     let words = "Everything in its place, in the axes of the model; panels without their holes.";
