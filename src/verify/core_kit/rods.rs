@@ -46,8 +46,8 @@ impl RodPromise {
         [along_mm, (arm - self.way() * along_mm).norm()]
     }
 
-    /// Returns its body.
-    pub(super) fn body(&self) -> TriMesh {
+    /// Returns its body in the model, a cylinder of many sides.
+    pub fn body(&self) -> TriMesh {
         self.bar(0.5 * self.diameter_mm, [0.0, self.length_mm])
     }
 
@@ -88,15 +88,16 @@ pub(super) fn panel_for_rods(evidence: &CoreEvidence, panel: usize) -> Result<Tr
     let rods = evidence.promise.rods.iter();
     let own = rods.filter(|rod| rod.panels.contains(&(panel + 1)));
     let holes = own.filter_map(|rod| Some((rod, hole_of(evidence, rod, panel + 1)?)));
-    holes.fold(Ok(panel_body(evidence, panel)), |body, (rod, hole)| {
+    let mut body = panel_body(evidence, panel);
+    for (rod, hole) in holes {
         let [from_mm, to_mm] = hole.along_mm;
         let half_rad = 0.5 * TAU / f64::from(SIDES);
         let radius_mm = 0.5 * hole.diameter_mm / half_rad.cos();
         let bore = rod.bar(radius_mm, [from_mm - 1.0, to_mm + 1.0]);
-        Csg::of_mesh(&body?)?
-            .subtract(&Csg::of_mesh(&bore)?)?
-            .to_mesh()
-    })
+        let bored = Csg::of_mesh(&body)?.subtract(&Csg::of_mesh(&bore)?)?;
+        body = bored.to_mesh()?;
+    }
+    Ok(body)
 }
 
 /// Returns what is wrong with the rods, in words.
