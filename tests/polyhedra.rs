@@ -75,7 +75,7 @@ fn grow_some(ground: &Ground, request: &Request, count: Count) -> BasePlan {
     let connector = ConnectorRequest {
         radius_mm: 20.0,
         gap_mm: 1.0,
-        takes_tubes: true,
+        rods: None,
     };
     let several = Several { count, connector };
     let grown = grow_polyhedra(ground, request, &several, &Watch::silent()).unwrap();
@@ -273,7 +273,7 @@ fn polyhedra_that_share_too_small_a_disc_are_named_with_it() {
         connector: ConnectorRequest {
             radius_mm: 40.0,
             gap_mm: 1.0,
-            takes_tubes: false,
+            rods: None,
         },
     };
     let request = without_limits(6);
@@ -450,7 +450,7 @@ fn a_base_file_gives_the_same_base_again_and_names_what_is_wrong_with_an_edited_
         ConnectorRequest {
             radius_mm: 20.0,
             gap_mm: 1.0,
-            takes_tubes: true,
+            rods: None,
         },
     );
     let plan = grow_some(&ground, &request, Count::Exactly(2));

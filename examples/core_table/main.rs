@@ -168,7 +168,7 @@ fn two(ground: &Ground) -> Result<BasePlan> {
         connector: ConnectorRequest {
             radius_mm: 20.0,
             gap_mm: 1.0,
-            takes_tubes: true,
+            rods: None,
         },
     };
     match grow_polyhedra(ground, &without_limits(), &several, &Watch::silent())? {

@@ -141,6 +141,8 @@ choice! {
         Polyhedra = "polyhedra",
         /// The least radius of the disc in which two polyhedra bear on each other.
         Connector = "connector",
+        /// The rods between polyhedra.
+        Dowel = "dowel",
         /// The base that is used in place of one that is looked for.
         Base = "base",
         /// The joints between the panels of a base.

@@ -3,7 +3,9 @@
 use super::error::CladdingError;
 use super::overlap::{convex_mm2, left_of};
 use super::screws::{AREA_MM2, HEAD_ROOM_MM, LEAST_SCREWS};
-use super::spread::{Head, Seen, Spacing, clear_to, lean_mm, middle_of, places_in, spread};
+use super::spread::{
+    Head, Seen, Spacing, beside_mm, clear_to, lean_mm, middle_of, places_in, spread,
+};
 use crate::cutter::{Fastener, FastenerShape};
 use crate::geom::{Point, hull};
 use crate::panels::{EdgeJoint, Hole, Panel, PanelEdge, PanelRequest, PanelSet};
@@ -14,8 +16,6 @@ const LEAST_BOLTS: usize = 2;
 
 /// Least distance between two bolts, in diameters of the washer: a socket goes round each nut.
 const APART_WASHERS: f64 = 2.0;
-/// The sharpest angle at the edge of a panel for which room is reckoned, radians: 80°.
-const SHARPEST_RAD: f64 = 4.0 * std::f64::consts::PI / 9.0;
 
 /// A bolt with its nut, and the washer that lies under each end.
 #[derive(Debug, Clone, PartialEq)]
@@ -84,9 +84,7 @@ impl BoltKit {
     /// Returns the radius of a disc in two panels that has room for two bolts beside fingers along
     /// its edge, mm.
     pub fn disc_mm(&self, sheet_mm: f64) -> f64 {
-        let gap_mm = sheet_mm * (1.0 + SHARPEST_RAD.cos()) / SHARPEST_RAD.sin();
-        let beside_mm = gap_mm + lean_mm(&self.head, SHARPEST_RAD) + self.head.radius_mm;
-        beside_mm + 0.5 * self.apart_mm()
+        beside_mm(&self.head, sheet_mm) + 0.5 * self.apart_mm()
     }
 
     fn apart_mm(&self) -> f64 {
@@ -173,16 +171,17 @@ pub fn bolts(
     Ok(all)
 }
 
-/// Two panels that bear on each other, with the outlines of their faces.
-struct Pair<'a> {
+/// Two panels that bear on each other, or face each other over a gap, with the outlines of their
+/// faces.
+pub(super) struct Pair<'a> {
     set: &'a PanelSet,
     request: &'a PanelRequest,
-    panels: [usize; 2],
+    pub panels: [usize; 2],
     outlines: [Vec<Point>; 2],
 }
 
 impl<'a> Pair<'a> {
-    fn find(
+    pub fn find(
         plan: &BasePlan,
         set: &'a PanelSet,
         of: &Connection,
@@ -201,12 +200,12 @@ impl<'a> Pair<'a> {
         })
     }
 
-    fn panel(&self, side: usize) -> &Panel {
+    pub fn panel(&self, side: usize) -> &Panel {
         &self.set.panels[self.panels[side]]
     }
 
     /// Returns a point of space in the frame of a panel.
-    fn flat(&self, side: usize, p: &Point) -> [f64; 2] {
+    pub fn flat(&self, side: usize, p: &Point) -> [f64; 2] {
         let local = self.panel(side).frame.to_local(p);
         [local.x, local.y]
     }
@@ -234,7 +233,7 @@ impl<'a> Pair<'a> {
 
     /// Returns the ring, in the frame of the first panel, in which heads keep clear of all joints
     /// on both.
-    fn ring(&self, head: &Head) -> Vec<[f64; 2]> {
+    pub fn ring(&self, head: &Head) -> Vec<[f64; 2]> {
         let [first, second] = [0, 1].map(|side| {
             let flat = self.outlines[side].iter().map(|p| self.flat(0, p));
             hull::convex_hull(flat.collect())
@@ -271,7 +270,7 @@ impl<'a> Pair<'a> {
     }
 
     /// Returns true if a head at a place in the first panel's frame meets no flange of a bracket.
-    fn is_clear(&self, at: [f64; 2], radius_mm: f64) -> bool {
+    pub fn is_clear(&self, at: [f64; 2], radius_mm: f64) -> bool {
         let own = |edge: &&PanelEdge| edge.panels.iter().any(|panel| self.panels.contains(panel));
         let mut edges = self.set.edges.iter().filter(own);
         edges.all(|edge| {

@@ -9,6 +9,7 @@ use super::error::CladdingError;
 use super::overlap::{barred_mm2, contact_mm2, face_mm2};
 use super::part::{Crumb, Holding, Part, inner_point};
 use super::region::{Bound, BoundKind, Region};
+use super::rod_bore::RodBore;
 use crate::base::watch::Watch;
 use crate::geom::{Aabb, Plane, Vector};
 use crate::mesh::{ClipError, Csg, Solid, TriMesh, bodies};
@@ -43,6 +44,8 @@ pub struct Scene<'a> {
     pub(super) within: Aabb,
     /// The planes to other polyhedra that bound the base's part of the model.
     sides: Vec<Plane>,
+    /// The bores of rods to other polyhedra.
+    pub(super) rods: Vec<RodBore>,
 }
 
 impl<'a> Scene<'a> {
@@ -73,6 +76,7 @@ impl<'a> Scene<'a> {
             solid: ground.solid().clone(),
             within: mesh.aabb().inflated(margin_mm),
             sides: Vec::new(),
+            rods: Vec::new(),
         })
     }
 
@@ -81,6 +85,17 @@ impl<'a> Scene<'a> {
     #[must_use]
     pub fn bounded_by(self, sides: Vec<Plane>) -> Self {
         Self { sides, ..self }
+    }
+
+    /// Returns the scene with bores for rods through its parts.
+    #[must_use]
+    pub(super) fn bored_for(self, rods: Vec<RodBore>) -> Self {
+        Self { rods, ..self }
+    }
+
+    /// Returns the bores for rods over a face.
+    pub(super) fn rods_over(&self, face: usize) -> impl Iterator<Item = &RodBore> {
+        self.rods.iter().filter(move |rod| rod.face == face)
     }
 
     /// Returns the cells of the faces, each in the base's part of the model.

@@ -69,6 +69,15 @@ pub enum CladdingError {
         /// The number of bolts that find a place.
         found: usize,
     },
+    /// Panels of two polyhedra without room for the rods between them.
+    #[error(
+        "the panels between polyhedra {} and {} have no room for two rods clear of their joints",
+        .polyhedra[0] + 1, .polyhedra[1] + 1
+    )]
+    NoRods {
+        /// The indices of the polyhedra.
+        polyhedra: [usize; 2],
+    },
     /// The boolean engine failed.
     #[error("cutting the shell failed")]
     Clip(#[from] ClipError),

@@ -15,7 +15,8 @@
 //! * [`Scene::clad`] does all of it.
 //! * [`Sides`] does it for a base of several polyhedra, each on its side of the planes between
 //!   them.
-//! * [`bolts`] finds the places of the bolts through their common panels.
+//! * [`bolts`] finds the places of the bolts through their common panels, and [`rods()`] those of
+//!   rods between panels over a gap. Each [`Rod`] has a [`RodBore`] in the parts.
 //! * [`places_on`] finds those of ballast on a panel.
 //!
 //! All lengths are in mm, angles in radians.
@@ -32,6 +33,8 @@ mod part;
 mod part_pins;
 mod pins;
 mod region;
+mod rod_bore;
+mod rods;
 mod rooms;
 mod screws;
 mod shell;
@@ -50,6 +53,8 @@ pub use overlap::{barred_mm2, contact_mm2, face_mm2};
 pub use part::{Crumb, Holding, Part};
 pub use part_pins::{PartPins, PinRequest};
 pub use region::{Bound, BoundKind, Region};
+pub use rod_bore::RodBore;
+pub use rods::{Rod, RodKit, RodRequest, STAND_MM, rods};
 pub use rooms::Room;
 pub use screws::{PartScrews, Screw, ScrewKit, ScrewRequest};
 pub use shell::{CladShell, ShellRequest};

@@ -71,6 +71,32 @@ impl Part {
         matches!(self.holding, Holding::Panel { .. })
     }
 
+    /// Returns the part with the indices of its faces and of the part that carries it raised.
+    pub(super) fn raised(self, face: usize, first: usize) -> Self {
+        let crumbs = self.crumbs.into_iter().map(|crumb| Crumb {
+            face: crumb.face + face,
+            ..crumb
+        });
+        Self {
+            face: self.face + face,
+            region: self.region.renumbered(face),
+            crumbs: crumbs.collect(),
+            holding: match self.holding {
+                Holding::Pinned {
+                    to,
+                    bound,
+                    area_mm2,
+                } => Holding::Pinned {
+                    to: to + first,
+                    bound,
+                    area_mm2,
+                },
+                other => other,
+            },
+            ..self
+        }
+    }
+
     /// Returns the bound on which it bears, on the panel or on the part that carries it; `None` for
     /// a part that nothing holds.
     pub fn foot(&self) -> Option<&Bound> {

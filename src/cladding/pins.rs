@@ -13,6 +13,7 @@ use super::overlap::contact_mm2;
 use super::part::{Holding, Part};
 use super::part_pins::PartPins;
 use super::region::BoundKind;
+use super::rod_bore::RodBore;
 use super::rooms::Room;
 use super::screws::PartScrews;
 use super::shell::ShellRequest;
@@ -205,12 +206,14 @@ impl Pinner<'_> {
         Ok(carrier(&sites).map(|parts| PartPins { parts, sites }))
     }
 
-    /// Returns the bores of a part, and the height below which heads of bracket screws may lie.
+    /// Returns the bores of a part for screws and rods, and the height below which heads of bracket
+    /// screws may lie.
     fn obstacles(&self, part: usize) -> Vec<TriMesh> {
         let own = self.screws.iter().find(|screws| screws.part == part);
         let own = own.zip(self.request.kit);
         let mut all = own.map_or_else(Vec::new, |(screws, kit)| screws.bores(kit));
         let of = &self.parts[part];
+        all.extend(self.scene.rods_over(of.face).map(RodBore::body));
         let floor_mm = self.request.pins.map_or(0.0, |pins| pins.floor_mm);
         if of.is_on_panel() && floor_mm > 0.0 {
             let up = self.scene.normal(of.face) * floor_mm;

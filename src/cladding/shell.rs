@@ -7,6 +7,7 @@ use super::divide::Scene;
 use super::error::CladdingError;
 use super::part::Part;
 use super::part_pins::{PartPins, PinRequest, socket_keep};
+use super::rod_bore::RodBore;
 use super::rooms::Room;
 use super::screws::{PartScrews, ScrewKit, ScrewRequest};
 use super::units::Assembly;
@@ -104,6 +105,7 @@ impl Scene<'_> {
                 screws: screws.iter().find(|screws| screws.part == index),
                 pegs: PartPins::on(&pins, index, 0),
                 sockets: PartPins::on(&pins, index, 1),
+                rods: self.rods_over(parts[index].face).collect(),
             };
             self.finished(&parts[index], &own, request, watch)
         });
@@ -126,8 +128,8 @@ impl Scene<'_> {
         })
     }
 
-    /// Hollows a part, bores it for its screws and gives it its pins and sockets. Returns it with
-    /// the volume of its bores, mm³.
+    /// Hollows a part, bores it for its screws and rods, and gives it its pins and sockets. Returns
+    /// it with the volume of its bores, mm³.
     fn finished(
         &self,
         part: &Part,
@@ -141,7 +143,8 @@ impl Scene<'_> {
             ShellStyle::Cups => {
                 let below_mm = 3.0 * request.wall_mm;
                 let keeps = own.map_or_else(Vec::new, |(screws, kit)| screws.keeps(kit, below_mm));
-                let keeps = [keeps, fastened.socket_keeps(request)].concat();
+                let rods = fastened.rods.iter().map(|rod| rod.keep(request.wall_mm));
+                let keeps = [keeps, fastened.socket_keeps(request), rods.collect()].concat();
                 let order = CupRequest {
                     wall_mm: request.wall_mm,
                     keeps: &keeps,
@@ -150,7 +153,9 @@ impl Scene<'_> {
             }
         };
         let whole_mm3 = cup.body.signed_volume_mm3();
-        for bore in own.map_or_else(Vec::new, |(screws, kit)| screws.bores(kit)) {
+        let screwed = own.map_or_else(Vec::new, |(screws, kit)| screws.bores(kit));
+        let spanned = fastened.rods.iter().map(|rod| rod.body());
+        for bore in screwed.into_iter().chain(spanned) {
             watch.check()?;
             let bored = Csg::of_mesh(&cup.body)?.subtract(&Csg::of_mesh(&bore)?)?;
             cup.body = bored.to_mesh()?;
@@ -168,6 +173,8 @@ struct Fastened<'a> {
     /// The pins that stand on it, and those whose sockets it has.
     pegs: Vec<&'a PinSite>,
     sockets: Vec<&'a PinSite>,
+    /// The bores of rods that pass it.
+    rods: Vec<&'a RodBore>,
 }
 
 impl Fastened<'_> {

@@ -7,8 +7,10 @@
 use super::divide::{Scene, hold_loose};
 use super::error::CladdingError;
 use super::overlap::barred_mm2;
-use super::part::{Crumb, Holding, Part};
+use super::part::Holding;
 use super::part_pins::PartPins;
+use super::rod_bore::RodBore;
+use super::rods::{Rod, bores_of};
 use super::screws::PartScrews;
 use super::shell::{CladShell, ShellRequest};
 use super::units::{Assembly, FREE_MM2, Join, Unit};
@@ -41,6 +43,31 @@ impl<'a> Sides<'a> {
             plan,
             scenes: scenes.collect::<Result<_, CladdingError>>()?,
         })
+    }
+
+    /// Returns the scenes with bores for rods through the parts.
+    #[must_use]
+    pub fn with_rods(self, rods: &[Rod]) -> Self {
+        let scenes = self.scenes.into_iter().enumerate();
+        let scenes = scenes.map(|(polyhedron, scene)| {
+            let bores = bores_of(self.plan, rods, polyhedron, scene.gap_mm);
+            scene.bored_for(bores)
+        });
+        Self {
+            scenes: scenes.collect(),
+            ..self
+        }
+    }
+
+    /// Returns the bores of rods through the parts over a face, by its index in the whole base.
+    pub fn rods_over(&self, face: usize) -> Vec<RodBore> {
+        let scenes = self.scenes.iter().enumerate();
+        let own = scenes.flat_map(|(polyhedron, scene)| {
+            let before = self.plan.faces_before(polyhedron);
+            let local = face.checked_sub(before);
+            scene.rods.iter().filter(move |rod| Some(rod.face) == local)
+        });
+        own.copied().collect()
     }
 
     /// Makes the shell around the panels of all polyhedra, which come in their order. Faces, parts
@@ -91,7 +118,7 @@ impl<'a> Sides<'a> {
             let parts = shell.parts.into_iter();
             whole
                 .parts
-                .extend(parts.map(|part| raised(part, face, first)));
+                .extend(parts.map(|part| part.raised(face, first)));
             whole.cups.extend(shell.cups);
             let screws = shell.screws.into_iter();
             whole.screws.extend(screws.map(|screws| PartScrews {
@@ -110,32 +137,6 @@ impl<'a> Sides<'a> {
         }
         whole.panels = PanelSet::joined(sets);
         whole
-    }
-}
-
-/// Returns a part with the indices of its faces and of the part that carries it raised.
-fn raised(part: Part, face: usize, first: usize) -> Part {
-    let crumbs = part.crumbs.into_iter().map(|crumb| Crumb {
-        face: crumb.face + face,
-        ..crumb
-    });
-    Part {
-        face: part.face + face,
-        region: part.region.renumbered(face),
-        crumbs: crumbs.collect(),
-        holding: match part.holding {
-            Holding::Pinned {
-                to,
-                bound,
-                area_mm2,
-            } => Holding::Pinned {
-                to: to + first,
-                bound,
-                area_mm2,
-            },
-            other => other,
-        },
-        ..part
     }
 }
 

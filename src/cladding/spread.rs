@@ -8,6 +8,8 @@ use crate::panels::{EdgeJoint, PanelEdge};
 const STEP_MM: f64 = 6.0;
 /// Most places that are tried along either side of a face.
 const MOST_STEPS: f64 = 40.0;
+/// The sharpest angle at the edge of a panel for which room is reckoned, radians: 80°.
+const SHARPEST_RAD: f64 = 4.0 * std::f64::consts::PI / 9.0;
 
 /// The room that a head takes up on a panel, mm.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -91,11 +93,21 @@ pub(super) fn places_in(ring: &[[f64; 2]]) -> Vec<[f64; 2]> {
         let cell = [cell % counts[0], cell / counts[0]];
         [0, 1].map(|k| low[k] + (high[k] - low[k]) * (cell[k] as f64 + 0.5) / counts[k] as f64)
     });
-    let is_inside = |at: &[f64; 2]| {
-        (0..ring.len()).all(|k| hull::turn(ring[k], ring[(k + 1) % ring.len()], *at) >= 0.0)
-    };
-    places.extend(grid.filter(is_inside));
+    places.extend(grid.filter(|at| is_in(ring, at)));
     places
+}
+
+/// Returns true if a place lies inside a convex ring that runs counterclockwise; false for none.
+pub(super) fn is_in(ring: &[[f64; 2]], at: &[f64; 2]) -> bool {
+    let mut sides = (0..ring.len()).map(|k| [ring[k], ring[(k + 1) % ring.len()]]);
+    ring.len() > 2 && sides.all(|[from, to]| hull::turn(from, to, *at) >= 0.0)
+}
+
+/// Returns how far from the line of a panel's edge a head stays clear, mm. It is clear of fingers
+/// there, and of the panel beyond at the sharpest angle.
+pub(super) fn beside_mm(head: &Head, sheet_mm: f64) -> f64 {
+    let gap_mm = sheet_mm * (1.0 + SHARPEST_RAD.cos()) / SHARPEST_RAD.sin();
+    gap_mm + lean_mm(head, SHARPEST_RAD) + head.radius_mm
 }
 
 /// Returns the mean of a ring's corners.

@@ -69,6 +69,10 @@ fn unclad(asked: &Asked, why: &CladdingError) -> Impossible {
                 Setting::new(Key::Connector, larger)
             )
         }
+        CladdingError::NoRods { .. } => format!(
+            "ask for `{}`: it needs no rods; or give a base with larger faces at both ends of them",
+            Setting::new(Key::Polyhedra, 1)
+        ),
         CladdingError::Enclosed { .. } => format!(
             "ask for `{}`: its units pass no others; or give a base whose named faces lean away \
              from the plane",
@@ -312,10 +316,12 @@ mod tests {
             panels_g: 0.0,
             brackets_g: 0.0,
             fasteners_g: 0.0,
+            rods_g: 0.0,
             glue_g: 0.0,
             ballast_g: 0.0,
             whole: point(1000.0, center),
             fasteners: Vec::new(),
+            rods: Vec::new(),
             glue: Vec::new(),
             ballast: Vec::new(),
         }

@@ -5,6 +5,7 @@ use super::base::{FailedStart, NoBase, NotFromStart};
 use super::method::other_starts;
 use crate::base::numbers::measured;
 use crate::base::setting::{Key, Setting};
+use crate::cladding::RodKit;
 use crate::geom::Plane;
 use crate::job::base_method::BaseMethod;
 use crate::polyhedra::{NoRoom, Unjoined};
@@ -119,7 +120,7 @@ fn given_apart(asked: &Asked, apart: &Unjoined) -> Impossible {
     answer
         .hints
         .push("lock larger faces on the planes of the base".to_owned());
-    answer.hints.extend(tube(asked, apart));
+    answer.hints.extend(rods(asked, apart));
     answer
 }
 
@@ -132,7 +133,7 @@ fn stay_apart(asked: &Asked, apart: &Unjoined, joined: usize) -> Impossible {
         shared(asked, apart)
     ));
     answer.hints.extend(smaller_disc(asked, apart));
-    answer.hints.extend(tube(asked, apart));
+    answer.hints.extend(rods(asked, apart));
     let fewer = Setting::new(Key::Polyhedra, joined);
     answer.hints.push(match joined {
         1 => format!("one polyhedron needs no joint: ask for `{fewer}`"),
@@ -189,14 +190,34 @@ fn plane_words(plane: &Plane) -> String {
     }
 }
 
-/// Tells of a tube that would join two polyhedra. None is made yet.
-fn tube(asked: &Asked, apart: &Unjoined) -> Option<String> {
-    let length_mm = apart.tube_mm?;
-    Some(format!(
-        "a tube of {} radius has room between them, over a gap of {}; this program makes none yet",
-        measured(asked.connector.radius_mm, "mm"),
-        measured(length_mm, "mm")
-    ))
+/// Tells which rods would join two polyhedra, and what the way between them lacks for those asked
+/// for.
+fn rods(asked: &Asked, apart: &Unjoined) -> Vec<String> {
+    let Some(way_mm) = apart.way_mm else {
+        return Vec::new();
+    };
+    let way = measured(way_mm, "mm");
+    let (sheet_mm, wall_mm) = (asked.panels.sheet_mm, asked.wall_mm);
+    let needed_mm = |kit: &RodKit| kit.room(sheet_mm, wall_mm).way_mm;
+    let mut hints = Vec::new();
+    if let Some(thinnest) = asked.rods.last() {
+        hints.push(format!(
+            "the widest straight way between them has a radius of {way}; two rods {} need {}",
+            thinnest.rod.id,
+            measured(needed_mm(thinnest), "mm"),
+        ));
+    }
+    let all = RodKit::all(&asked.shop.fasteners, asked.pins.pins.clearance_mm);
+    let fits = all.iter().find(|kit| needed_mm(kit) <= way_mm);
+    let is_new = |kit: &&RodKit| asked.rods.iter().all(|own| own.rod.id != kit.rod.id);
+    hints.extend(fits.filter(is_new).map(|kit| {
+        let id = &kit.rod.id;
+        let setting = Setting::new(Key::Dowel, id);
+        format!(
+            "a way of {way} radius is between them, with room for two rods {id}: give `{setting}`"
+        )
+    }));
+    hints
 }
 
 #[cfg(test)]

@@ -4,13 +4,14 @@ use super::error::CoreRunError;
 use super::load::{Loaded, Shop};
 use super::method::check_method;
 use crate::base::watch::Watch;
-use crate::cladding::{BoltKit, ScrewKit};
+use crate::cladding::{BoltKit, RodKit, ScrewKit};
 use crate::cut::{GoalAxis, PlanRequest};
 use crate::cutter::{CutterNumber, Fastener, FastenerShape, Grain};
 use crate::cutting::{SheetError, whole_sheets};
 use crate::geom::{Point, Vector};
 use crate::goal::{Goal, GoalError, GoalKind, Request as GoalRequest, Up, find_upright, place};
 use crate::job::GrainChoice;
+use crate::job::base_choice::Dowel;
 use crate::job::core_kit::{CoreGoal, CoreJob, CoreJoints};
 use crate::panels::{BracketKind, JointStyle, PanelRequest, Stock};
 use crate::polyhedra::{ConnectorRequest, Ground, Limits, Request};
@@ -52,6 +53,8 @@ pub struct Asked<'a> {
     pub connector: ConnectorRequest,
     /// The bolts between polyhedra; `None` if no stock screw is long enough.
     pub bolt: Option<BoltKit>,
+    /// The rods to choose from, the best first; empty if none may join polyhedra.
+    pub rods: Vec<RodKit>,
     /// The order for its panels.
     pub panels: PanelRequest,
     /// The sheets at hand, as they lie on the bed.
@@ -106,6 +109,8 @@ pub fn measure<'a>(
     let bolt = BoltKit::choose(&shop.fasteners, BOLT_MM, 2.0 * sheet_mm + BEARING_MM);
     let two_mm = bolt.as_ref().map_or(0.0, |bolt| bolt.disc_mm(sheet_mm));
     let disc_mm = CONNECTOR_MM.max(two_mm.ceil());
+    let pins = pins(shop, size_mm);
+    let rods = rods(job, shop, pins.pins.clearance_mm)?;
     let (up, goal) = stance(job, &loaded.ground, wall_mm, watch)?;
     Ok(Asked {
         job,
@@ -119,14 +124,16 @@ pub fn measure<'a>(
         connector: ConnectorRequest {
             radius_mm: job.connector.map_or(disc_mm, |radius| radius.mm()),
             gap_mm: BEARING_MM,
-            takes_tubes: false,
+            // What the thinnest needs: which of them it is, panels and neck decide.
+            rods: rods.last().map(|kit| kit.room(sheet_mm, wall_mm)),
         },
         bolt,
+        rods,
         panels: panel_request(job, shop, &bracket_screw),
         stock,
         keeps_grain: keeps_grain(job, shop),
         screws,
-        pins: pins(shop, size_mm),
+        pins,
         bracket_screw,
         up,
         goal,
@@ -164,6 +171,25 @@ fn keeps_grain(job: &CoreJob, shop: &Shop) -> bool {
     match job.cutting.grain {
         Some(choice) => choice == GrainChoice::Keep,
         None => shop.sheet.grain != Grain::None,
+    }
+}
+
+/// Returns the rods that a job allows, the thickest first.
+fn rods(job: &CoreJob, shop: &Shop, play_mm: f64) -> Result<Vec<RodKit>, CoreRunError> {
+    let all = RodKit::all(&shop.fasteners, play_mm);
+    let known = all.iter().map(|kit| kit.rod.id.clone()).collect();
+    match &job.dowel {
+        Dowel::Auto => Ok(all),
+        Dowel::None => Ok(Vec::new()),
+        Dowel::Id(id) => {
+            let own = all.into_iter().filter(|kit| kit.rod.id == *id);
+            let own: Vec<RodKit> = own.collect();
+            if own.is_empty() {
+                let id = id.clone();
+                return Err(CoreRunError::NoDowel { id, known });
+            }
+            Ok(own)
+        }
     }
 }
 

@@ -7,7 +7,8 @@ use super::pockets::{Pocket, cut_pockets, depth_mm, pockets};
 use crate::base::verdict::Verdict;
 use crate::base::watch::{Phase, Watch};
 use crate::cladding::{
-    Bolt, CladShell, CladdingError, PinRequest, ShellRequest, ShellStyle, Sides, bolts,
+    Bolt, CladShell, CladdingError, PinRequest, Rod, RodBore, RodRequest, ShellRequest, ShellStyle,
+    Sides, bolts, rods,
 };
 use crate::cutting::{CutSheet, SheetError, SheetOrder, cut_sheets};
 use crate::job::core_kit::CoreShell;
@@ -26,6 +27,10 @@ pub struct Built {
     pub brackets: Vec<Bracket>,
     /// The bolts between polyhedra.
     pub bolts: Vec<Bolt>,
+    /// The rods between polyhedra.
+    pub rods: Vec<Rod>,
+    /// Their bores in the parts over each panel.
+    pub rod_bores: Vec<Vec<RodBore>>,
     pub pockets: Vec<Pocket>,
     pub sheets: Vec<CutSheet>,
 }
@@ -61,26 +66,31 @@ pub fn build(asked: &Asked, watch: &Watch) -> Result<Verdict<Built, Refused>, Co
         Err(why) => return Ok(Verdict::No(Refused::Panels(why))),
     };
     watch.enter(Phase::Shell);
-    let (shell, bolts) = match clad(asked, &plan, &panels, watch) {
-        Ok(clad) => clad,
+    let bare = match clad(asked, &plan, &panels, watch) {
+        Ok(clad) => Bare {
+            plan,
+            vertices,
+            clad,
+        },
         Err(why) if is_answer(&why) => return Ok(Verdict::No(Refused::Shell(why))),
         Err(error) => return Err(error.into()),
-    };
-    let bare = Bare {
-        plan,
-        vertices,
-        shell,
-        bolts,
     };
     furnish(asked, bare, watch)
 }
 
-/// A base with its shell and bolts, without brackets.
+/// A base with its shell, without brackets.
 struct Bare {
     plan: BasePlan,
     vertices: Option<ByVertices>,
+    clad: Clad,
+}
+
+/// A shell, and what joins its polyhedra.
+struct Clad {
     shell: CladShell,
     bolts: Vec<Bolt>,
+    rods: Vec<Rod>,
+    rod_bores: Vec<Vec<RodBore>>,
 }
 
 /// Adds brackets and their pockets, and lays the panels out on sheets.
@@ -92,9 +102,9 @@ fn furnish(
     let Bare {
         plan,
         vertices,
-        mut shell,
-        bolts,
+        clad,
     } = bare;
+    let mut shell = clad.shell;
     let brackets = shell.panels.brackets(&asked.panels)?;
     let pockets = pockets(asked, &plan, &shell, &brackets);
     cut_pockets(&mut shell, &pockets)?;
@@ -115,7 +125,9 @@ fn furnish(
         vertices,
         shell,
         brackets,
-        bolts,
+        bolts: clad.bolts,
+        rods: clad.rods,
+        rod_bores: clad.rod_bores,
         pockets,
         sheets,
     }))
@@ -128,18 +140,22 @@ fn is_answer(why: &CladdingError) -> bool {
         CladdingError::Cycle { .. }
             | CladdingError::Enclosed { .. }
             | CladdingError::NoBolts { .. }
+            | CladdingError::NoRods { .. }
             | CladdingError::NoCut { .. }
     )
 }
 
-/// Makes the shell around the panels of a base, with the bolts through common ones.
+/// Makes the shell around the panels of a base, with the bolts through common ones and the rods
+/// between others.
 fn clad(
     asked: &Asked,
     plan: &BasePlan,
     panels: &[PanelSet],
     watch: &Watch,
-) -> Result<(CladShell, Vec<Bolt>), CladdingError> {
-    let sides = Sides::new(asked.ground, plan, asked.gap_mm)?;
+) -> Result<Clad, CladdingError> {
+    let mut panels = panels.to_vec();
+    let rods = add_rods(asked, plan, &mut panels)?;
+    let sides = Sides::new(asked.ground, plan, asked.gap_mm)?.with_rods(&rods);
     let request = ShellRequest {
         wall_mm: asked.wall_mm,
         style: match asked.job.shell {
@@ -155,13 +171,50 @@ fn clad(
         }),
         up: asked.up,
     };
-    let mut shell = sides.clad(panels, &request, watch)?;
-    let Some(kit) = &asked.bolt else {
-        return Ok((shell, Vec::new()));
+    let mut shell = sides.clad(&panels, &request, watch)?;
+    let bolts = match &asked.bolt {
+        Some(kit) => bolts(plan, &shell.panels, &asked.panels, kit)?,
+        None => Vec::new(),
     };
-    let bolts = bolts(plan, &shell.panels, &asked.panels, kit)?;
-    for (panel, hole) in bolts.iter().flat_map(|bolt| bolt.holes(kit)) {
+    let holes = asked.bolt.iter();
+    let holes = holes.flat_map(|kit| bolts.iter().flat_map(|bolt| bolt.holes(kit)));
+    for (panel, hole) in holes {
         shell.panels.panels[panel].holes.push(hole);
     }
-    Ok((shell, bolts))
+    let over = shell.panels.panels.iter();
+    let rod_bores = over.map(|panel| sides.rods_over(panel.face)).collect();
+    Ok(Clad {
+        shell,
+        bolts,
+        rods,
+        rod_bores,
+    })
+}
+
+/// Finds the rods between polyhedra, and adds their holes to the panels of each.
+fn add_rods(
+    asked: &Asked,
+    plan: &BasePlan,
+    panels: &mut [PanelSet],
+) -> Result<Vec<Rod>, CladdingError> {
+    let before = |at: usize| plan.faces_before(at);
+    let sets = panels.iter().cloned().enumerate();
+    let set = PanelSet::joined(sets.map(|(at, set)| (set, before(at))));
+    let request = RodRequest {
+        ground: asked.ground,
+        panels: &asked.panels,
+        kits: &asked.rods,
+        wall_mm: asked.wall_mm,
+    };
+    let rods = rods(plan, &set, &request)?;
+    for (mut index, hole) in rods.iter().flat_map(Rod::holes) {
+        for set in panels.iter_mut() {
+            if let Some(panel) = set.panels.get_mut(index) {
+                panel.holes.push(hole);
+                break;
+            }
+            index -= set.panels.len();
+        }
+    }
+    Ok(rods)
 }

@@ -119,6 +119,16 @@ pub enum CoreRunError {
         /// The thickness of the sheet, mm.
         sheet_mm: f64,
     },
+    /// A rod that is not on stock.
+    #[error(
+        "no rod `{id}` is on stock; remedy: give auto, none, or one of {}", .known.join(", ")
+    )]
+    NoDowel {
+        /// The id.
+        id: String,
+        /// The ids of the rods on stock.
+        known: Vec<String>,
+    },
     /// A sheet at hand that the cutter's bed does not hold.
     #[error(
         "a sheet of {item} mm does not lie on the cutter's bed of {} x {} mm; remedy: name in \

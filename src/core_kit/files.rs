@@ -3,6 +3,7 @@
 use super::asked::Asked;
 use super::error::CoreRunError;
 use super::made::{Made, WrittenPart};
+use super::rods::rods;
 use crate::draw::part_color;
 use crate::geom::{Matrix, Plane, Point, Vector};
 use crate::io::threemf::{Build, Object, Package, Transform};
@@ -13,7 +14,7 @@ use crate::panels::{EdgeJoint, Hole, PanelEdge};
 use crate::polyhedra::{BasePlan, Obstacles, Separation};
 use crate::verify::{
     BaseCertificate, CoreCertificate, CutSheetPromise, EdgePromise, HolePromise, MODEL_FILE,
-    PanelPromise, PanelsFile, PlacedPanel,
+    PanelPromise, PanelsFile, PlacedPanel, RodPromise,
 };
 
 /// The version of the keys of panels and certificate.
@@ -186,6 +187,16 @@ pub fn packages(asked: &Asked, made: &Made) -> Result<Vec<File>, CoreRunError> {
     for (index, panel) in made.built.shell.panels.panels.iter().enumerate() {
         let name = format!("panel {}", index + 1);
         objects.push(Object::new(&name, part_color(PANEL_COLOR), &panel.body()));
+        places.push((objects.len() - 1, Transform::default()));
+    }
+    let rods = rods(made);
+    let bodies: Vec<TriMesh> = rods.iter().map(RodPromise::body).collect();
+    for (rod, body) in rods.iter().zip(&bodies) {
+        objects.push(Object::new(
+            &format!("rod {}", rod.name),
+            part_color(PANEL_COLOR),
+            body,
+        ));
         places.push((objects.len() - 1, Transform::default()));
     }
     let words = "Everything in its place, in the axes of the model; panels without their holes.";

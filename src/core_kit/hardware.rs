@@ -132,7 +132,8 @@ impl Place<'_> {
                 center_mm(of),
                 [head_diameter_mm, head_height_mm],
             ),
-            FastenerShape::Insert { length_mm, .. } => {
+            // Rods have a list of their own.
+            FastenerShape::Insert { length_mm, .. } | FastenerShape::Dowel { length_mm, .. } => {
                 (FastenerKind::Insert, 0.5 * length_mm, [0.0; 2])
             }
             FastenerShape::Washer {
@@ -219,8 +220,8 @@ pub fn pins(made: &Made) -> Vec<PegPromise> {
     pegs.collect()
 }
 
-/// Returns all films of glue: along the fingers, and under the loose flanges of brackets. Parts
-/// that bear on no panel, or have no room for two screws, are glued too.
+/// Returns all films of glue but those of rods: along the fingers, and under the loose flanges of
+/// brackets. Parts that bear on no panel, or have no room for two screws, are glued too.
 pub fn glue(asked: &Asked, made: &Made) -> Vec<GluePromise> {
     let mut films = along_edges(asked, made);
     films.extend(under_flanges(asked, made));
@@ -264,7 +265,7 @@ fn under_flanges(asked: &Asked, made: &Made) -> Vec<GluePromise> {
 }
 
 /// Returns a film of wood glue with its mass.
-fn wood_film(joint: String, area_mm2: f64, middle: Point) -> GluePromise {
+pub fn wood_film(joint: String, area_mm2: f64, middle: Point) -> GluePromise {
     GluePromise {
         joint,
         parts: Vec::new(),

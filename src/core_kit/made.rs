@@ -175,7 +175,7 @@ impl Writer<'_> {
         })
     }
 
-    /// Returns the bores of a part, for its inserts and for the heads of bracket screws.
+    /// Returns the bores of a part, for its inserts, the heads of bracket screws and rods.
     fn bosses(&self, index: usize) -> Vec<BossPromise> {
         let kit = &self.asked.screws;
         let own = self.built.shell.screws.iter();
@@ -190,7 +190,14 @@ impl Writer<'_> {
         let panel = self.names.panels[index] - 1;
         let pockets = self.built.pockets.iter();
         let pockets = pockets.filter(|pocket| pocket.panel == panel);
-        bores.chain(pockets.map(Pocket::promise)).collect()
+        let rods = self.built.rod_bores[panel].iter();
+        let rods = rods.map(|bore| BossPromise {
+            foot_mm: bore.ends[0].into(),
+            depth_mm: bore.depth_mm(),
+            bore_mm: bore.diameter_mm,
+        });
+        let over = pockets.map(Pocket::promise).chain(rods);
+        bores.chain(over).collect()
     }
 }
 

@@ -5,12 +5,13 @@ use std::f64::consts::FRAC_PI_4;
 use super::asked::Asked;
 use super::hardware::{fasteners, glue};
 use super::made::{Made, WrittenPart};
+use super::rods::{about_rods, rods};
 use crate::geom::{Point, Vector};
 use crate::goal::{Goal, compute_figures};
 use crate::mass::{Moments, moments_of_mesh};
 use crate::mesh::{TriMesh, area_mm2};
 use crate::panels::Panel;
-use crate::verify::{BallastPromise, FastenerPromise, GluePromise};
+use crate::verify::{BallastPromise, FastenerPromise, GluePromise, RodPromise};
 
 /// The masses of an object, g, and its centre in the model frame.
 #[derive(Debug, Clone, PartialEq)]
@@ -23,6 +24,8 @@ pub struct Weighed {
     pub brackets_g: f64,
     /// The screws and inserts.
     pub fasteners_g: f64,
+    /// The rods between polyhedra.
+    pub rods_g: f64,
     /// The glue.
     pub glue_g: f64,
     /// The ballast.
@@ -30,6 +33,7 @@ pub struct Weighed {
     /// Everything: mass, g, and first moments.
     pub whole: Moments,
     pub fasteners: Vec<FastenerPromise>,
+    pub rods: Vec<RodPromise>,
     pub glue: Vec<GluePromise>,
     pub ballast: Vec<BallastPromise>,
 }
@@ -57,7 +61,10 @@ pub fn weigh(asked: &Asked, made: &Made) -> Weighed {
     let brackets = of_parts(made.brackets());
     let panels = made.built.shell.panels.panels.iter().map(panel_moments);
     let panels = sum(panels) * asked.sheet_g_mm3();
-    let (fasteners, glue) = (fasteners(asked, made), glue(asked, made));
+    let fasteners = fasteners(asked, made);
+    let glue = [glue(asked, made), about_rods(asked, made)].concat();
+    let rods = rods(made);
+    let spanned = sum(rods.iter().map(|rod| point(rod.mass_g, rod.center_mm)));
     let held = sum(fasteners.iter().map(|one| point(one.mass_g, one.center_mm)));
     let glued = sum(glue.iter().map(|film| point(film.mass_g, film.center_mm)));
     Weighed {
@@ -65,10 +72,12 @@ pub fn weigh(asked: &Asked, made: &Made) -> Weighed {
         panels_g: panels.volume(),
         brackets_g: brackets.volume(),
         fasteners_g: held.volume(),
+        rods_g: spanned.volume(),
         glue_g: glued.volume(),
         ballast_g: 0.0,
-        whole: shell + brackets + panels + held + glued,
+        whole: shell + brackets + panels + held + spanned + glued,
         fasteners,
+        rods,
         glue,
         ballast: Vec::new(),
     }

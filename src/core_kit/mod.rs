@@ -27,6 +27,7 @@ mod method;
 mod names;
 mod papers;
 mod pockets;
+mod rods;
 mod rows;
 mod scene;
 mod sheet;

@@ -7,6 +7,7 @@ use super::hardware::EPOXY_FILM_MM;
 use super::home::home_panel;
 use super::made::{Made, WrittenPart};
 use super::mass::Weighed;
+use super::rods::buy_rods;
 use crate::base::digest::sha256_hex;
 use crate::base::units::{MM3_PER_CM3, format_count};
 use crate::cladding::Holding;
@@ -151,7 +152,7 @@ fn bracket_words(made: &Made, bracket: usize) -> String {
     }
 }
 
-/// Returns what is bought: sheets by their sizes, and fasteners.
+/// Returns what is bought: sheets by their sizes, fasteners, rods and ballast.
 pub fn buy(asked: &Asked, made: &Made, weighed: &Weighed) -> Vec<BuyRow> {
     let sizes: BTreeSet<String> = made.built.sheets.iter().map(size_words).collect();
     let sheets = sizes.into_iter().map(|size| {
@@ -173,5 +174,9 @@ pub fn buy(asked: &Asked, made: &Made, weighed: &Weighed) -> Vec<BuyRow> {
         }
     });
     let ballast = ballast(weighed).into_iter().flatten();
-    sheets.chain(fasteners).chain(ballast).collect()
+    sheets
+        .chain(fasteners)
+        .chain(buy_rods(made))
+        .chain(ballast)
+        .collect()
 }

@@ -4,9 +4,10 @@ use super::asked::Asked;
 use super::bench::{bench_shifts, disc};
 use super::error::CoreRunError;
 use super::made::Made;
+use super::rods::{rod_id, standing_end};
 use super::units::{joins, units};
 use crate::base::watch::Watch;
-use crate::cladding::PartPins;
+use crate::cladding::{PartPins, Rod};
 use crate::cut::PinSite;
 use crate::geom::Vector;
 use crate::mesh::TriMesh;
@@ -41,6 +42,7 @@ pub fn pictures(
     things.extend(shown.panels());
     things.extend(shown.pins());
     things.extend(shown.ballast(ballast));
+    things.extend(shown.rods());
     let view = CoreView {
         things: &things,
         units: units.iter().map(|unit| unit.id.clone()).collect(),
@@ -64,6 +66,7 @@ struct Bodies {
     /// The pins of each joint.
     pins: Vec<Vec<TriMesh>>,
     ballast: Vec<TriMesh>,
+    rods: Vec<TriMesh>,
 }
 
 impl Bodies {
@@ -93,6 +96,7 @@ impl Bodies {
                 .collect(),
             pins: shell.pins.iter().map(pegs).collect(),
             ballast: ballast.iter().map(|piece| disc(&piece.lump)).collect(),
+            rods: made.built.rods.iter().map(Rod::body).collect(),
         })
     }
 }
@@ -163,6 +167,23 @@ impl<'a> Things<'a> {
                     bench,
                 })
         })
+    }
+
+    /// Returns the rods, each with the panel into which it is glued first.
+    fn rods(&self) -> Vec<ShownThing<'a>> {
+        let built = &self.made.built;
+        let rods = built.rods.iter().zip(&self.bodies.rods).enumerate();
+        let things = rods.map(|(index, (rod, mesh))| {
+            let end = standing_end(self.made, rod);
+            ShownThing {
+                id: format!("rod {}", rod_id(index)),
+                mesh,
+                unit: self.unit_with(rod.panels[end] + 1),
+                kind: ThingKind::Rod,
+                bench: Vector::zeros(),
+            }
+        });
+        things.collect()
     }
 
     fn ballast(&self, pieces: &[BallastPromise]) -> Vec<ShownThing<'a>> {

@@ -49,6 +49,7 @@ pub fn checklist(asked: &Asked, made: &Made, weighed: &Weighed) -> CoreSheet {
         parts: made.parts.iter().map(promise).collect(),
         part_rows: part_rows(asked, made),
         fasteners: weighed.fasteners.clone(),
+        rods: weighed.rods.clone(),
         pins: pins(made),
         glue: weighed.glue.clone(),
         ballast: weighed.ballast.clone(),
@@ -208,6 +209,7 @@ fn masses(asked: &Asked, made: &Made, weighed: &Weighed) -> MassRow {
         panels_g: weighed.panels_g,
         brackets_g: weighed.brackets_g,
         fasteners_g: weighed.fasteners_g,
+        rods_g: weighed.rods_g,
         glue_g: weighed.glue_g,
         ballast_g: weighed.ballast_g,
         paper_g,
@@ -265,9 +267,15 @@ fn narrow(made: &Made) -> Vec<String> {
     let rows = polyhedra(made).into_iter().enumerate();
     let narrow = rows.filter_map(|(index, row)| {
         let panel = row.closed_by.filter(|panel| area_mm2(*panel) < HAND_MM2)?;
+        let bolts = made.built.bolts.iter();
+        let mut joined = bolts.map(|bolt| made.built.plan.connections[bolt.connection].polyhedra);
+        let help = if joined.any(|pair| pair.contains(&index)) {
+            "glue its nuts to their panel on the bench, or hold them by long pliers"
+        } else {
+            "put glue about its rods by a long brush"
+        };
         Some(format!(
-            "no hand passes the open side of polyhedron {}, panel {panel}: glue its nuts to their \
-             panel on the bench, or hold them by long pliers",
+            "no hand passes the open side of polyhedron {}, panel {panel}: {help}",
             index + 1
         ))
     });

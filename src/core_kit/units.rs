@@ -3,7 +3,6 @@
 use super::home::home_panel;
 use super::made::Made;
 use super::names::bracket_id;
-use crate::cladding::Bolt;
 use crate::verify::{JoinPromise, UnitPromise};
 
 /// Returns the units in the order in which they are joined.
@@ -43,23 +42,26 @@ pub fn units(made: &Made) -> Vec<UnitPromise> {
         .collect()
 }
 
-/// Returns the ways in which polyhedra come together, with the bolts that then hold them.
+/// Returns the ways in which polyhedra come together, with the bolts and rods that then hold them.
 pub fn joins(made: &Made) -> Vec<JoinPromise> {
     let built = &made.built;
     let numbers = |indices: &[usize]| indices.iter().map(|at| at + 1).collect();
     let joins = built.shell.assembly.joins.iter().map(|join| {
-        let across = |bolt: &&Bolt| {
-            let [a, b] = built.plan.connections[bolt.connection].polyhedra;
+        let across = |connection: usize| {
+            let [a, b] = built.plan.connections[connection].polyhedra;
             let sides = [&join.moving, &join.standing];
             sides
                 .iter()
                 .all(|side| side.contains(&a) != side.contains(&b))
         };
+        let bolts = built.bolts.iter().map(|bolt| bolt.connection);
+        let rods = built.rods.iter().map(|rod| rod.connection);
         JoinPromise {
             moving: numbers(&join.moving),
             standing: numbers(&join.standing),
             way: join.way.into(),
-            bolts: built.bolts.iter().filter(across).count(),
+            bolts: bolts.filter(|of| across(*of)).count(),
+            rods: rods.filter(|of| across(*of)).count(),
         }
     });
     joins.collect()

@@ -1,4 +1,5 @@
-//! The fasteners of a shop: screws, nuts, inserts and washers, each number with its source.
+//! The fasteners of a shop: screws, nuts, inserts, washers and dowel rods, each number with its
+//! source.
 
 use std::path::Path;
 
@@ -14,11 +15,10 @@ use crate::base::units::MM3_PER_CM3;
 
 /// Plausible sizes of fasteners, mm.
 const SIZE_MM: std::ops::RangeInclusive<f64> = 0.1..=200.0;
+/// Plausible sizes of rods, which are sold by the metre, mm.
+const ROD_MM: std::ops::RangeInclusive<f64> = 0.1..=3000.0;
 /// Plausible masses of fasteners, g.
 const MASS_G: std::ops::RangeInclusive<f64> = 0.005..=500.0;
-/// The plausible densities of the nominal shape, g/cm³: threads, sockets and knurls take some of
-/// it away. Outside them a size or mass is misprinted.
-const DENSITY_G_CM3: std::ops::RangeInclusive<f64> = 3.0..=10.0;
 
 /// The source of a fastener's sizes, or of its mass.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -79,8 +79,8 @@ struct PartText {
 }
 
 impl Fastener {
-    /// Returns all built-in fasteners: inserts, nuts, screws, then washers, each as its file lists
-    /// them.
+    /// Returns all built-in fasteners: dowel rods, inserts, nuts, screws, then washers, each as its
+    /// file lists them.
     pub fn all() -> Result<Vec<Self>, ProfileError> {
         let families = FASTENERS.iter().map(|family| read_family(*family));
         let families: Vec<Vec<Self>> = families.collect::<Result<_, _>>()?;
@@ -192,8 +192,12 @@ fn read_parts(reader: &mut Reader, text: &FamilyText) -> Vec<Fastener> {
 
 /// Notes implausible sizes and masses.
 fn check_part(reader: &mut Reader, at: usize, fastener: &Fastener) {
+    let sizes_mm = match fastener.shape {
+        FastenerShape::Dowel { .. } => ROD_MM,
+        _ => SIZE_MM,
+    };
     for (key, value) in fastener.shape.sizes_mm() {
-        reader.check_number(at, &Key::new(key, SIZE_MM), value);
+        reader.check_number(at, &Key::new(key, sizes_mm.clone()), value);
     }
     reader.check_number(at, &Key::new("mass_g", MASS_G), fastener.mass_g);
     let [(key, value), (larger, most)] = fastener.shape.order();
@@ -207,7 +211,7 @@ fn check_part(reader: &mut Reader, at: usize, fastener: &Fastener) {
         return;
     }
     let density = fastener.mass_g / fastener.shape.volume_mm3() * MM3_PER_CM3;
-    if !DENSITY_G_CM3.contains(&density) {
+    if !fastener.shape.density_g_cm3().contains(&density) {
         let id = fastener.id.clone();
         reader.note(at, Problem::Density { id, density });
     }

@@ -1,6 +1,7 @@
 //! The sizes of a fastener by its kind.
 
 use std::f64::consts::FRAC_PI_4;
+use std::ops::RangeInclusive;
 
 use serde::{Deserialize, Serialize};
 
@@ -8,6 +9,12 @@ use serde::{Deserialize, Serialize};
 const HEAD_RATIO: f64 = 0.55;
 /// The area of a regular hexagon over the square of its width over corners: 3√3/8.
 const HEXAGON: f64 = 0.649_519_052_838_329;
+
+/// The plausible densities of metal fasteners by their nominal shape, g/cm³: threads, sockets and
+/// knurls take some of it away.
+const METAL_G_CM3: RangeInclusive<f64> = 3.0..=10.0;
+/// The plausible densities of wooden ones, g/cm³: from balsa to lignum vitae.
+const WOOD_G_CM3: RangeInclusive<f64> = 0.1..=1.4;
 
 /// The sizes of a fastener, mm.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -57,16 +64,26 @@ pub enum FastenerShape {
         /// Thickness.
         thickness_mm: f64,
     },
+    /// A round rod that is sold by length and cut.
+    Dowel {
+        /// Diameter.
+        diameter_mm: f64,
+        /// Length as it is sold.
+        length_mm: f64,
+        /// Diameter of the hole into which it is glued.
+        hole_mm: f64,
+    },
 }
 
 impl FastenerShape {
-    /// Returns the nominal diameter of its thread, mm.
+    /// Returns the nominal diameter of its thread, mm; 0 for a rod.
     pub fn thread_mm(&self) -> f64 {
         match *self {
             Self::Screw { thread_mm, .. }
             | Self::Insert { thread_mm, .. }
             | Self::Nut { thread_mm, .. }
             | Self::Washer { thread_mm, .. } => thread_mm,
+            Self::Dowel { .. } => 0.0,
         }
     }
 
@@ -78,7 +95,16 @@ impl FastenerShape {
             } => head_diameter_mm,
             Self::Insert { diameter_mm, .. }
             | Self::Nut { diameter_mm, .. }
-            | Self::Washer { diameter_mm, .. } => diameter_mm,
+            | Self::Washer { diameter_mm, .. }
+            | Self::Dowel { diameter_mm, .. } => diameter_mm,
+        }
+    }
+
+    /// Returns the plausible densities of the nominal shape, g/cm³: of steel and brass, or of wood.
+    pub(super) fn density_g_cm3(&self) -> RangeInclusive<f64> {
+        match self {
+            Self::Dowel { .. } => WOOD_G_CM3,
+            _ => METAL_G_CM3,
         }
     }
 
@@ -113,6 +139,11 @@ impl FastenerShape {
                 thickness_mm,
                 ..
             } => rod(diameter_mm, thickness_mm) - rod(bore_mm, thickness_mm),
+            Self::Dowel {
+                diameter_mm,
+                length_mm,
+                ..
+            } => rod(diameter_mm, length_mm),
         }
     }
 
@@ -163,6 +194,15 @@ impl FastenerShape {
                 ("bore_mm", bore_mm),
                 ("thickness_mm", thickness_mm),
             ],
+            Self::Dowel {
+                diameter_mm,
+                length_mm,
+                hole_mm,
+            } => vec![
+                ("diameter_mm", diameter_mm),
+                ("length_mm", length_mm),
+                ("hole_mm", hole_mm),
+            ],
         }
     }
 
@@ -189,6 +229,11 @@ impl FastenerShape {
                 diameter_mm,
                 ..
             } => [("bore_mm", bore_mm), ("diameter_mm", diameter_mm)],
+            Self::Dowel {
+                diameter_mm,
+                hole_mm,
+                ..
+            } => [("diameter_mm", diameter_mm), ("hole_mm", hole_mm)],
         }
     }
 }

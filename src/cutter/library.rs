@@ -51,7 +51,7 @@ pub(super) const SHEETS: Shelf<'static> = Shelf {
 
 /// The fasteners that come with the program.
 pub(super) const FASTENERS: &[Profile<'static>] =
-    built_in!("fasteners": "inserts" "nuts" "screws" "washers");
+    built_in!("fasteners": "dowels" "inserts" "nuts" "screws" "washers");
 
 /// Ending of the file name of a profile.
 pub(super) const PROFILE_ENDING: &str = ".toml";

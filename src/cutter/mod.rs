@@ -6,7 +6,7 @@
 //!
 //! * **[`Cutter`]:** bed, kerf by material and thickness, the finest cuts, the colours of drawings.
 //! * **[`StockSheet`]:** material, thickness, density, grain, and the sizes on sale.
-//! * **[`Fastener`]:** screws, nuts, inserts and washers, with their masses.
+//! * **[`Fastener`]:** screws, nuts, inserts, washers and dowel rods, with their masses.
 //!
 //! A shop describes its own cutter in a file such as this one:
 //!

@@ -77,6 +77,15 @@
 //! bearing gap below, which is less than g. So on its own side it ends at the plane, no part is
 //! missing there, and volumes still add up to the model's.
 //!
+//! **Rods.** At a neck the disc may be too small. Then the planes that lock a face move off it,
+//! along the plane's normal N through the neck's deepest point. They go as far as a face needs for
+//! its room on either side. Two rods along N join them. Each starts in a face whose normal is N
+//! (or −N). The cell of that face is closed under translation by N, so the rod stays in it up to
+//! the plane. It passes no parts but those of its two panels, and no unit that leaves its own cell
+//! meets it. Polyhedra come together along N, so they slide on the rods and no order becomes a
+//! circle. A rod keeps the wall about its bore to the surface, measured from its axis to all
+//! triangles. A single rod would be an axle: `verify` refuses it ([`crate::cladding::rods()`]).
+//!
 //! # 7. Ballast
 //! Take an edge of the support with inward normal n and offset d, and the slope t = tan θ. A mass M
 //! with its centre at c leans by θ over that edge if M (n·c − d − t c_z) ≥ 0. The left side is

@@ -1,5 +1,6 @@
 //! The base of an object that is larger than the printer: how many polyhedra, or a person's own.
 
+use std::convert::Infallible;
 use std::fmt;
 use std::fs::File;
 use std::io::{self, Read};
@@ -92,6 +93,63 @@ impl<'de> Deserialize<'de> for Polyhedra {
     }
 }
 
+/// The word for no rods.
+const NONE: &str = "none";
+
+/// The rods between polyhedra whose panels do not bear on each other.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub enum Dowel {
+    /// The thickest on stock that have room.
+    #[default]
+    Auto,
+    /// No rods: such polyhedra are not joined.
+    None,
+    /// Rods of this id, such as `dowel-8`.
+    Id(String),
+}
+
+impl Dowel {
+    /// Returns true if the thickest that have room are taken.
+    pub fn is_auto(&self) -> bool {
+        *self == Self::Auto
+    }
+}
+
+impl FromStr for Dowel {
+    type Err = Infallible;
+
+    fn from_str(text: &str) -> Result<Self, Infallible> {
+        Ok(match text {
+            AUTO => Self::Auto,
+            NONE => Self::None,
+            id => Self::Id(id.to_owned()),
+        })
+    }
+}
+
+impl fmt::Display for Dowel {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Auto => AUTO,
+            Self::None => NONE,
+            Self::Id(id) => id,
+        })
+    }
+}
+
+impl Serialize for Dowel {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_str(self)
+    }
+}
+
+impl<'de> Deserialize<'de> for Dowel {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let text = String::deserialize(deserializer)?;
+        text.parse().map_err(D::Error::custom)
+    }
+}
+
 /// The file of a base cannot be read.
 #[derive(Debug, thiserror::Error)]
 #[error("cannot read the base {path}; remedy: give the path of a base such as a kit's base.toml")]
@@ -146,6 +204,18 @@ impl BaseChoice {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_choice_of_rods_reads_as_it_is_written() {
+        for (text, expected) in [
+            ("auto", Dowel::Auto),
+            ("none", Dowel::None),
+            ("dowel-8", Dowel::Id("dowel-8".to_owned())),
+        ] {
+            let Ok(read) = text.parse::<Dowel>();
+            assert_eq!((read.to_string().as_str(), read), (text, expected));
+        }
+    }
 
     #[test]
     fn a_number_of_polyhedra_reads_as_it_is_written() {

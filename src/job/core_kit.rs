@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Deserializer, Serialize, de::Error as _};
 
-use super::base_choice::{BaseChoice, Polyhedra};
+use super::base_choice::{BaseChoice, Dowel, Polyhedra};
 use super::base_method::BaseMethod;
 use super::{GrainChoice, JobError, ModelChoice, PrinterChoice, StockList};
 use crate::ballast::Order;
@@ -88,6 +88,9 @@ pub struct CoreJob {
     /// it is 20 mm, or what two bolts need if that is more.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub connector: Option<Length>,
+    /// The rods between polyhedra whose panels do not bear on each other.
+    #[serde(default, skip_serializing_if = "Dowel::is_auto")]
+    pub dowel: Dowel,
     /// The joints between panels.
     pub joints: CoreJoints,
     /// The style of the printed parts.
@@ -155,6 +158,7 @@ impl CoreJob {
             method: BaseMethod::Planes,
             polyhedra: one_polyhedron(),
             connector: None,
+            dowel: Dowel::Auto,
             joints: CoreJoints::Auto,
             shell: CoreShell::Cups,
             wall: None,
@@ -283,6 +287,7 @@ mod tests {
         job.polyhedra = Polyhedra::Auto;
         job.method = BaseMethod::Vertices(None);
         job.connector = Some(Length::from_mm(25.0).unwrap());
+        job.dowel = Dowel::Id("dowel-8".to_owned());
         job.base = Some(BaseChoice {
             file: "base.toml".to_owned(),
             toml: "# A base\n[[polyhedron]]\nword = \"it's\"\n".to_owned(),

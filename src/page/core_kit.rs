@@ -170,12 +170,16 @@ fn masses(sheet: &CoreSheet) -> [(&'static str, String); 4] {
         (
             "of which",
             format!(
-                "printed parts {}, panels {}, brackets {}, screws and inserts {}, glue {}{}",
+                "printed parts {}, panels {}, brackets {}, screws and inserts {}, glue {}{}{}",
                 grams(masses.shell_g),
                 grams(masses.panels_g),
                 grams(masses.brackets_g),
                 grams(masses.fasteners_g),
                 grams(masses.glue_g),
+                match sheet.rods.is_empty() {
+                    true => String::new(),
+                    false => format!(", rods {}", grams(masses.rods_g)),
+                },
                 match sheet.ballast.is_empty() {
                     true => String::new(),
                     false => format!(", ballast {}", grams(masses.ballast_g)),
@@ -313,6 +317,7 @@ fn screw_on(page: &CorePage) -> Markup {
         }
         (pins(sheet))
         (figures(page.pictures, Role::Bench))
+        (joining::rods(sheet))
         (ballast::lay(sheet))
         (figures(page.pictures, Role::Ballast))
         table class="stack" {

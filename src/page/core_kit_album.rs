@@ -106,7 +106,7 @@ fn apart<'a>(view: &'a CoreView) -> Draft<'a> {
     }
 }
 
-/// Draws the panels and brackets together, each panel in a colour of its own.
+/// Draws the panels and the rods together, each panel in a colour of its own.
 fn base<'a>(view: &'a CoreView) -> Draft<'a> {
     let panels = (0..view.things.len()).filter(|&at| view.things[at].kind == ThingKind::Panel);
     let panels: Vec<usize> = panels.collect();
@@ -117,7 +117,8 @@ fn base<'a>(view: &'a CoreView) -> Draft<'a> {
         "The base of panels.",
         "All panels together, with their names.",
     ];
-    let items = panels.iter().map(color).collect();
+    let rods = view.all(ThingKind::Rod);
+    let items = panels.iter().chain(&rods).map(color).collect();
     let draft = view.draft("pictures/base.svg".to_owned(), items, words);
     Draft {
         role: Role::CutAway,

@@ -4,6 +4,7 @@ use maud::{Markup, html};
 
 use super::fields::sentence;
 use super::figure::{Picture, Role, figures};
+use crate::base::numbers::measured;
 use crate::base::units::format_count;
 use crate::sheet::core_kit::CoreSheet;
 use crate::verify::UnitPromise;
@@ -48,17 +49,59 @@ fn polyhedra(sheet: &CoreSheet, before: &[&UnitPromise]) -> Markup {
         units.copied().collect::<Vec<&UnitPromise>>()
     };
     html! {
-        p { "The base is " (sheet.base.polyhedra.len()) " polyhedra, each put together for itself. One side of each stays open, to reach its bolts." }
+        p { "The base is " (sheet.base.polyhedra.len()) " polyhedra, each put together for itself. One side of each stays open, to reach its bolts or the ends of its rods." }
         @for (index, row) in sheet.base.polyhedra.iter().enumerate() {
             h3 { "Polyhedron " (index + 1) @if let Some(panel) = row.closed_by { ", without panel " (panel) } }
             (unit_list(&own(index)))
         }
-        h3 { "Bolt together" }
+        h3 { "Bring together" }
         ol {
             @for join in &sheet.joins {
                 li {
-                    "☐ " (sentence(&join.name())) " comes to " (join.others()) ". Put " (format_count(join.bolts, "bolt"))
-                    " through both panels from inside, a washer under each head and each nut. Tighten them by hand first, then all round."
+                    "☐ " (sentence(&join.name())) " comes to " (join.others()) "."
+                    @if join.rods > 0 {
+                        " It slides on " (format_count(join.rods, "rod")) ": put wood glue into the holes of its panel first, push until the planes between the shell parts meet, and put a fillet of glue about each end inside."
+                    }
+                    @if join.bolts > 0 {
+                        " Put " (format_count(join.bolts, "bolt"))
+                        " through both panels from inside, a washer under each head and each nut. Tighten them by hand first, then all round."
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Returns the step of cutting rods and gluing them into the first of their panels; empty without
+/// any.
+pub(super) fn rods(sheet: &CoreSheet) -> Markup {
+    html! {
+        @if !sheet.rods.is_empty() {
+            h3 { "Rods between polyhedra" }
+            p {
+                "Saw them square, to half a millimetre, and break their edges. On the bench, when the parts are screwed to the panel, push each from outside "
+                "through the parts and the panel, with wood glue in the hole of the panel. Two rods keep a polyhedron from turning. Let the glue set."
+            }
+            table class="stack" {
+                thead { tr {
+                    th scope="col" { "Rod" }
+                    th scope="col" { "From" }
+                    th scope="col" class="n" { "Length" }
+                    th scope="col" { "Glued into" }
+                    th scope="col" class="n" { "Stands out inside" }
+                    th scope="col" { "Then goes into" }
+                } }
+                tbody {
+                    @for rod in &sheet.rods {
+                        tr {
+                            th scope="row" { "☐ " (rod.name) }
+                            td data-head="From" { code { (rod.id) } }
+                            td class="n" data-head="Length" { (measured(rod.length_mm, "mm")) }
+                            td data-head="Glued into" { "panel " (rod.panels[0]) }
+                            td class="n" data-head="Stands out inside" { (measured(rod.stands_mm, "mm")) }
+                            td data-head="Then goes into" { "panel " (rod.panels[1]) }
+                        }
+                    }
                 }
             }
         }

@@ -158,6 +158,7 @@ fn joints(sheet: &CoreSheet) -> Markup {
         ("Screws", count(FastenerKind::Screw)),
         ("Inserts", count(FastenerKind::Insert)),
         ("Bolts between polyhedra", count(FastenerKind::Bolt)),
+        ("Rods between polyhedra", sheet.rods.len().to_string()),
         ("Films of glue", sheet.glue.len().to_string()),
     ];
     table("Joints", ["Joint", "Number"], &rows)
@@ -172,6 +173,7 @@ fn mass(sheet: &CoreSheet) -> Markup {
         ("Panels", grams(masses.panels_g)),
         ("Brackets", grams(masses.brackets_g)),
         ("Screws, inserts and bolts", grams(masses.fasteners_g)),
+        ("Rods", grams(masses.rods_g)),
         ("Glue", grams(masses.glue_g)),
         ("Ballast", grams(masses.ballast_g)),
         ("The whole", grams(sheet.mass_g)),

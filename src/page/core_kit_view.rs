@@ -33,6 +33,8 @@ pub enum ThingKind {
     Pin,
     /// A piece of ballast on a panel.
     Ballast,
+    /// A rod between polyhedra.
+    Rod,
 }
 
 impl ThingKind {
@@ -43,7 +45,7 @@ impl ThingKind {
 
     /// Returns whether it belongs to the base, and not to the shell.
     pub fn is_base(self) -> bool {
-        matches!(self, Self::Panel | Self::Bracket)
+        matches!(self, Self::Panel | Self::Bracket | Self::Rod)
     }
 
     /// Returns its colour, and the filling of its cut faces, if it is of this unit.
@@ -52,6 +54,7 @@ impl ThingKind {
             Self::Part | Self::Bracket => (part_color(unit), Hatch::PRINTED),
             Self::Panel => (HARDWARE, Hatch::RODS),
             Self::Pin => (PIN, Hatch::PRINTED),
+            Self::Rod => (HARDWARE, Hatch::RODS),
             Self::Ballast => (BALLAST, Hatch::BALLAST),
         }
     }

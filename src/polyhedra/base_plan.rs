@@ -1,6 +1,6 @@
 //! The base of a large object as plain data: polyhedra, planes between them, connections.
 
-use super::connection::{Connection, ConnectorRequest, Pair};
+use super::connection::{Connection, ConnectorRequest, Joint, Pair};
 use super::ground::Ground;
 use super::polyhedron::{Face, Polyhedron, lowest};
 use super::unjoined::Unjoined;
@@ -47,28 +47,55 @@ pub(super) fn connected(
     let mut connections = Vec::new();
     for split in &splits {
         let [below, above] = [split.below, split.above].map(|side| leaves_of(&splits, side));
-        for &i in &below {
-            for &j in &above {
-                let pair = Pair {
-                    ground,
-                    indices: [i, j],
-                    polyhedra: [&polyhedra[i], &polyhedra[j]],
-                    plane: split.plane,
-                };
-                let is_free = |connection: &Connection| {
-                    let others = polyhedra.iter().enumerate();
-                    let mut others = others.filter(|(at, _)| *at != i && *at != j);
-                    !others.any(|(_, other)| connection.is_barred_by(other))
-                };
-                connections.extend(pair.connect(connector).filter(is_free));
-            }
-        }
+        let pairs = below
+            .iter()
+            .flat_map(|&i| above.iter().map(move |&j| [i, j]));
+        let found = pairs.filter_map(|indices| {
+            let pair = Pair {
+                ground,
+                indices,
+                polyhedra: indices.map(|at| &polyhedra[at]),
+                plane: split.plane,
+            };
+            pair.connect(connector)
+        });
+        let free = found.filter(|connection| is_free(connection, &polyhedra, &splits));
+        let (bolted, rods): (Vec<Connection>, Vec<Connection>) =
+            free.partition(|connection| connection.joint == Joint::Bolted);
+        // Rods only where no panels bear on each other across the plane: those of the widest way.
+        let widest = rods
+            .into_iter()
+            .reduce(|a, b| match b.radius_mm > a.radius_mm {
+                true => b,
+                false => a,
+            });
+        let has_bolts = !bolted.is_empty();
+        connections.extend(bolted);
+        connections.extend(widest.filter(|_| !has_bolts));
     }
     BasePlan {
         polyhedra,
         splits,
         connections,
     }
+}
+
+/// Returns true if a connection passes no other polyhedron, and rods no other plane than the one
+/// that they cross.
+fn is_free(connection: &Connection, polyhedra: &[Polyhedron], splits: &[Split]) -> bool {
+    let own = connection.polyhedra;
+    let others = polyhedra.iter().enumerate();
+    let mut others = others.filter(|(at, _)| !own.contains(at));
+    if others.any(|(_, other)| connection.is_barred_by(other)) {
+        return false;
+    }
+    let [from, to] = connection.ends;
+    let mut crossed = splits.iter().filter(|split| {
+        let [a, b] = [from, to].map(|end| split.plane.distance(&end));
+        let sine = split.plane.normal.cross(&(to - from)).norm() / (to - from).norm();
+        a * b <= 0.0 || a.abs().min(b.abs()) < connection.radius_mm * sine
+    });
+    connection.joint == Joint::Bolted || (crossed.next().is_some() && crossed.next().is_none())
 }
 
 /// Returns the polyhedra of one side of a split.

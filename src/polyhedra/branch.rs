@@ -69,14 +69,17 @@ pub(super) struct Parted {
     pub plane: Plane,
     pub leaves: [Leaf; 2],
     pub gain_mm3: f64,
+    /// True if panels of both bear on each other.
+    pub bears: bool,
     /// Both sides, if nothing joins them.
     pub unjoined: Option<Unjoined>,
 }
 
 impl Parted {
-    /// Returns what makes one plane better than another: first of all, both sides are joined.
-    pub(super) fn rank(&self) -> (bool, f64) {
-        (self.unjoined.is_none(), self.gain_mm3)
+    /// Returns what makes one plane better than another: first of all, both sides are joined. Bolts
+    /// come before rods.
+    pub(super) fn rank(&self) -> (bool, bool, f64) {
+        (self.unjoined.is_none(), self.bears, self.gain_mm3)
     }
 }
 
@@ -133,7 +136,7 @@ mod tests {
                 offset_mm: 5.0,
             },
             disc_mm: 2.0,
-            tube_mm: None,
+            way_mm: None,
         }
     }
 
@@ -142,6 +145,7 @@ mod tests {
             plane: apart([0, 1]).plane,
             leaves: [leaf.clone(), leaf.clone()],
             gain_mm3,
+            bears: false,
             unjoined,
         };
         Branch {

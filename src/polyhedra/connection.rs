@@ -2,11 +2,11 @@
 
 use super::disc::{Disc, largest_common_disc};
 use super::ground::Ground;
-use super::polyhedron::Polyhedron;
+use super::polyhedron::{Face, Polyhedron};
 use super::unjoined::Unjoined;
 use crate::geom::{Plane, Point, Vector, hull};
 
-/// Cells along each side of the common shadow in which a place for a tube is looked for.
+/// Cells along each side of a face in which a way for rods is looked for.
 const PLACES: usize = 16;
 /// Faces whose planes are farther from the splitting plane than this do not bear on it, mm.
 const BEARING_MM: f64 = 1e-6;
@@ -16,8 +16,8 @@ const BEARING_MM: f64 = 1e-6;
 pub enum Joint {
     /// Two panels bear on each other and are bolted through.
     Bolted,
-    /// A printed tube or a dowel spans a gap.
-    Tube,
+    /// Rods span a gap between two panels, within a straight way inside the model.
+    Rods,
 }
 
 /// A connection of two polyhedra across a plane.
@@ -29,7 +29,8 @@ pub struct Connection {
     pub faces: [usize; 2],
     /// The ends of its axis, one on each face. The axis is perpendicular to the plane between.
     pub ends: [Point; 2],
-    /// The radius of the disc that is free about the axis, mm.
+    /// The radius about the axis that is free, mm. It is that of the disc in both faces; for rods
+    /// it is that of the way inside the model.
     pub radius_mm: f64,
     /// The kind.
     pub joint: Joint,
@@ -69,8 +70,19 @@ pub struct ConnectorRequest {
     pub radius_mm: f64,
     /// The gap between panels that bear on each other, mm.
     pub gap_mm: f64,
-    /// True if a tube may join polyhedra that do not bear on each other.
-    pub takes_tubes: bool,
+    /// The room of rods that join polyhedra which do not bear on each other; `None` if none may.
+    pub rods: Option<RodRoom>,
+}
+
+/// The room that rods between two faces need about their common axis.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RodRoom {
+    /// The least radius of the disc in both faces, mm.
+    pub face_mm: f64,
+    /// The least radius of the way inside the model, mm.
+    pub way_mm: f64,
+    /// The least distance of the faces, mm.
+    pub least_mm: f64,
 }
 
 /// Two polyhedra on both sides of a plane: the one below it first.
@@ -85,38 +97,47 @@ pub(super) struct Pair<'a> {
 impl Pair<'_> {
     /// Returns the best connection across the plane; `None` if there is none of the radius.
     pub fn connect(&self, request: &ConnectorRequest) -> Option<Connection> {
-        let bolted = self.bolted(request);
-        bolted.or_else(|| request.takes_tubes.then(|| self.tube(request))?)
+        self.bolted(request).or_else(|| self.rods(request))
     }
 
     /// Returns what is between the two where they are not connected: the disc that their faces
-    /// share, and a tube that would have room.
+    /// share, and the widest way for rods.
     pub fn unjoined(&self, request: &ConnectorRequest) -> Unjoined {
         let shared = self.common_disc(request);
+        let faces_need_mm = request.rods.map_or(0.0, |room| room.face_mm);
         Unjoined {
             polyhedra: self.indices,
             plane: self.plane,
             disc_mm: shared.map_or(0.0, |(_, disc)| disc.radius_mm),
-            tube_mm: self.tube(request).map(|tube| tube.length_mm()),
+            way_mm: self.widest_way(faces_need_mm).map(|way| way.radius_mm),
         }
     }
 
     /// Returns the faces that lie on the plane, and the largest disc that both have.
     fn common_disc(&self, request: &ConnectorRequest) -> Option<([usize; 2], Disc)> {
+        let most_mm = request.gap_mm + BEARING_MM;
+        let faces = self.faces_within(most_mm)?;
+        let outlines = [0, 1].map(|side| self.flat_outline(side, faces[side]));
+        Some((faces, largest_common_disc(&[&outlines[0], &outlines[1]])?))
+    }
+
+    /// Returns the locked faces of both that are parallel to the plane and nearest to it, if both
+    /// are as near as this.
+    fn faces_within(&self, most_mm: f64) -> Option<[usize; 2]> {
         let normal = self.plane.normal;
         let face_towards = |side: usize, outward: Vector| {
-            self.polyhedra[side].faces().iter().position(|face| {
-                let off_mm = (self.plane.distance(&face.plane.foot())).abs();
-                let is_near = off_mm <= request.gap_mm + BEARING_MM;
+            let faces = self.polyhedra[side].faces().iter().enumerate();
+            let facing = faces.filter(|(_, face)| {
                 face.is_locked
                     && face.area_mm2 > 0.0
                     && face.plane.normal.dot(&outward) > 1.0 - BEARING_MM
-                    && is_near
-            })
+            });
+            let off_mm = |face: &Face| self.plane.distance(&face.plane.foot()).abs();
+            let near = facing.map(|(index, face)| (off_mm(face), index));
+            let nearest = near.reduce(|a, b| if b.0 < a.0 { b } else { a });
+            nearest.filter(|(off_mm, _)| *off_mm <= most_mm)
         };
-        let faces = [face_towards(0, normal)?, face_towards(1, -normal)?];
-        let outlines = [0, 1].map(|side| self.flat_outline(side, faces[side]));
-        Some((faces, largest_common_disc(&[&outlines[0], &outlines[1]])?))
+        Some([face_towards(0, normal)?.1, face_towards(1, -normal)?.1])
     }
 
     /// Connects two locked faces by the largest disc that both have.
@@ -138,67 +159,49 @@ impl Pair<'_> {
         })
     }
 
-    /// Looks for a straight tube that leaves both polyhedra square to the plane and stays inside
-    /// the model. Of several, takes the one that keeps farthest from the surface.
-    fn tube(&self, request: &ConnectorRequest) -> Option<Connection> {
-        let shadows = [0, 1].map(|side| self.shadow(side));
-        let disc = largest_common_disc(&[&shadows[0], &shadows[1]])?;
-        if disc.radius_mm < request.radius_mm {
+    /// Returns the widest way between two faces that face each other over a gap, if it has room for
+    /// rods.
+    fn rods(&self, request: &ConnectorRequest) -> Option<Connection> {
+        let room = request.rods?;
+        let way = self.widest_way(room.face_mm)?;
+        let has_room = way.radius_mm >= room.way_mm && way.length_mm() >= room.least_mm;
+        has_room.then_some(way)
+    }
+
+    /// Returns the way square to the plane that keeps farthest from the surface of the model,
+    /// between two locked faces. Both have a disc of the radius about it.
+    fn widest_way(&self, face_mm: f64) -> Option<Connection> {
+        let faces = self.faces_within(f64::INFINITY)?;
+        let outlines = [0, 1].map(|side| self.flat_outline(side, faces[side]));
+        let disc = largest_common_disc(&[&outlines[0], &outlines[1]])?;
+        if disc.radius_mm < face_mm {
             return None;
         }
-        let least_mm = self.polyhedra[0].separation().distance_mm + request.radius_mm;
-        let places = places(&shadows, &disc, request.radius_mm);
-        let tubes = places.into_iter().filter_map(|center| {
-            let (faces, ends) = self.exits(center)?;
-            // The whole disc leaves through one face on each side.
-            let is_in_face = |side: usize| {
-                let outline = self.flat_outline(side, faces[side]);
-                has_room(&outline, center, request.radius_mm)
-            };
-            if !is_in_face(0) || !is_in_face(1) {
-                return None;
-            }
-            let bvh = self.ground.distance().bvh();
-            let free_mm = bvh.segment_distance(&ends[0], &ends[1], f64::INFINITY);
-            (free_mm >= least_mm).then_some((free_mm, faces, ends))
+        let planes = [0, 1].map(|side| self.polyhedra[side].faces()[faces[side]].plane);
+        let bvh = self.ground.distance().bvh();
+        let ways = places(&outlines, &disc, face_mm).into_iter();
+        let ways = ways.filter_map(|center| {
+            let ends = [
+                self.on_plane(center, &planes[0])?,
+                self.on_plane(center, &planes[1])?,
+            ];
+            let radius_mm = bvh.segment_distance(&ends[0], &ends[1], f64::INFINITY);
+            Some((radius_mm, ends))
         });
-        let (_, faces, ends) = tubes.reduce(|a, b| if b.0 > a.0 { b } else { a })?;
+        let (radius_mm, ends) = ways.reduce(|a, b| if b.0 > a.0 { b } else { a })?;
         Some(Connection {
             polyhedra: self.indices,
             faces,
             ends,
-            radius_mm: request.radius_mm,
-            joint: Joint::Tube,
+            radius_mm,
+            joint: Joint::Rods,
         })
-    }
-
-    /// Returns the faces through which an axis square to the plane leaves both polyhedra, and the
-    /// points there; `None` if it misses one.
-    fn exits(&self, center: [f64; 2]) -> Option<([usize; 2], [Point; 2])> {
-        let normal = self.plane.normal;
-        let exit = |side: usize, outward: Vector| {
-            let faces = self.polyhedra[side].faces().iter().enumerate();
-            let met = faces.filter(|(_, face)| face.plane.normal.dot(&outward) > 0.0);
-            let met = met.filter_map(|(index, face)| {
-                let at = self.on_plane(center, &face.plane)?;
-                Some((outward.dot(&at.coords), index, at))
-            });
-            met.reduce(|a, b| if b.0 < a.0 { b } else { a })
-        };
-        let (below, above) = (exit(0, normal)?, exit(1, -normal)?);
-        Some(([below.1, above.1], [below.2, above.2]))
     }
 
     /// Returns the outline of a face in the plane's coordinates, counterclockwise.
     fn flat_outline(&self, side: usize, face: usize) -> Vec<[f64; 2]> {
         let outline = self.polyhedra[side].outline(face);
         hull::convex_hull(outline.iter().map(|p| self.flat(p)).collect())
-    }
-
-    /// Returns the outline of a polyhedron's shadow on the plane, counterclockwise.
-    fn shadow(&self, side: usize) -> Vec<[f64; 2]> {
-        let corners = self.polyhedra[side].corners().iter();
-        hull::convex_hull(corners.map(|p| self.flat(p)).collect())
     }
 
     fn flat(&self, p: &Point) -> [f64; 2] {
@@ -225,9 +228,9 @@ fn has_room(outline: &[[f64; 2]], center: [f64; 2], radius_mm: f64) -> bool {
     })
 }
 
-/// Returns places in both shadows at which a disc of the radius has room, the middle first.
-fn places(shadows: &[Vec<[f64; 2]>; 2], disc: &Disc, radius_mm: f64) -> Vec<[f64; 2]> {
-    let corners = || shadows[0].iter();
+/// Returns places in both outlines at which a disc of the radius has room, the middle first.
+fn places(outlines: &[Vec<[f64; 2]>; 2], disc: &Disc, radius_mm: f64) -> Vec<[f64; 2]> {
+    let corners = || outlines[0].iter();
     let bound = |axis: usize, pick: fn(f64, f64) -> f64, start| {
         corners().map(|p| p[axis]).fold(start, pick)
     };
@@ -237,7 +240,11 @@ fn places(shadows: &[Vec<[f64; 2]>; 2], disc: &Disc, radius_mm: f64) -> Vec<[f64
         low[axis] + (high[axis] - low[axis]) * (k as f64 + 0.5) / PLACES as f64
     };
     let grid = (0..PLACES * PLACES).map(|cell| [at(0, cell % PLACES), at(1, cell / PLACES)]);
-    let has_room = |p: &[f64; 2]| shadows.iter().all(|shadow| has_room(shadow, *p, radius_mm));
+    let has_room = |p: &[f64; 2]| {
+        outlines
+            .iter()
+            .all(|outline| has_room(outline, *p, radius_mm))
+    };
     std::iter::once(disc.center)
         .chain(grid.filter(has_room))
         .collect()

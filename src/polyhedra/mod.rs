@@ -14,7 +14,8 @@
 //!   between neighbours; short edges, narrow faces and large faces have a price that rises. What
 //!   cannot be kept is named by a [`Breach`].
 //! * **Several:** [`grow_polyhedra`] parts the model by planes and grows a polyhedron on each side,
-//!   with a face locked on the plane. [`Connection`]s join them.
+//!   with a face locked on the plane. [`Connection`]s join them: bolts where the faces bear on
+//!   each other, or rods where the model is too thin for that between them.
 //!
 //! * **By hand:** a [`BasePlan`] is written as a file of planes and read back, proved anew.
 //!
@@ -36,6 +37,7 @@ mod growth;
 mod inscribe;
 mod limits;
 mod mending;
+mod neck;
 mod obstacles;
 mod plan;
 mod polyhedron;
@@ -49,7 +51,7 @@ pub mod vertices;
 
 pub use base_file::BaseFileError;
 pub use base_plan::{BasePlan, Child, Split};
-pub use connection::{Connection, ConnectorRequest, Joint};
+pub use connection::{Connection, ConnectorRequest, Joint, RodRoom};
 pub(crate) use convex::Convex;
 pub use convex::Edge;
 pub use ground::Ground;

@@ -4,9 +4,10 @@ use rayon::prelude::*;
 
 use super::base_plan::{BasePlan, Child, Split, connected};
 use super::branch::{Branch, Leaf, Parted, most_apart, most_gainful, part_branch};
-use super::connection::{ConnectorRequest, Pair};
+use super::connection::{ConnectorRequest, Joint, Pair};
 use super::ground::Ground;
 use super::inscribe::{Region, Request};
+use super::neck::ends_of_neck;
 use super::polyhedron::Polyhedron;
 use super::unjoined::{NoPlan, Unjoined};
 use crate::base::verdict::Verdict;
@@ -226,10 +227,36 @@ impl Planner<'_> {
         Ok(sounded)
     }
 
-    /// Parts a leaf by a plane; `None` if a side has no room.
+    /// Parts a leaf by a plane; `None` if a side has no room. Where nothing joins both sides, they
+    /// stay off the neck between them, if rods have room in it.
     fn parted(&self, leaf: &Leaf, plane: Plane) -> Result<Option<Parted>, Cancelled> {
+        let parted = self.parted_at(leaf, plane, self.sides(leaf, &plane))?;
+        if parted
+            .as_ref()
+            .is_some_and(|parted| parted.unjoined.is_none())
+        {
+            return Ok(parted);
+        }
+        let distance_mm = self.request.distance_mm;
+        let ends = ends_of_neck(self.ground, &plane, distance_mm, self.connector);
+        let Some(ends) = ends else {
+            return Ok(parted);
+        };
+        let sides = ends.map(|end| [leaf.locked.as_slice(), &[end]].concat());
+        let off = self.parted_at(leaf, plane, sides)?;
+        let is_joined = off.as_ref().is_some_and(|off| off.unjoined.is_none());
+        Ok(if is_joined { off } else { parted })
+    }
+
+    /// Parts a leaf by a plane, with a polyhedron below all planes of each side.
+    fn parted_at(
+        &self,
+        leaf: &Leaf,
+        plane: Plane,
+        sides: [Vec<Plane>; 2],
+    ) -> Result<Option<Parted>, Cancelled> {
         let mut leaves = Vec::new();
-        for locked in self.sides(leaf, &plane) {
+        for locked in sides {
             let region = Region::new(self.ground, self.request, locked);
             let Some(polyhedron) = region.grow(region.starts(), self.watch)? else {
                 return Ok(None);
@@ -246,14 +273,15 @@ impl Planner<'_> {
             polyhedra: [&leaves[0].polyhedron, &leaves[1].polyhedron],
             plane,
         };
-        let is_joined = pair.connect(self.connector).is_some();
-        let unjoined = (!is_joined).then(|| pair.unjoined(self.connector));
+        let joined = pair.connect(self.connector);
+        let unjoined = joined.is_none().then(|| pair.unjoined(self.connector));
         let sum: f64 = leaves.iter().map(|leaf| leaf.polyhedron.volume_mm3()).sum();
         let gain_mm3 = sum - leaf.polyhedron.volume_mm3();
         Ok(Some(Parted {
             plane,
             leaves,
             gain_mm3,
+            bears: joined.is_some_and(|of| of.joint == Joint::Bolted),
             unjoined,
         }))
     }

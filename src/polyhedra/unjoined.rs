@@ -12,9 +12,9 @@ pub struct Unjoined {
     pub plane: Plane,
     /// The radius of the largest disc that faces of both share on the plane, mm; 0 if none do.
     pub disc_mm: f64,
-    /// The length of a straight tube that would join them, of the radius asked for, mm; `None` if
-    /// none has room.
-    pub tube_mm: Option<f64>,
+    /// The radius of the widest straight way inside the model between two faces that face each
+    /// other, mm; `None` if there are no such faces, or they have no room for rods.
+    pub way_mm: Option<f64>,
 }
 
 /// The reason that there are not as many polyhedra as asked for.

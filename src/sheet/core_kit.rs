@@ -8,7 +8,7 @@ use super::Verdict;
 use super::kind::kind_sheet;
 use crate::verify::{
     BallastPromise, Check, CorePartPromise, CutPromise, CutSheetPromise, FastenerPromise,
-    GluePromise, JoinPromise, PegPromise, PrinterLimits, StockPromise, UnitPromise,
+    GluePromise, JoinPromise, PegPromise, PrinterLimits, RodPromise, StockPromise, UnitPromise,
 };
 
 /// The version of the keys.
@@ -64,6 +64,9 @@ pub struct CoreSheet {
     pub pins: Vec<PegPromise>,
     /// The films of glue.
     pub glue: Vec<GluePromise>,
+    /// The rods between polyhedra.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub rods: Vec<RodPromise>,
     /// The ballast on the lowest panel.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub ballast: Vec<BallastPromise>,
@@ -315,6 +318,8 @@ pub struct MassRow {
     pub brackets_g: f64,
     /// The screws and inserts.
     pub fasteners_g: f64,
+    /// The rods between polyhedra.
+    pub rods_g: f64,
     /// The glue.
     pub glue_g: f64,
     /// The ballast.

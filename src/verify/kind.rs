@@ -195,6 +195,8 @@ pub enum CheckKind {
     SheetMargin,
     /// Heads of screws in other things.
     ScrewHeads,
+    /// Rods between polyhedra that do not hold them.
+    Rods,
     /// Brackets outside of their base, or in a panel.
     Brackets,
     /// Units that overlap others on their way out.
@@ -251,6 +253,7 @@ impl CheckKind {
             Self::SheetSpacing => "sheet spacing",
             Self::SheetMargin => "sheet margin",
             Self::ScrewHeads => "screw heads",
+            Self::Rods => "rods",
             Self::Brackets => "brackets",
             Self::WayOut => "way out",
             Self::WaysFree => "free ways",
@@ -452,6 +455,7 @@ mod tests {
         (CheckKind::SheetSpacing, "sheet-spacing", "sheet spacing"),
         (CheckKind::SheetMargin, "sheet-margin", "sheet margin"),
         (CheckKind::ScrewHeads, "screw-heads", "screw heads"),
+        (CheckKind::Rods, "rods", "rods"),
         (CheckKind::Brackets, "brackets", "brackets"),
         (CheckKind::WayOut, "way-out", "way out"),
         (CheckKind::WaysFree, "ways-free", "free ways"),

@@ -180,11 +180,12 @@ pub use printed::{
 pub use kit_folder::{KindJudgement, KitFolderError, KitKind};
 // Objects on a base.
 pub use core_kit::{
-    BallastPromise, BaseCertificate, BossPromise, CORE_CERTIFICATE_FILE, CoreCertificate,
-    CoreEvidence, CoreFacts, CorePartKind, CorePartPromise, CorePromise, CoreVerifyError,
-    CutPromise, CutSheetPromise, CutterPromise, EdgePromise, FastenerKind, FastenerPromise,
-    GluePromise, HolePromise, JoinPromise, MODEL_FILE, PANELS_FILE, PanelPromise, PanelsFile,
-    PegPromise, PlacedPanel, StockPromise, UnitPromise, core_checks, judge_core, verify_core,
+    BallastPromise, BaseCertificate, BossPromise, BuyPromise, CORE_CERTIFICATE_FILE,
+    CoreCertificate, CoreEvidence, CoreFacts, CorePartKind, CorePartPromise, CorePromise,
+    CoreVerifyError, CutPromise, CutSheetPromise, CutterPromise, EdgePromise, FastenerKind,
+    FastenerPromise, GluePromise, HolePromise, JoinPromise, MODEL_FILE, PANELS_FILE, PanelPromise,
+    PanelsFile, PegPromise, PlacedPanel, RodPromise, StockPromise, UnitPromise, core_checks,
+    judge_core, verify_core,
 };
 // Telescopes.
 pub use telescope::{

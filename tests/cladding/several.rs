@@ -58,7 +58,7 @@ fn plan(ground: &Ground) -> BasePlan {
     let connector = ConnectorRequest {
         radius_mm: 20.0,
         gap_mm: BEARING_MM,
-        takes_tubes: false,
+        rods: None,
     };
     let request = Request::new(10.0, Limits::NONE);
     BasePlan::from_toml(["base.toml", &text], ground, &request, &connector).unwrap()

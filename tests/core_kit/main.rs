@@ -11,6 +11,7 @@
 mod common;
 mod method;
 mod pins;
+mod rods;
 mod several;
 mod shop;
 

@@ -54,6 +54,13 @@ STOCK = {
     for file in (Path(__file__).parents[2] / "profiles/ballast").glob("*.toml")
     for part in tomllib.loads(file.read_text())["part"]
 }
+# The catalogue of fasteners: the rods.
+RODS = {
+    part["id"]: part
+    for part in tomllib.loads((Path(__file__).parents[2] / "profiles/fasteners/dowels.toml").read_text())["part"]
+}
+# The least and the greatest play of a rod in its hole, mm.
+ROD_PLAY_MM = (0.1, 1.0)
 STRAY_SIDES = "sides that lie between no polyhedra"
 
 
@@ -445,6 +452,104 @@ def judge_ballast(kit, panels):
     return bodies
 
 
+def rod_solid(rod, radius=None, along=None):
+    """The body of a rod, or another bar about its axis between two places along it."""
+    start = np.array(rod["ends_mm"][0])
+    way = np.array(rod["ends_mm"][1]) - start
+    way /= np.linalg.norm(way)
+    low, high = along or (0.0, rod["length_mm"])
+    place = trimesh.geometry.align_vectors([0, 0, 1], way)
+    place[:3, 3] = start + low * way
+    return manifold3d.Manifold.cylinder(high - low, radius or rod["diameter_mm"] / 2, circular_segments=96).transform(place[:3])
+
+
+def rod_hole(kit, rod, number):
+    """Where the axis of a rod enters the hole of a panel and leaves it, mm from its first end, and the hole's diameter. None: no hole."""
+    panel, start = kit.panels[number - 1], np.array(rod["ends_mm"][0])
+    way = np.array(rod["ends_mm"][1]) - start
+    way /= np.linalg.norm(way)
+    for hole in panel["holes"]:
+        ends = np.array([[*hole["at_mm"], 0.0], [*hole["at_mm"], -kit.thick]]) @ np.array(panel["axes"]) + panel["origin_mm"] - start
+        along = ends @ way
+        if np.linalg.norm(ends - np.outer(along, way), axis=1).max() < NEAR_MM:
+            return along.min(), along.max(), hole["diameter_mm"]
+    return None
+
+
+def bored_panels(kit, panels):
+    """The panels with the holes that rods pass."""
+    bored = list(panels)
+    for rod in kit.sheet.get("rods", []):
+        for number in rod["panels"]:
+            hole = rod_hole(kit, rod, number)
+            if hole:
+                bored[number - 1] -= rod_solid(rod, hole[2] / 2 * 1.0006, (hole[0] - 1, hole[1] + 1))
+    return bored
+
+
+def rod_fault(kit, rod, others, model):
+    """What is wrong with a rod; None if nothing is."""
+    start, end = (np.array(point) for point in rod["ends_mm"])
+    if not (rod["diameter_mm"] > 0 and abs(np.linalg.norm(end - start) - rod["length_mm"]) < NEAR_MM):
+        return "has another length"
+    if len({kit.polyhedron(number) for number in rod["panels"]}) != 2:
+        return "joins no two polyhedra"
+    first, second = (rod_hole(kit, rod, number) for number in rod["panels"])
+    if not (first and second):
+        return "passes no hole"
+    if not all(ROD_PLAY_MM[0] <= hole[2] - rod["diameter_mm"] <= ROD_PLAY_MM[1] for hole in (first, second)):
+        return "has another play"
+    stands = (first[0], rod["length_mm"] - second[1])
+    if not (first[1] < second[0] and min(stands) >= 0 and all(abs(found - rod["stands_mm"]) < NEAR_MM for found in stands)):
+        return "stands out by another length"
+    body = rod_solid(rod)
+    if sum((body ^ other).volume() for other in others if meets(body, other)) > HEADS_MM3:
+        return "lies in something else"
+    # A collar of most of the wall about the widest bore on its axis is material, but for the gaps over the panels.
+    way = (end - start) / rod["length_mm"]
+    off = lambda boss: np.linalg.norm(np.cross(np.array(boss["foot_mm"]) - start, way))
+    bores = [boss["bore_mm"] for part in kit.sheet["parts"] for boss in part["bosses"] if off(boss) < NEAR_MM and boss["bore_mm"] > rod["diameter_mm"]]
+    if not bores:
+        return "has no bore"
+    gap, wall, radius = kit.sheet["gap_mm"] + NEAR_PIN_MM, kit.sheet["wall_mm"], max(bores) / 2
+    span = (first[1] + gap, second[0] - gap)
+    collar = rod_solid(rod, radius + 0.9 * wall, span) - rod_solid(rod, radius + NEAR_PIN_MM, (span[0] - 1, span[1] + 1))
+    for part in kit.solids.values():
+        if meets(collar, part):
+            collar -= part
+    if collar.volume() > 0.5:
+        return f"lacks {collar.volume():.2f} mm³ of its collar"
+    if (rod_solid(rod, rod["diameter_mm"] / 2 + 0.99 * wall, span) - model).volume() > PIN_MM3:
+        return "is too near to the surface"
+    mass = math.pi / 4 * rod["diameter_mm"] ** 2 * rod["length_mm"] * rod["density_g_cm3"] / 1e3
+    stocked = RODS.get(rod["id"], {})
+    shape = stocked.get("shape", {})
+    density = stocked.get("mass_g", 0.0) / (math.pi / 4 * shape.get("diameter_mm", 1.0) ** 2 * shape.get("length_mm", 1.0)) * 1e3
+    if abs(mass / rod["mass_g"] - 1) > 1e-9 or abs(density / rod["density_g_cm3"] - 1) > 1e-9 or np.linalg.norm((start + end) / 2 - rod["center_mm"]) > NEAR_MM:
+        return "has another mass"
+    if [shape.get("diameter_mm"), shape.get("length_mm")] != [rod["diameter_mm"], rod["stock_mm"]]:
+        return "is not the rod of its name"
+    return None
+
+
+def judge_rods(kit, panels, ballast, model):
+    """Every rod passes holes of both panels, is in solid material and in nothing else, weighs what it should, and is bought."""
+    rods, wrong = kit.sheet.get("rods", []), []
+    bodies = [*kit.solids.values(), *panels, *ballast]
+    for at, rod in enumerate(rods):
+        fault = rod_fault(kit, rod, bodies + [rod_solid(other) for other in rods[:at]], model)
+        if fault:
+            wrong.append(f"{rod['name']} {fault}")
+    for name in {rod["id"] for rod in rods}:
+        cut = [rod["length_mm"] for rod in rods if rod["id"] == name]
+        bought = sum(row["count"] for row in kit.sheet["buy"] if row["id"] == name)
+        if sum(cut) > bought * RODS.get(name, {}).get("shape", {}).get("length_mm", 0.0):
+            wrong.append(f"{bought} of {name} are bought")
+    for fault in wrong:
+        print(f"    {fault}")
+    kit.check("faults of rods", len(wrong), not wrong, f"0 of {len(rods)} rods")
+
+
 def judge_stock(kit):
     """Every sheet is one of those at hand and lies on the bed; panels follow the grain if they must."""
     lying = lambda thing: (thing["size_mm"], thing["is_turned"])
@@ -494,7 +599,8 @@ def judge_ways(kit, panels, ballast):
     for unit in units:
         own = [kit.solids[name] for name in unit["parts"]]
         laid = [body for piece, body in zip(kit.sheet.get("ballast", []), ballast) if piece["panel"] == unit["panel"]]
-        bodies.append(own + ([panels[unit["panel"] - 1]] if unit["panel"] else []) + laid)
+        rods = [rod_solid(rod) for rod in kit.sheet.get("rods", []) if rod["panels"][0] == unit["panel"]]
+        bodies.append(own + ([panels[unit["panel"] - 1]] if unit["panel"] else []) + laid + rods)
     worst, where = 0.0, "none"
     for name, way, moving, standing in steps(kit, bodies):
         for step in STEPS_MM:
@@ -543,11 +649,22 @@ def judge_joins(kit):
         across = sum(a in sides[0] and b in sides[1] or b in sides[0] and a in sides[1] for a, b in held)
         misfits += across != join["bolts"]
     kit.check("polyhedra that come together", count + 1 - len(groups), misfits == 0 and len(groups) == 1, count)
-    graph = networkx.Graph(held)
+    rods = kit.sheet.get("rods", [])
+    spanned = [tuple(kit.polyhedron(number) for number in rod["panels"]) for rod in rods]
+    still = 0
+    for rod, (first, second) in zip(rods, spanned):
+        way = np.array(rod["ends_mm"][1]) - np.array(rod["ends_mm"][0])
+        own = [join for join in joins if first in join["standing"] and second in join["moving"]]
+        still += not (own and np.dot(way, own[0]["way"]) >= (1 - 1e-9) * np.linalg.norm(way))
+    for join in joins:
+        across = sum(a in join["moving"] and b in join["standing"] or b in join["moving"] and a in join["standing"] for a, b in spanned)
+        still += across != join.get("rods", 0) or across == 1
+    kit.check("rods on which nothing comes", still, still == 0, f"0 of {len(rods)}")
+    graph = networkx.Graph(held + spanned)
     graph.add_nodes_from(range(1, count + 1))
     kit.check("polyhedra that are bolted", count, networkx.is_connected(graph), count)
     last = {unit["panel"] for unit in units if unit.get("is_last") and unit["panel"]}
-    early = sum(bool(last & {bolt["panel"], bolt["through"]}) for bolt in bolts)
+    early = sum(bool(last & {bolt["panel"], bolt["through"]}) for bolt in bolts) + sum(bool(last & {*rod["panels"]}) for rod in rods)
     kit.check("bolts through panels that come last", early, early == 0, 0)
 
 
@@ -586,7 +703,7 @@ def judge_mass(kit):
         terms += [(-math.pi / 4 * hole["diameter_mm"] ** 2, put(*hole["at_mm"])) for hole in panel["holes"]]
         for area, middle in terms:
             mass, first = mass + area * kit.thick * density, first + middle * area * kit.thick * density
-    for thing in [*sheet["fasteners"], *sheet["glue"], *sheet.get("ballast", [])]:
+    for thing in [*sheet["fasteners"], *sheet.get("rods", []), *sheet["glue"], *sheet.get("ballast", [])]:
         mass, first = mass + thing["mass_g"], first + np.array(thing["center_mm"]) * thing["mass_g"]
     centre = first / mass
     kit.check("mass, relative", mass / sheet["mass_g"] - 1, abs(mass / sheet["mass_g"] - 1) <= MASS_RATIO, f"{MASS_RATIO} of {sheet['mass_g']:.1f} g")
@@ -618,8 +735,11 @@ def judge_things(kit, model):
     judge_pins(kit)
     judge_held(kit)
     ballast = judge_ballast(kit, panels)
-    judge_ways(kit, panels, ballast)
-    judge_heads(kit, [*panels, *ballast])
+    bored = bored_panels(kit, panels)
+    judge_rods(kit, bored, ballast, model)
+    if "faults of rods" not in kit.faults:
+        judge_ways(kit, bored, ballast)
+        judge_heads(kit, [*panels, *ballast, *map(rod_solid, kit.sheet.get("rods", []))])
     judge_mass(kit)
 
 

@@ -317,7 +317,7 @@ fn bases_of_large_objects() {
     let connector = ConnectorRequest {
         radius_mm: 20.0,
         gap_mm: 0.1,
-        takes_tubes: true,
+        rods: None,
     };
     let reads = |bytes: &[u8]| {
         let read = |text| BasePlan::from_toml(["base.toml", text], &ground, &request, &connector);

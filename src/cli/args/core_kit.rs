@@ -13,7 +13,7 @@ use crate::base::units::Length;
 use crate::cli::shop::chosen_printer;
 use crate::cli::wing::Order;
 use crate::goal::Up;
-use crate::job::base_choice::{BaseChoice, Polyhedra};
+use crate::job::base_choice::{BaseChoice, Dowel, Polyhedra};
 use crate::job::base_method::BaseMethod;
 use crate::job::core_kit::{CoreGoal, CoreJob, CoreJoints, CoreShell, CutChoice};
 use crate::job::{GrainChoice, ModelChoice, StockList};
@@ -79,13 +79,20 @@ pub struct BaseArgs {
     /// kept, first of all of those that get panels.
     #[arg(long, value_name = "planes|vertices[:START]")]
     pub method: Option<BaseMethod>,
-    /// The number of polyhedra inside, bolted together: auto, or 1 to 6 [default: 1]
+    /// The number of polyhedra inside, bolted or doweled together: auto, or 1 to 6 [default: 1]
     #[arg(long, value_name = "auto|N", allow_hyphen_values = true)]
     pub polyhedra: Option<Polyhedra>,
     /// The least radius of the disc in which two polyhedra bear on each other [default: 20mm, or
     /// what two bolts need]
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
     pub connector: Option<Length>,
+    /// The rods between polyhedra that do not bear on each other: auto, none, or an id such as
+    /// dowel-8 [default: auto]
+    ///
+    /// Auto takes the thickest on stock that have room. There are two of them at each neck, cut
+    /// from beech rods and glued into a panel on either side.
+    #[arg(long, value_name = "auto|none|ID")]
+    pub dowel: Option<Dowel>,
     /// The base in this file, such as an edited base.toml of a kit; with a job, in place of its own
     #[arg(long, value_name = "FILE", conflicts_with_all = ["polyhedra", "faces", "method"])]
     pub base: Option<PathBuf>,
@@ -123,7 +130,7 @@ pub struct CoreStanceArgs {
 }
 
 /// The arguments that a replayed job decides.
-const DECIDED_BY_JOB: [&str; 20] = [
+const DECIDED_BY_JOB: [&str; 21] = [
     "printer",
     "material",
     "cutter",
@@ -137,6 +144,7 @@ const DECIDED_BY_JOB: [&str; 20] = [
     "method",
     "polyhedra",
     "connector",
+    "dowel",
     "joints",
     "wall",
     "shell",
@@ -198,6 +206,7 @@ impl CoreArgs {
             method,
             polyhedra: base.polyhedra.unwrap_or(default.polyhedra),
             connector: base.connector,
+            dowel: base.dowel.unwrap_or_default(),
             joints: base.joints.unwrap_or(default.joints),
             wall: base.wall,
             shell: base.shell.unwrap_or(default.shell),

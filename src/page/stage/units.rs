@@ -153,6 +153,7 @@ fn toggles(view: &CoreView) -> Vec<Toggle> {
     let whole = [
         ("shell", of(&|thing| kind(thing) == ThingKind::Part)),
         ("base", of(&|thing| kind(thing).is_base())),
+        ("rods", view.all(ThingKind::Rod)),
         ("pins", view.all(ThingKind::Pin)),
         ("ballast", view.all(ThingKind::Ballast)),
     ];

@@ -325,6 +325,13 @@ fn of_balance(promise: &CorePromise, facts: &CoreFacts) -> Vec<Check> {
             Limit::at_most(CENTRE_LIMIT_MM, "mm"),
         ),
     ];
+    checks.extend(facts.rods.as_ref().map(|faults| {
+        none(
+            CheckKind::Rods,
+            "rods reach through holes of both panels, in solid material, and are bought",
+            faults,
+        )
+    }));
     checks.extend(facts.ballast.as_ref().map(|faults| {
         none(
             CheckKind::BallastRoom,

@@ -7,6 +7,7 @@ use super::error::CoreVerifyError;
 use super::evidence::CoreEvidence;
 use super::panels::{PanelFacts, measure_panels};
 use super::pins::{PinFacts, measure_pins};
+use super::rods::rod_faults;
 use super::shell::{ShellFacts, measure_shell};
 use super::standing::{StandFacts, measure_standing};
 use super::stock::{StockFacts, measure_stock};
@@ -35,6 +36,8 @@ pub struct CoreFacts {
     pub ways: WayFacts,
     /// The faults of the ballast, in words; `None` if there is none.
     pub ballast: Option<Vec<String>>,
+    /// The faults of the rods between polyhedra, in words; `None` if there are none.
+    pub rods: Option<Vec<String>>,
     /// Mass and balance.
     pub stand: StandFacts,
     /// The volume of the model, mm³.
@@ -63,6 +66,10 @@ pub fn judge_core(evidence: &CoreEvidence, watch: &Watch) -> Result<CoreFacts, C
         ballast: match evidence.promise.ballast.is_empty() {
             true => None,
             false => Some(ballast_faults(evidence)?),
+        },
+        rods: match evidence.promise.rods.is_empty() {
+            true => None,
+            false => Some(rod_faults(evidence)?),
         },
         stand: measure_standing(evidence),
         model_mm3: evidence.model.signed_volume_mm3(),

@@ -2,7 +2,9 @@
 //! groups is believed.
 
 use super::evidence::CoreEvidence;
-use super::promise::{CorePartKind, FastenerKind, FastenerPromise, JoinPromise, UnitPromise};
+use super::promise::{
+    CorePartKind, CorePromise, FastenerKind, FastenerPromise, JoinPromise, UnitPromise,
+};
 use crate::geom::Vector;
 
 /// By how much the length of a way may differ from 1. Along a way of no length nothing is met.
@@ -37,6 +39,7 @@ pub fn misjoined(evidence: &CoreEvidence) -> Vec<String> {
         lengths(evidence),
         joined(evidence),
         bolted(evidence),
+        on_rods(evidence),
     ]
     .concat()
 }
@@ -106,7 +109,8 @@ fn joined(evidence: &CoreEvidence) -> Vec<String> {
     faults
 }
 
-/// Returns the faults of the bolts between polyhedra: those of joins, and polyhedra without any.
+/// Returns the faults of the bolts between polyhedra: those of joins, and polyhedra that neither
+/// bolts nor rods join to another.
 fn bolted(evidence: &CoreEvidence) -> Vec<String> {
     let promise = &evidence.promise;
     let bolts = promise.fasteners.iter();
@@ -124,17 +128,64 @@ fn bolted(evidence: &CoreEvidence) -> Vec<String> {
         (found != join.bolts).then(words)
     });
     let late = bolts.iter().filter_map(|bolt| {
-        let mut last = promise.units.iter().filter(|unit| unit.is_last);
-        let is_late = last.any(|unit| {
-            let panel = unit.panel;
-            panel.is_some() && [Some(bolt.panel), bolt.through].contains(&panel)
-        });
+        let passed = [Some(bolt.panel), bolt.through];
+        let is_late = passed
+            .iter()
+            .flatten()
+            .any(|panel| comes_last(promise, *panel));
         is_late.then(|| format!("a bolt of {} passes a panel that comes last", bolt.part))
     });
-    let reached = reached(&held);
+    let on_rods = promise.rods.iter().filter_map(|rod| {
+        let [a, b] = rod.panels.map(|panel| of_panel(evidence, panel));
+        Some([a?, b?])
+    });
+    let all: Vec<[usize; 2]> = held.iter().copied().chain(on_rods).collect();
+    let reached = reached(&all);
     let alone = (1..=evidence.certificate.bases().count()).filter(|one| !reached.contains(one));
-    let alone = alone.map(|number| format!("polyhedron {number} is bolted to no other"));
+    let alone = alone.map(|number| format!("polyhedron {number} is bolted or doweled to no other"));
     counts.chain(late).chain(alone).collect()
+}
+
+/// Returns true if a panel, by its number, comes when all polyhedra are joined.
+fn comes_last(promise: &CorePromise, panel: usize) -> bool {
+    let mut last = promise.units.iter().filter(|unit| unit.is_last);
+    last.any(|unit| unit.panel == Some(panel))
+}
+
+/// Returns the faults of rods as polyhedra come together. These come along them, to the side into
+/// which the rods are glued first. About a single one they would turn.
+fn on_rods(evidence: &CoreEvidence) -> Vec<String> {
+    let promise = &evidence.promise;
+    let mut faults = Vec::new();
+    for rod in &promise.rods {
+        let sides = rod.panels.map(|panel| of_panel(evidence, panel));
+        let own = promise.joins.iter().find(|join| {
+            let stands = sides[0].is_some_and(|first| join.standing.contains(&first));
+            stands && sides[1].is_some_and(|second| join.moving.contains(&second))
+        });
+        let along = own.map(|join| Vector::from(join.way).dot(&rod.way()));
+        if !along.is_some_and(|cosine| cosine >= 1.0 - WAY_SLACK) {
+            faults.push(format!("nothing comes along {}", rod.name));
+        }
+        if rod.panels.iter().any(|panel| comes_last(promise, *panel)) {
+            faults.push(format!("{} passes a panel that comes last", rod.name));
+        }
+    }
+    for join in &promise.joins {
+        let across = promise.rods.iter().filter(|rod| {
+            let [a, b] = rod.panels.map(|panel| of_panel(evidence, panel));
+            a.zip(b).is_some_and(|(a, b)| is_across(join, [a, b]))
+        });
+        let found = across.count();
+        if found != join.rods || found == 1 {
+            faults.push(format!(
+                "{found} of {} rods hold {}",
+                join.rods,
+                join.name()
+            ));
+        }
+    }
+    faults
 }
 
 /// Returns true if one of two polyhedra comes in a join, and the other one stands.

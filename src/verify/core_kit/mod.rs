@@ -22,6 +22,8 @@ mod panels;
 mod pins;
 mod promise;
 mod reading;
+mod rod_promise;
+mod rods;
 mod shell;
 mod standing;
 mod stock;
@@ -41,3 +43,4 @@ pub use promise::{
     PegPromise, PlacedPanel, StockPromise, UnitPromise,
 };
 pub use reading::{CORE_CERTIFICATE_FILE, MODEL_FILE, PANELS_FILE, verify_core};
+pub use rod_promise::{BuyPromise, RodPromise};

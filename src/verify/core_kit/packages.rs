@@ -30,9 +30,13 @@ pub fn packages_check(folder: &KitFolder, evidence: &CoreEvidence) -> Check {
         name: format!("panel {}", at + 1),
         body: panel_body(evidence, at),
     });
+    let rods = promise.rods.iter().map(|rod| Named {
+        name: format!("rod {}", rod.name),
+        body: rod.body(),
+    });
     let packages = Packages {
         folder: folder.path,
-        placed: vec![(ASSEMBLY, placed.chain(panels).collect())],
+        placed: vec![(ASSEMBLY, placed.chain(panels).chain(rods).collect())],
         printed: printed.collect(),
     };
     packages.check(promise.files.keys())

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
+use super::rod_promise::{BuyPromise, RodPromise};
 use crate::mass::Lump;
 use crate::verify::{Density, Pose, PrinterLimits};
 
@@ -37,6 +38,12 @@ pub struct CorePromise {
     /// The pins between parts.
     #[serde(default)]
     pub pins: Vec<PegPromise>,
+    /// The rods between polyhedra.
+    #[serde(default)]
+    pub rods: Vec<RodPromise>,
+    /// What is bought.
+    #[serde(default)]
+    pub buy: Vec<BuyPromise>,
     /// The films of glue.
     pub glue: Vec<GluePromise>,
     /// The ballast.
@@ -300,6 +307,9 @@ pub struct JoinPromise {
     pub way: [f64; 3],
     /// The number of bolts that then hold them.
     pub bolts: usize,
+    /// The number of rods on which they come.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub rods: usize,
 }
 
 impl JoinPromise {
@@ -325,6 +335,14 @@ fn words(numbers: &[usize]) -> String {
 
 fn is_none(volumes_mm3: &[f64; 2]) -> bool {
     *volumes_mm3 == [0.0; 2]
+}
+
+#[expect(
+    clippy::trivially_copy_pass_by_ref,
+    reason = "serde asks for a reference"
+)]
+fn is_zero(count: &usize) -> bool {
+    *count == 0
 }
 
 #[expect(

@@ -8,6 +8,7 @@ use super::certificate::{body_below, grown_base};
 use super::error::CoreVerifyError;
 use super::evidence::{CoreEvidence, plane_of};
 use super::panels::shared_mm3;
+use super::rod_promise::RodPromise;
 use crate::base::watch::Watch;
 use crate::geom::{Bvh, Frame, Plane, Point, Vector};
 use crate::mesh::{MeshDistance, TriMesh, primitives, spread_points};
@@ -139,7 +140,8 @@ fn brackets_mm3(evidence: &CoreEvidence) -> Result<f64, CoreVerifyError> {
     Ok(wrong_mm3)
 }
 
-/// Returns the volume of screws' heads that lies in parts, panels, brackets or ballast, mm³.
+/// Returns the volume of screws' heads that lies in parts, panels, brackets, rods or
+/// ballast, mm³.
 fn heads_mm3(evidence: &CoreEvidence) -> Result<f64, CoreVerifyError> {
     let screws = evidence.promise.fasteners.iter();
     let heads: Vec<TriMesh> = screws
@@ -157,7 +159,8 @@ fn heads_mm3(evidence: &CoreEvidence) -> Result<f64, CoreVerifyError> {
     let parts = evidence.parts.iter().map(weld);
     let mut inside_mm3 = 0.0;
     let ballast = evidence.promise.ballast.iter().map(ballast_body);
-    for body in parts.chain(panels).chain(ballast) {
+    let rods = evidence.promise.rods.iter().map(RodPromise::body);
+    for body in parts.chain(panels).chain(ballast).chain(rods) {
         for head in &heads {
             inside_mm3 += shared_mm3(head, &body)?;
         }

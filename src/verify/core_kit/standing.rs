@@ -1,4 +1,5 @@
-//! Mass, centre and toppling angle of the whole, from the files and the listed fasteners and glue.
+//! Mass, centre and toppling angle of the whole, from the files and the listed fasteners, rods and
+//! glue.
 
 use super::evidence::CoreEvidence;
 use super::panels::panel_moments;
@@ -44,7 +45,8 @@ pub fn measure_standing(evidence: &CoreEvidence) -> StandFacts {
         .map(|film| (film.mass_g, film.center_mm));
     let laid = promise.ballast.iter();
     let laid = laid.map(|piece| (piece.lump.mass_g, piece.lump.center_mm));
-    let points = held.chain(glued).chain(laid);
+    let spanned = promise.rods.iter().map(|rod| (rod.mass_g, rod.center_mm));
+    let points = held.chain(spanned).chain(glued).chain(laid);
     let points = points.map(|(mass_g, center)| (mass_g, Vector::from(center) * mass_g));
     let all = parts.chain(panels).chain(points);
     let (mass_g, first) = all.fold((0.0, Vector::zeros()), |(mass, first), (own, moment)| {

@@ -7,11 +7,13 @@ use super::bench::{BenchJoint, bench_joints};
 use super::error::CoreVerifyError;
 use super::evidence::CoreEvidence;
 use super::joining::{misjoined, polyhedron_of};
-use super::panels::{panel_body, shared_mm3};
+use super::panels::shared_mm3;
 use super::promise::CorePartKind;
+use super::rod_promise::RodPromise;
+use super::rods::panel_for_rods;
 use crate::base::watch::Watch;
 use crate::geom::{Aabb, Bvh, Point, Vector};
-use crate::mesh::{TriMesh, spread_points};
+use crate::mesh::{ClipError, TriMesh, spread_points};
 use crate::repair::weld;
 
 /// Steps on the way out at which overlaps are measured, mm.
@@ -69,7 +71,7 @@ pub fn measure_ways(evidence: &CoreEvidence, watch: &Watch) -> Result<WayFacts, 
         strays: [strays(evidence), misjoined(evidence)].concat(),
         ..WayFacts::default()
     };
-    let units: Vec<UnitBodies> = bodies(evidence);
+    let units: Vec<UnitBodies> = bodies(evidence)?;
     let benched = bench_joints(&evidence.promise);
     let parts: Vec<TriMesh> = match benched.is_empty() {
         true => Vec::new(),
@@ -183,7 +185,8 @@ fn strays(evidence: &CoreEvidence) -> Vec<String> {
     parts.chain(brackets).chain(panels).collect()
 }
 
-fn bodies(evidence: &CoreEvidence) -> Vec<UnitBodies> {
+/// Returns the bodies of all units. Rods go with the panel into which they are glued first.
+fn bodies(evidence: &CoreEvidence) -> Result<Vec<UnitBodies>, ClipError> {
     let units = evidence.promise.units.iter();
     units
         .map(|unit| {
@@ -191,18 +194,21 @@ fn bodies(evidence: &CoreEvidence) -> Vec<UnitBodies> {
             let parts = parts.map(|part| weld(&evidence.parts[part]));
             let panel = unit.panel.map(|panel| panel.wrapping_sub(1));
             let panel = panel.filter(|panel| *panel < evidence.panels.panels.len());
-            let panel = panel.map(|panel| panel_body(evidence, panel));
+            let panel = panel.map(|panel| panel_for_rods(evidence, panel));
+            let rods = evidence.promise.rods.iter();
+            let rods = rods.filter(|rod| unit.panel == Some(rod.panels[0]));
             let ballast = evidence.promise.ballast.iter();
             let ballast = ballast.filter(|piece| unit.panel == Some(piece.panel));
-            UnitBodies {
+            Ok(UnitBodies {
                 bodies: parts
-                    .chain(panel)
+                    .chain(panel.transpose()?)
                     .chain(ballast.map(ballast_body))
+                    .chain(rods.map(RodPromise::body))
                     .collect(),
                 way: Vector::from(unit.way),
                 id: unit.id.clone(),
                 polyhedron: polyhedron_of(evidence, unit),
-            }
+            })
         })
         .collect()
 }
