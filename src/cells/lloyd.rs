@@ -4,16 +4,19 @@ use super::chain::Chain;
 use super::diagram::each_cell;
 use super::energy::{Bulk, Chebyshev, Weight};
 use super::room::Room;
+use crate::base::words::choice;
 use crate::geom::{Matrix, Point};
 
-/// The distance that a relaxation makes small.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Norm {
-    /// The greatest coordinate: cells become cubes.
-    #[default]
-    Linf,
-    /// The straight distance: sites go to the centres of their cells.
-    L2,
+choice! {
+    /// The distance that a relaxation makes small.
+    #[derive(Default)]
+    Norm, "norm" {
+        /// The greatest coordinate: cells become cubes.
+        #[default]
+        Linf = "linf",
+        /// The straight distance: sites go to the centres of their cells.
+        L2 = "l2",
+    }
 }
 
 /// The order of a relaxation.

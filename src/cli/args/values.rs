@@ -185,6 +185,22 @@ pub(super) fn numbers<const N: usize>(text: &str) -> Result<[f64; N], NumbersErr
     })
 }
 
+/// Reads three ratios of sides, above zero.
+pub(super) fn sides(text: &str) -> Result<[f64; 3], NumberError> {
+    let read = parse_numbers(text).filter(|sides: &[f64; 3]| {
+        let range = LEAST_SIDE..=LEAST_SIDE.recip();
+        sides.iter().all(|side| range.contains(side))
+    });
+    read.ok_or_else(|| NumberError {
+        text: text.to_owned(),
+        what: "three sides from 0.01 to 100",
+        such_as: "their ratio, such as 1,1,2",
+    })
+}
+
+/// The least ratio of a side. Beyond it cells are needles or sheets.
+const LEAST_SIDE: f64 = 0.01;
+
 /// A text that is not as many numbers as are needed.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("`{text}` is not {count} numbers; remedy: give {count} with commas between, and no blanks")]
