@@ -11,6 +11,8 @@ use equipoise::comb::{Comb, CombCell, CombError, CombOrder, Door, Escape, build}
 use equipoise::geom::{Point, Vector};
 use equipoise::mesh::{Csg, MeshDistance, Solid, TriMesh, primitives, shells};
 
+/// The rays by which a wall is measured, at most.
+const MOST_RAYS: usize = 4000;
 /// What a printed wall may lack, mm.
 const LACK_MM: f64 = 0.01;
 
@@ -52,7 +54,10 @@ fn built(mesh: &TriMesh, count: usize, order: &CombOrder) -> (Solid, Comb) {
 fn least_wall_mm(comb: &Comb, opening_mm: f64) -> f64 {
     let mesh = comb.solid.mesh();
     let is_bore = |at: &Point| comb.escapes.iter().any(|hole| is_in(hole, at, opening_mm));
-    let depths = mesh.iter_corners().filter_map(|[a, b, c]| {
+    // Some thousand rays, spread over the whole surface.
+    let stride = mesh.triangles().len() / MOST_RAYS + 1;
+    let corners = mesh.iter_corners().step_by(stride);
+    let depths = corners.filter_map(|[a, b, c]| {
         let normal = (b - a).cross(&(c - a));
         // Slivers have no normal to speak of.
         let inward = -normal.try_normalize(1e-4)?;

@@ -114,7 +114,9 @@ const MOST_STEPS: i64 = 100_000;
 /// The arguments for the walls between cells.
 #[derive(Debug, Args)]
 pub struct WallArgs {
-    /// The printer whose least wall lies between the cells: a known one's id, or a profile file
+    /// Write a printable solid for this printer: a known one's id, or a profile file
+    ///
+    /// Its least wall lies between the cells and around them, and openings drain every cell.
     #[arg(long, value_name = "ID|FILE")]
     pub printer: Option<String>,
     /// The wall between two cells [default: the printer's minimum]
