@@ -137,9 +137,10 @@ pub enum Command {
     ///
     /// It writes a file to edit and a picture. Given such a file, it checks it.
     Skeleton(SkeletonArgs),
-    /// Divide a model into cells: near cubes or round ones, of one size or by a density
+    /// Divide a model into cells: near cubes, or round ones
     ///
     /// It writes sites, cells (OBJ, VTK), the steps of the relaxation with a plot, and pictures.
+    #[command(hide = true)]
     Cells(Box<CellsArgs>),
     /// List the known printers, show one, or check a profile of your own
     Printers(PrintersArgs),

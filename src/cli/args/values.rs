@@ -15,6 +15,7 @@ use crate::goal::GoalKind;
 pub(super) const ALSO: &str = "\
 Also:
   equipoise core MODEL          puts a model larger than the printer on a base
+  equipoise cells MODEL         divides a model into cells, near cubes or round ones
   equipoise completions SHELL   prints the completion script of a shell
   equipoise man [COMMAND]       prints the manual page of the program or of a command";
 
