@@ -70,7 +70,7 @@ pub mod model {
 /// From a goal to the best void: what is asked, what may be emptied, the solver and its surfaces.
 pub mod solve {
     #[doc(inline)]
-    pub use crate::{ballast, goal, hardware, hollow, interior, shell, voids};
+    pub use crate::{ballast, comb, goal, hardware, hollow, interior, shell, voids};
 }
 
 /// The stages of a run between the solver and the judge, and the facts that pass between them.
@@ -111,6 +111,8 @@ pub mod cladding;
 #[cfg(feature = "cli")]
 #[doc(hidden)]
 pub mod cli;
+#[doc(hidden)]
+pub mod comb;
 #[doc(hidden)]
 pub mod core_kit;
 #[doc(hidden)]

@@ -2,6 +2,7 @@
 
 use rayon::prelude::*;
 
+use super::axes::Axes;
 use super::chain::Chain;
 use super::fan;
 use super::near::Near;
@@ -89,6 +90,17 @@ pub struct Cell {
     pub polytope: Polytope,
     /// The boundary of its part in the room.
     pub part: Chain,
+}
+
+impl Cell {
+    /// Returns the cell in the model from one in a frame.
+    #[must_use]
+    pub fn in_model(&self, axes: &Axes) -> Self {
+        Self {
+            polytope: self.polytope.in_model(axes),
+            part: self.part.mapped(|at| axes.to_model(at)),
+        }
+    }
 }
 
 /// Returns the cells of all sites.

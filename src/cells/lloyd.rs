@@ -4,16 +4,19 @@ use super::chain::Chain;
 use super::diagram::each_cell;
 use super::energy::{Bulk, Chebyshev, Weight};
 use super::room::Room;
+use crate::base::words::choice;
 use crate::geom::{Matrix, Point};
 
-/// The distance that a relaxation makes small.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Norm {
-    /// The greatest coordinate: cells become cubes.
-    #[default]
-    Linf,
-    /// The straight distance: sites go to the centres of their cells.
-    L2,
+choice! {
+    /// The distance that a relaxation makes small.
+    #[derive(Default)]
+    Norm, "norm" {
+        /// The greatest coordinate: cells become cubes.
+        #[default]
+        Linf = "linf",
+        /// The straight distance: sites go to the centres of their cells.
+        L2 = "l2",
+    }
 }
 
 /// The order of a relaxation.
@@ -51,6 +54,10 @@ const NEWTON_RATIO: f64 = 1e-10;
 const ROUNDING: f64 = 1e-14;
 /// Most halvings of a Newton step.
 const HALVINGS: usize = 30;
+/// The same with a weight. It is interpolated, so slope and energy agree only to its curvature, and
+/// what follows would not become better.
+const WEIGHTED_RATIO: f64 = 1e-3;
+const WEIGHTED_HALVINGS: usize = 6;
 
 /// Relaxes sites, and returns its steps; `sites` are the relaxed ones after it.
 ///
@@ -106,6 +113,10 @@ fn best_place(part: &Chain, from: Point, known: Chebyshev, order: &Order<'_>) ->
     // The axes stay those of the start: the energy of turning axes is not convex.
     let frame = order.frame.map_or(Matrix::identity(), |frame| frame(&from));
     let at = |place: &Point| Chebyshev::of(part, place, &frame, order.weight);
+    let (least_ratio, halvings) = match order.weight {
+        Some(_) => (WEIGHTED_RATIO, WEIGHTED_HALVINGS),
+        None => (NEWTON_RATIO, HALVINGS),
+    };
     let (mut place, mut here) = (from, known);
     let mut first_mm = None;
     for _ in 0..NEWTON_STEPS {
@@ -113,12 +124,12 @@ fn best_place(part: &Chain, from: Point, known: Chebyshev, order: &Order<'_>) ->
             break;
         };
         let first = *first_mm.get_or_insert(way.norm());
-        if way.norm() <= NEWTON_RATIO * first {
+        if way.norm() <= least_ratio * first {
             break;
         }
         let mut share = 1.0;
         let mut better = None;
-        for _ in 0..HALVINGS {
+        for _ in 0..halvings {
             let next = place + way * share;
             let there = at(&next);
             // Near the best place energies differ by rounding only, and the slope still tells.

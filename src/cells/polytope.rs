@@ -1,5 +1,6 @@
 //! Convex polytopes, cut from a box by half-spaces.
 
+use super::axes::Axes;
 use super::chain::{Chain, cross};
 use super::fan::order;
 use crate::geom::{Aabb, Plane, Point};
@@ -25,7 +26,7 @@ pub struct Face {
 }
 
 /// A convex polytope with closed faces.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Polytope {
     faces: Vec<Face>,
 }
@@ -77,6 +78,39 @@ impl Polytope {
                 plane,
                 ring,
             });
+        }
+    }
+
+    /// Returns the part of it that is so far from every face toward another cell. Without faces
+    /// nothing is left.
+    #[must_use]
+    pub fn drawn_in(&self, by_mm: f64) -> Self {
+        if self.faces.is_empty() {
+            return Self::default();
+        }
+        let mut inner = Self::of_box(&self.bounds());
+        for face in &self.faces {
+            if let Beyond::Cell(_) = face.beyond {
+                let plane = Plane {
+                    offset_mm: face.plane.offset_mm - by_mm,
+                    ..face.plane
+                };
+                inner.cut(&plane, face.beyond);
+            }
+        }
+        inner
+    }
+
+    /// Returns the polytope in the model from one in a frame.
+    #[must_use]
+    pub fn in_model(&self, axes: &Axes) -> Self {
+        let faces = self.faces.iter().map(|face| Face {
+            beyond: face.beyond,
+            plane: axes.plane_to_model(&face.plane, &face.ring[0]),
+            ring: face.ring.iter().map(|at| axes.to_model(at)).collect(),
+        });
+        Self {
+            faces: faces.collect(),
         }
     }
 

@@ -3,6 +3,7 @@
 use super::chain::{Chain, Corners, cap, clip, cross};
 use super::fan;
 use super::polytope::Polytope;
+use super::tree::{Tree, holds, overlap};
 use crate::geom::{Aabb, Plane, Point, Vector};
 
 /// Most triangles of a block that is not divided further.
@@ -23,6 +24,7 @@ const COVER_RATIO: f64 = 1e-11;
 pub struct Room {
     bounds: Aabb,
     blocks: Vec<Block>,
+    tree: Tree,
     volume_mm3: f64,
 }
 
@@ -54,6 +56,7 @@ impl Room {
         Self {
             bounds,
             blocks: vec![block],
+            tree: Tree::new(vec![bounds]),
             volume_mm3: size.x * size.y * size.z,
         }
     }
@@ -74,9 +77,11 @@ impl Room {
         let all = (0..triangles.len()).collect();
         let mut blocks = Vec::new();
         division.divide(all, Vec::new(), bounds, &mut blocks);
+        let boxes = blocks.iter().map(|block| block.bounds).collect();
         Self {
             bounds,
             blocks,
+            tree: Tree::new(boxes),
             volume_mm3: whole.volume_mm3(),
         }
     }
@@ -94,11 +99,8 @@ impl Room {
     /// Returns the part of the room within a polytope.
     pub fn within(&self, polytope: &Polytope) -> Chain {
         let around = polytope.bounds();
-        let near: Vec<&Block> = self
-            .blocks
-            .iter()
-            .filter(|block| overlap(&block.bounds, &around))
-            .collect();
+        let near = self.tree.find(|bounds| overlap(bounds, &around));
+        let near: Vec<&Block> = near.into_iter().map(|index| &self.blocks[index]).collect();
         if self.is_inside(&around, &near) {
             return polytope.chain();
         }
@@ -124,7 +126,8 @@ impl Room {
 
     /// Returns true if a point lies in the room.
     pub fn holds(&self, at: &Point) -> bool {
-        self.blocks.iter().any(|block| block.holds(at))
+        let near = self.tree.find(|bounds| holds(bounds, at));
+        near.into_iter().any(|index| self.blocks[index].holds(at))
     }
 }
 
@@ -153,18 +156,15 @@ impl Block {
         kept
     }
 
-    /// Returns true if a point lies in the block and in the region.
+    /// Returns true if a point of the block lies in the region.
     fn holds(&self, at: &Point) -> bool {
-        let room = &self.bounds;
-        let is_within = (0..3).all(|axis| room.min[axis] <= at[axis] && at[axis] < room.max[axis]);
-        is_within
-            && match &self.inside {
-                Inside::All => true,
-                Inside::Some { surface, sides } => {
-                    let all = [surface.as_slice(), sides.as_slice()].concat();
-                    Chain::new(all).holds(at)
-                }
+        match &self.inside {
+            Inside::All => true,
+            Inside::Some { surface, sides } => {
+                let all = [surface.as_slice(), sides.as_slice()].concat();
+                Chain::new(all).holds(at)
             }
+        }
     }
 }
 
@@ -296,11 +296,6 @@ fn within(corners: &Corners, bounds: &Aabb) -> Vec<Point> {
 /// Returns the triangles of a convex ring.
 fn fan(ring: &[Point]) -> impl Iterator<Item = Corners> {
     ring[1..].windows(2).map(|pair| [ring[0], pair[0], pair[1]])
-}
-
-/// Returns true if two boxes overlap.
-fn overlap(one: &Aabb, other: &Aabb) -> bool {
-    (0..3).all(|axis| one.min[axis] < other.max[axis] && other.min[axis] < one.max[axis])
 }
 
 /// Returns true if some of a box lies above a plane.

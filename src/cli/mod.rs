@@ -4,6 +4,11 @@ pub mod args;
 pub mod bars;
 pub mod bound;
 mod broken;
+pub mod cells;
+mod cells_error;
+mod cells_order;
+mod cells_picture;
+mod cells_printed;
 pub mod core_kit;
 pub mod coupon;
 mod cuts;
@@ -113,6 +118,7 @@ fn dispatch(cli: Cli, manner: Manner) -> Result<Exit, Box<dyn Error + Send + Syn
         }
         Command::Coupon(args) => Ok(coupon::coupon(&args, voice, &stop(), out)?),
         Command::Skeleton(args) => Ok(skeleton::skeleton(&args, voice, &stop(), out)?),
+        Command::Cells(args) => Ok(cells::divide(&args, voice, &stop(), out)?),
         Command::Slice(args) => Ok(slice::slice(&args, voice, &stop(), out)?),
         Command::ScaleExtrusion(args) => Ok(scale::scale_extrusion(&args, voice, &stop(), out)?),
         Command::Verify(args) => {

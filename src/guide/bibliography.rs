@@ -29,6 +29,12 @@
 //!   International Journal for Numerical Methods in Engineering 24, 1987.
 //! * **Density**: D. R. Bukenberger, H. P. A. Lensch, "Tetrahedra of Varying Density and Their
 //!   Applications", The Visual Computer 37, 2021.
+//! * **Cells under L∞**: the same, §3.3; D. R. Bukenberger, K. Buchin, M. Botsch, "Constructing L∞
+//!   Voronoi Diagrams in 2D and 3D", Computer Graphics Forum 41(5) (SGP 2022).
+//! * **Lloyd's method**: S. P. Lloyd, "Least squares quantization in PCM", IEEE Transactions on
+//!   Information Theory 28(2), 1982.
+//! * **Poisson discs**: R. L. Cook, "Stochastic sampling in computer graphics", ACM Transactions on
+//!   Graphics 5(1), 1986.
 //! * **Fits of fields**: K. Levenberg, "A method for the solution of certain non-linear problems in
 //!   least squares", Quarterly of Applied Mathematics 2, 1944; D. W. Marquardt, "An algorithm for
 //!   least-squares estimation of nonlinear parameters", J. SIAM 11, 1963; M. J. D. Powell, "An

@@ -2,6 +2,15 @@
 
 use crate::geom::Point;
 
+/// A value and the line on which it stands.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct OnLine<T> {
+    /// The line, from 1.
+    pub line: usize,
+    /// The value.
+    pub value: T,
+}
+
 /// Coordinates of a point.
 const COORDINATES: usize = 3;
 
@@ -38,6 +47,22 @@ pub enum PointsError {
 /// Reads points (mm). Empty lines, lines after `#` and one line of titles at the top are passed
 /// over.
 pub fn decode_points(bytes: &[u8]) -> Result<Vec<Point>, PointsError> {
+    let points = numbered_points(bytes)?;
+    Ok(points.into_iter().map(|point| point.value).collect())
+}
+
+/// Reads points, each with its line.
+pub(super) fn numbered_points(bytes: &[u8]) -> Result<Vec<OnLine<Point>>, PointsError> {
+    let points = rows(bytes)?.into_iter();
+    let points = points.map(|(line, values)| point(&values, line));
+    points.collect()
+}
+
+/// A line and its values.
+type Row<'a> = (usize, Vec<&'a str>);
+
+/// Splits a text into rows of values, at least one.
+pub(super) fn rows(bytes: &[u8]) -> Result<Vec<Row<'_>>, PointsError> {
     let text = std::str::from_utf8(bytes).map_err(|_| PointsError::NotText)?;
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let lines = text.lines().enumerate().map(|(i, line)| {
@@ -46,12 +71,11 @@ pub fn decode_points(bytes: &[u8]) -> Result<Vec<Point>, PointsError> {
     });
     let mut lines = lines.filter(|(_, data)| !data.is_empty()).peekable();
     lines.next_if(|(_, data)| is_title(data));
-    let points = lines.map(|(line, data)| point(data, line));
-    let points: Vec<Point> = points.collect::<Result<_, _>>()?;
-    if points.is_empty() {
+    let rows: Vec<Row<'_>> = lines.map(|(line, data)| (line, values(data))).collect();
+    if rows.is_empty() {
         return Err(PointsError::Empty);
     }
-    Ok(points)
+    Ok(rows)
 }
 
 /// Returns true if no value of a line is a number.
@@ -70,24 +94,26 @@ fn values(data: &str) -> Vec<&str> {
     }
 }
 
-fn point(data: &str, line: usize) -> Result<Point, PointsError> {
-    let values = values(data);
+fn point(values: &[&str], line: usize) -> Result<OnLine<Point>, PointsError> {
     if values.len() != COORDINATES {
         let found = values.len();
         return Err(PointsError::Count { line, found });
     }
-    let number = |text: &str| {
+    let at = numbers(values, line)?;
+    let value = Point::new(at[0], at[1], at[2]);
+    Ok(OnLine { line, value })
+}
+
+/// Reads finite numbers of a line.
+pub(super) fn numbers(values: &[&str], line: usize) -> Result<Vec<f64>, PointsError> {
+    let number = |text: &&str| {
         let number = text.parse::<f64>().ok().filter(|number| number.is_finite());
         number.ok_or_else(|| PointsError::Number {
             line,
             text: text.chars().take(20).collect(),
         })
     };
-    Ok(Point::new(
-        number(values[0])?,
-        number(values[1])?,
-        number(values[2])?,
-    ))
+    values.iter().map(number).collect()
 }
 
 #[cfg(test)]

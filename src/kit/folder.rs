@@ -138,13 +138,17 @@ pub const SLICES_FILE: &str = "slices.json";
 /// The list that marks a folder as images of layers.
 const LAYERS_FILE: &str = "layers.json";
 
+/// The file that marks a folder as the cells of a model.
+pub const CELLS_FILE: &str = "cells.vtk";
+
 /// The files that mark a folder as one of ours.
-const SIGNS: [&str; 5] = [
+const SIGNS: [&str; 6] = [
     "checklist.json",
     COUPON_FILE,
     PLANS_FILE,
     SLICES_FILE,
     LAYERS_FILE,
+    CELLS_FILE,
 ];
 
 /// Returns an error if the target may not be written.

@@ -5,4 +5,4 @@ mod folder;
 mod staging;
 
 pub use error::KitError;
-pub use folder::{COUPON_FILE, Existing, Kit, KitWriter, PLANS_FILE, SLICES_FILE};
+pub use folder::{CELLS_FILE, COUPON_FILE, Existing, Kit, KitWriter, PLANS_FILE, SLICES_FILE};

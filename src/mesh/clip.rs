@@ -66,7 +66,7 @@ fn split_closed(mesh: &TriMesh, plane: &Plane) -> Option<(TriMesh, TriMesh)> {
         .iter()
         .map(|&edge| meet(mesh, &heights, edge))
         .collect();
-    let cap = triangulate_cap(&link_rings(&crossings, &edges)?, &points, plane)?;
+    let cap = fill_rings(&link_rings(&crossings, &edges)?, &points, plane)?;
     let side = |is_above: bool| {
         let mut half = Half::new(mesh, &heights, &edges, is_above);
         half.add_surface();
@@ -142,7 +142,7 @@ pub(super) fn link_rings(crossings: &[Crossing], edges: &[CutEdge]) -> Option<Ve
 
 /// Returns triangles that fill the rings, counter-clockwise seen from above the plane. `None` if
 /// they do not fit the rings edge to edge.
-pub(super) fn triangulate_cap(
+pub(crate) fn fill_rings(
     rings: &[Vec<usize>],
     points: &[Point],
     plane: &Plane,

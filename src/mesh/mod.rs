@@ -38,6 +38,7 @@ mod winding;
 pub(crate) use axial::{AxialLine, NearAxis, walled_mm};
 pub use bodies::{bodies, nearest_shell, shells, winding_number};
 pub use broken::Broken;
+pub(crate) use clip::fill_rings;
 pub use crossings::Crossings;
 pub use csg::{ClipError, Csg};
 pub(crate) use cut_planes::{move_off_faces, move_off_vertices};

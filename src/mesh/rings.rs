@@ -3,7 +3,7 @@
 
 use super::TriMesh;
 use super::clip::{
-    Crossing, CutEdge, VERTEX_GAP_MM, crossing, link_rings, meet, sort_edges, triangulate_cap,
+    Crossing, CutEdge, VERTEX_GAP_MM, crossing, fill_rings, link_rings, meet, sort_edges,
 };
 use super::csg::check_plane;
 use crate::geom::{Plane, Point};
@@ -62,7 +62,7 @@ impl TriMesh {
         if is_holed || meets_vertex || flat.area_mm2(ring) <= 0.0 {
             return None;
         }
-        let cap = triangulate_cap(std::slice::from_ref(ring), &points, &plane)?;
+        let cap = fill_rings(std::slice::from_ref(ring), &points, &plane)?;
         let place = |index: u32| ring.iter().position(|own| *own == index as usize);
         let cap = cap.iter().map(|triangle| {
             let [a, b, c] = triangle.map(place);

@@ -87,6 +87,11 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("polyhedra", &["base", "geom", "mesh"]),
     // Cells are geometry of sites in a closed surface; which surface, they do not ask.
     ("cells", &["base", "geom", "mesh"]),
+    // Printed cells are voids between walls, inside a skin that is drawn as for any void.
+    (
+        "comb",
+        &["base", "cells", "geom", "mesh", "printer", "voids"],
+    ),
     // Profiles of cutters, sheets and fasteners are data, checked as those of printers are.
     ("cutter", &["base"]),
     // Outlines and joints are plane geometry, and a polyhedron gives panels their places. The sheet
@@ -274,6 +279,9 @@ const ARROWS: &[(&str, &[&str])] = &[
             "repair",
             "advice",
             "ballast",
+            // `cells` divides a model that is typed, and makes it of them.
+            "cells",
+            "comb",
             "core_kit",
             "coupon",
             "cut",
@@ -314,6 +322,7 @@ const ARROWS: &[(&str, &[&str])] = &[
             "ballast",
             "cells",
             "cladding",
+            "comb",
             "core_kit",
             "coupon",
             "curve",

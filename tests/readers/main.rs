@@ -30,8 +30,8 @@ use equipoise::io::glb::decode_glb;
 use equipoise::io::layers::read_layers;
 use equipoise::io::threemf::{decode_orders, decode_plate};
 use equipoise::io::{
-    DataChoice, DrawnLine, DrawnShape, Volume, decode_curve, decode_cut_svg, decode_dxf,
-    decode_model, decode_points, decode_tetgen, decode_volume,
+    DataChoice, DrawnLine, DrawnShape, Volume, decode_axes, decode_curve, decode_cut_svg,
+    decode_dxf, decode_model, decode_points, decode_sites, decode_tetgen, decode_volume,
 };
 use equipoise::job::core_kit::CoreJob;
 use equipoise::job::telescope::TelescopeJob;
@@ -189,6 +189,28 @@ fn curves_as_points_lines_and_edges() {
     let lines = [seeds::obj_lines(), seeds::ply_edges()];
     fuzz("lines", &lines, |bytes| {
         decode_curve(bytes).is_ok_and(|points| is_finite(&points))
+    });
+}
+
+#[test]
+fn sites_and_axes_of_cells() {
+    let table = b"x_mm,y_mm,z_mm\n1,2,3\n-4.5,0.25,6e1\n7 ,8, 9\n".to_vec();
+    fuzz("sites", &[table, seeds::obj()], |bytes| {
+        decode_sites(bytes).is_ok_and(|sites| {
+            let mut lines = sites.windows(2);
+            assert!(lines.all(|pair| pair[0].line < pair[1].line));
+            let mut all = sites.iter().flat_map(|site| site.value.iter());
+            assert!(all.all(|x| x.is_finite()));
+            true
+        })
+    });
+    let axes = b"0,0,1,1,0,0,0,1,0\n5,5,5,0.6,0.8,0,0,0,1\n".to_vec();
+    fuzz("axes", &[axes], |bytes| {
+        decode_axes(bytes).is_ok_and(|axes| {
+            let mut all = axes.iter().flat_map(|row| row.value);
+            assert!(all.all(f64::is_finite));
+            true
+        })
     });
 }
 

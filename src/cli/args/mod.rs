@@ -3,6 +3,7 @@
 mod again;
 mod ballast;
 mod beside;
+mod cells;
 mod core_kit;
 mod cut;
 mod cutters;
@@ -34,6 +35,7 @@ use clap::{Args, Parser, Subcommand};
 use clap_complete::Shell;
 
 pub use again::again;
+pub use cells::CellsArgs;
 pub use core_kit::CoreArgs;
 pub use cutters::{CalibrateCutterArgs, CuttersAction, CuttersArgs, NewCutterArgs};
 pub use error::ArgsError;
@@ -135,6 +137,11 @@ pub enum Command {
     ///
     /// It writes a file to edit and a picture. Given such a file, it checks it.
     Skeleton(SkeletonArgs),
+    /// Divide a model into cells: near cubes, or round ones
+    ///
+    /// It writes sites, cells (OBJ, VTK), the steps of the relaxation with a plot, and pictures.
+    #[command(hide = true)]
+    Cells(Box<CellsArgs>),
     /// List the known printers, show one, or check a profile of your own
     Printers(PrintersArgs),
     /// List laser cutters, sheets and fasteners, or check a profile

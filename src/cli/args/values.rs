@@ -15,6 +15,7 @@ use crate::goal::GoalKind;
 pub(super) const ALSO: &str = "\
 Also:
   equipoise core MODEL          puts a model larger than the printer on a base
+  equipoise cells MODEL         divides a model into cells, near cubes or round ones
   equipoise completions SHELL   prints the completion script of a shell
   equipoise man [COMMAND]       prints the manual page of the program or of a command";
 
@@ -184,6 +185,22 @@ pub(super) fn numbers<const N: usize>(text: &str) -> Result<[f64; N], NumbersErr
         count: N,
     })
 }
+
+/// Reads three ratios of sides, above zero.
+pub(super) fn sides(text: &str) -> Result<[f64; 3], NumberError> {
+    let read = parse_numbers(text).filter(|sides: &[f64; 3]| {
+        let range = LEAST_SIDE..=LEAST_SIDE.recip();
+        sides.iter().all(|side| range.contains(side))
+    });
+    read.ok_or_else(|| NumberError {
+        text: text.to_owned(),
+        what: "three sides from 0.01 to 100",
+        such_as: "their ratio, such as 1,1,2",
+    })
+}
+
+/// The least ratio of a side. Beyond it cells are needles or sheets.
+const LEAST_SIDE: f64 = 0.01;
 
 /// A text that is not as many numbers as are needed.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
