@@ -186,7 +186,7 @@ impl Cut {
                 let is_between =
                     |edge: &&mut Edge| edge.faces.contains(&face) && edge.faces.contains(&before);
                 let mut edges = self.edges.iter_mut();
-                let (ends, edge) = edges.find(|(_, edge)| is_between(&edge))?;
+                let (ends, edge) = edges.find(|(_, edge)| is_between(edge))?;
                 let [from, to] = ends.map(|end| self.welded.corners[end as usize]);
                 let along = to - from;
                 let leaves = normal.dot(&along) > 0.0;
@@ -318,7 +318,7 @@ impl Cut {
 
     fn is_convex(&self, ring: &[u32], plane: &Plane) -> bool {
         let at = |k: usize| self.body.corners[ring[k % ring.len()] as usize];
-        let turns = (0..ring.len()).map(|k| {
+        let mut turns = (0..ring.len()).map(|k| {
             let [a, b, c] = [at(k), at(k + 1), at(k + 2)];
             (b - a).cross(&(c - b)).dot(&plane.normal)
         });
@@ -329,8 +329,7 @@ impl Cut {
             one.cross(&other).dot(&plane.normal).atan2(one.dot(&other))
         });
         let full = std::f64::consts::TAU;
-        turns.fold(true, |all, turn| all && turn > 0.0)
-            && (turned.sum::<f64>() - full).abs() < 0.5 * full
+        turns.all(|turn| turn > 0.0) && (turned.sum::<f64>() - full).abs() < 0.5 * full
     }
 }
 
