@@ -334,7 +334,7 @@ mod tests {
     use serde_json::json;
 
     /// The keys and names of all kinds without data.
-    const KEYS: [(CheckKind, &str, &str); 87] = [
+    const KEYS: [(CheckKind, &str, &str); 88] = [
         (CheckKind::Held, "held", "held parts"),
         (CheckKind::Stock, "stock", "stock"),
         (CheckKind::Grain, "grain", "grain"),
