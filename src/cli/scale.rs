@@ -60,6 +60,9 @@ struct Found<'a> {
     parts: Vec<[&'a PrintedPart; 2]>,
     /// All parts together, before and after; `None` if another plate holds some of them.
     together: Option<[&'a Figures; 2]>,
+    /// The distance of the centre of toolpaths that follow the kit's own field from that of the
+    /// kit's files, mm; `None` beside other parts.
+    off_mm: Option<f64>,
     /// The promises of the goal that toolpaths break if they follow the kit's own field.
     broken: Vec<&'a Check>,
 }
@@ -108,6 +111,9 @@ pub fn scale_extrusion(
             .as_ref()
             .zip(after.toolpaths.as_ref())
             .map(|(a, b)| [a, b]),
+        off_mm: scaled
+            .free
+            .and_then(|free| Some(trim(&free, &after, scaled.tilt)?.1)),
         broken: if args.field.is_none() {
             after.broken_goals().collect()
         } else {
@@ -178,8 +184,8 @@ struct Pass {
     next: Option<(Tilt, f64)>,
 }
 
-/// Scales toolpaths into a draft, again and again until their centre lies where the kit has it, or
-/// comes no nearer.
+/// Scales toolpaths into a draft, again and again until their centre lies where the kit has it,
+/// comes no nearer, or more of the goal would break.
 fn trimmed(
     order: &ScaleOrder,
     draft: &Path,
@@ -195,7 +201,9 @@ fn trimmed(
             break;
         };
         let next = pass(&tilted(Some(tilt)), draft, watch)?;
-        if next.next.is_none_or(|(_, next_mm)| next_mm >= off_mm) {
+        let is_worse = next.next.is_none_or(|(_, next_mm)| next_mm >= off_mm)
+            || next.judged.broken_goals().count() > best.judged.broken_goals().count();
+        if is_worse {
             best = pass(&tilted(best.scaled.tilt), draft, watch)?;
             break;
         }
@@ -255,8 +263,9 @@ fn text(found: &Found) -> String {
         let slope = tilt.slope_per_mm.map(|slope| 1e4 * slope);
         let [x, y, z] = slope.map(|percent| format!("{percent:+.2}"));
         said += &format!(
-            "infill was trimmed by {x}, {y}, {z} % per 100 mm along x, y, z of the model, to \
-             bring its centre to where the kit has it\n"
+            "infill was trimmed by {x}, {y}, {z} % per 100 mm along x, y, z of the model: the \
+             centre is now {} beside that of the kit\n",
+            quantity(found.off_mm.unwrap_or(f64::NAN), "mm")
         );
     }
     if written.slowed > 0 {

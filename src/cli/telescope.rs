@@ -46,12 +46,15 @@ impl Wing for TelescopeWing {
 
 /// Returns what came of a curve.
 fn lines(sheet: &TelescopeSheet) -> String {
-    let stands = sheet.least_angle_deg.map_or_else(String::new, |_| {
+    let stands = sheet
+        .worst_toppling_deg
+        .filter(|_| sheet.least_angle_deg.is_some());
+    let stands = stands.map_or_else(String::new, |worst| {
         let foot = sheet.foot.as_ref().map_or(0.0, |foot| foot.radius_mm);
         format!(
             "stands     on a foot of {} in radius, until leaned by {}\n",
             measured(foot, "mm"),
-            measured(sheet.worst_toppling_deg.unwrap_or(0.0), "°")
+            measured(worst, "°")
         )
     });
     format!(

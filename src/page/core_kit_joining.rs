@@ -60,7 +60,7 @@ fn polyhedra(sheet: &CoreSheet, before: &[&UnitPromise]) -> Markup {
                 li {
                     "☐ " (sentence(&join.name())) " comes to " (join.others()) "."
                     @if join.rods > 0 {
-                        " It slides on " (format_count(join.rods, "rod")) ": put wood glue into the holes of its panel first, push until the planes between the shell parts meet, and put a fillet of glue about each end inside."
+                        " It slides on " (format_count(join.rods, "rod")) ". Put wood glue into the holes of the panel that slides on. Push until the shell parts touch. Put a ring of glue about each end inside."
                     }
                     @if join.bolts > 0 {
                         " Put " (format_count(join.bolts, "bolt"))
@@ -79,8 +79,8 @@ pub(super) fn rods(sheet: &CoreSheet) -> Markup {
         @if !sheet.rods.is_empty() {
             h3 { "Rods between polyhedra" }
             p {
-                "Saw them square, to half a millimetre, and break their edges. On the bench, when the parts are screwed to the panel, push each from outside "
-                "through the parts and the panel, with wood glue in the hole of the panel. Two rods keep a polyhedron from turning. Let the glue set."
+                "Saw them square, to half a millimetre, and break their edges. First screw the parts to the panel, on the bench. "
+                "Then put wood glue into the holes of the panel. Push each rod from outside through the parts and the panel. Two rods keep a polyhedron from turning. Let the glue set."
             }
             table class="stack" {
                 thead { tr {

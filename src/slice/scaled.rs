@@ -298,9 +298,10 @@ impl Portions for OfField<'_> {
         } else {
             self.field.at(&place)
         };
-        // Beside sparse infill, solid lines back skins that slope. They stay as dense as a line
+        // With the kit's own field, solid lines beside sparse infill back skins that slope. They stay as dense as a line
         // must be; how far the whole is off is told by what is laid.
-        let is_skin = feature == Feature::SolidInfill && self.sparse_ratio.is_some_and(|r| r < 1.0);
+        let is_sparse = self.wall.is_some() && self.sparse_ratio.is_some_and(|r| r < 1.0);
+        let is_skin = is_sparse && feature == Feature::SolidInfill;
         let least = if is_skin { FACTORS[0] } else { 0.0 };
         let factor = (plain / laid).max(least);
         match self.tilt.filter(|_| plain < 1.0) {

@@ -8,8 +8,8 @@ use crate::verify::PrintedJudgement;
 
 /// A change of what the infill of a part lays: more on one side, and less on the other.
 ///
-/// At x it is 1 + slope · (x − about) times as much. To first order the mass stays, as `about` is
-/// the centre that is wished.
+/// At x it is 1 + slope · (x − about) times as much. The mass may change a little: it stays if the
+/// infill has its own centre at `about`, the centre that is wished.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Tilt {
     /// The change along each axis of the model, per mm.

@@ -502,6 +502,9 @@ def rod_fault(kit, rod, others, model):
     stands = (first[0], rod["length_mm"] - second[1])
     if not (first[1] < second[0] and min(stands) >= 0 and all(abs(found - rod["stands_mm"]) < NEAR_MM for found in stands)):
         return "stands out by another length"
+    loose = rod_solid(rod, (rod["diameter_mm"] + ROD_PLAY_MM[0]) / 2)
+    if sum((loose ^ part).volume() for part in kit.solids.values() if meets(loose, part)) > HEADS_MM3:
+        return "cannot slide in its bore"
     body = rod_solid(rod)
     if sum((body ^ other).volume() for other in others if meets(body, other)) > HEADS_MM3:
         return "lies in something else"
@@ -532,6 +535,18 @@ def rod_fault(kit, rod, others, model):
     return None
 
 
+def rods_needed(lengths, stock):
+    """The rods as sold from which lengths are sawn, longest first, with a saw cut of 2 mm."""
+    left = []
+    for length in sorted(lengths, reverse=True):
+        at = next((at for at, rest in enumerate(left) if rest >= length), None)
+        if at is None:
+            left.append(stock - length - 2.0 if length <= stock else -math.inf)
+        else:
+            left[at] -= length + 2.0
+    return math.inf if -math.inf in left else len(left)
+
+
 def judge_rods(kit, panels, ballast, model):
     """Every rod passes holes of both panels, is in solid material and in nothing else, weighs what it should, and is bought."""
     rods, wrong = kit.sheet.get("rods", []), []
@@ -543,7 +558,7 @@ def judge_rods(kit, panels, ballast, model):
     for name in {rod["id"] for rod in rods}:
         cut = [rod["length_mm"] for rod in rods if rod["id"] == name]
         bought = sum(row["count"] for row in kit.sheet["buy"] if row["id"] == name)
-        if sum(cut) > bought * RODS.get(name, {}).get("shape", {}).get("length_mm", 0.0):
+        if rods_needed(cut, RODS.get(name, {}).get("shape", {}).get("length_mm", 0.0)) > bought:
             wrong.append(f"{bought} of {name} are bought")
     for fault in wrong:
         print(f"    {fault}")

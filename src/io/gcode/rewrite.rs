@@ -293,7 +293,7 @@ impl Writer<'_> {
     fn add_free(&mut self, at: &Point, fed: f64) {
         if self.rewriting.portions.is_free(at) {
             let moments = Moments(Moments::monomials(at.x, at.y, at.z));
-            self.done.free = self.done.free + moments * self.volume_mm3(fed);
+            self.done.free += moments * self.volume_mm3(fed);
         }
     }
 

@@ -1,4 +1,4 @@
-//! How low a telescope reaches along its opening, against the ground under its root.
+//! The lowest place of a telescope along its opening, against the ground under its root.
 
 use super::balance::{STATES, Standing, ground};
 use crate::telescope::motion::{Opening, between};

@@ -24,6 +24,8 @@ const SHARED_MM3: f64 = 0.05;
 const MASS_RATIO: f64 = 1e-9;
 /// By how much the wall about a bore may be less than ordered, mm.
 const WALL_SLACK_MM: f64 = 0.01;
+/// The width of a saw's cut, mm.
+const SAW_MM: f64 = 2.0;
 /// Number of sides of a rod's body and of its holes.
 const SIDES: u32 = 48;
 /// Places along a rod, and about it at each, where there must be material.
@@ -44,6 +46,13 @@ impl RodPromise {
         let arm = at - Point::from(self.ends_mm[0]);
         let along_mm = arm.dot(&self.way());
         [along_mm, (arm - self.way() * along_mm).norm()]
+    }
+
+    /// Returns true if it has a size, and its length between its ends.
+    pub(super) fn is_sized(&self) -> bool {
+        let [from, to] = self.ends_mm.map(Point::from);
+        let off_mm = ((to - from).norm() - self.length_mm).abs();
+        self.diameter_mm > 0.0 && self.length_mm > 0.0 && off_mm <= NEAR_MM
     }
 
     /// Returns its body in the model, a cylinder of many sides.
@@ -86,7 +95,7 @@ fn hole_of(evidence: &CoreEvidence, rod: &RodPromise, panel: usize) -> Option<Ro
 /// Returns the body of a panel, by its index, with the holes through which rods go.
 pub(super) fn panel_for_rods(evidence: &CoreEvidence, panel: usize) -> Result<TriMesh, ClipError> {
     let rods = evidence.promise.rods.iter();
-    let own = rods.filter(|rod| rod.panels.contains(&(panel + 1)));
+    let own = rods.filter(|rod| rod.is_sized() && rod.panels.contains(&(panel + 1)));
     let holes = own.filter_map(|rod| Some((rod, hole_of(evidence, rod, panel + 1)?)));
     let mut body = panel_body(evidence, panel);
     for (rod, hole) in holes {
@@ -106,12 +115,7 @@ pub(super) fn panel_for_rods(evidence: &CoreEvidence, panel: usize) -> Result<Tr
 /// The boolean engine fails.
 pub fn rod_faults(evidence: &CoreEvidence) -> Result<Vec<String>, CoreVerifyError> {
     let rods = &evidence.promise.rods;
-    let sized = |rod: &&RodPromise| {
-        let [from, to] = rod.ends_mm.map(Point::from);
-        let off_mm = ((to - from).norm() - rod.length_mm).abs();
-        rod.diameter_mm > 0.0 && rod.length_mm > 0.0 && off_mm <= NEAR_MM
-    };
-    let wrong = rods.iter().filter(|rod| !sized(rod));
+    let wrong = rods.iter().filter(|rod| !rod.is_sized());
     let mut faults: Vec<String> = wrong
         .map(|rod| format!("{} has not its length between its ends", rod.name))
         .collect();
@@ -136,14 +140,29 @@ fn unbought(evidence: &CoreEvidence) -> Vec<String> {
     let short = ids.into_iter().filter_map(|id| {
         let own = || promise.rods.iter().filter(|rod| rod.id == *id);
         let cut_mm: f64 = own().map(|rod| rod.length_mm).sum();
+        let lengths_mm: Vec<f64> = own().map(|rod| rod.length_mm).collect();
         let stock_mm = own().map(|rod| rod.stock_mm).fold(f64::INFINITY, f64::min);
         let bought = promise.buy.iter().filter(|row| row.id == *id);
         let count: usize = bought.map(|row| row.count).sum();
-        let is_short =
-            cut_mm > count as f64 * stock_mm || own().any(|rod| rod.length_mm > stock_mm);
+        let is_long = lengths_mm.iter().any(|length_mm| *length_mm > stock_mm);
+        let is_short = is_long || needed(lengths_mm, stock_mm) > count;
         is_short.then(|| format!("{count} of {id} are bought, too few for {cut_mm:.1} mm"))
     });
     short.collect()
+}
+
+/// Returns the number of rods as sold from which lengths are sawn, the longest first, each from
+/// the first that has enough left.
+fn needed(mut lengths_mm: Vec<f64>, stock_mm: f64) -> usize {
+    lengths_mm.sort_by(|a, b| b.total_cmp(a));
+    let mut left_mm: Vec<f64> = Vec::new();
+    for length_mm in lengths_mm {
+        match left_mm.iter_mut().find(|left| **left >= length_mm) {
+            Some(left) => *left -= length_mm + SAW_MM,
+            None => left_mm.push(stock_mm - length_mm - SAW_MM),
+        }
+    }
+    left_mm.len()
 }
 
 /// Everything that rods may meet.
@@ -256,10 +275,29 @@ impl<'a> RodJudge<'a> {
         let body = rod.body();
         let before = self.evidence.promise.rods[..index].iter();
         let before: Vec<TriMesh> = before.map(RodPromise::body).collect();
+        // In the printed parts it must slide: a bar with the least play has room there.
+        let loose = rod.bar(0.5 * (rod.diameter_mm + PLAY_MM[0]), [0.0, rod.length_mm]);
+        let (parts, others) = self.bodies.split_at(self.trees.len());
         let mut shared = 0.0;
-        for other in self.bodies.iter().chain(&before) {
+        for part in parts {
+            shared += shared_mm3(&loose, part)?;
+        }
+        for other in others.iter().chain(&before) {
             shared += shared_mm3(&body, other)?;
         }
         Ok((shared > SHARED_MM3).then(|| format!("shares {shared:.1} mm³ with others")))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn three_rods_longer_than_half_a_stock_need_three_and_saw_cuts_count() {
+        assert_eq!(needed(vec![600.0; 3], 1000.0), 3);
+        assert_eq!(needed(vec![499.0; 2], 1000.0), 1);
+        assert_eq!(needed(vec![499.5; 2], 1000.0), 2);
+        assert_eq!(needed(Vec::new(), 1000.0), 0);
     }
 }

@@ -196,7 +196,7 @@ fn bodies(evidence: &CoreEvidence) -> Result<Vec<UnitBodies>, ClipError> {
             let panel = panel.filter(|panel| *panel < evidence.panels.panels.len());
             let panel = panel.map(|panel| panel_for_rods(evidence, panel));
             let rods = evidence.promise.rods.iter();
-            let rods = rods.filter(|rod| unit.panel == Some(rod.panels[0]));
+            let rods = rods.filter(|rod| rod.is_sized() && unit.panel == Some(rod.panels[0]));
             let ballast = evidence.promise.ballast.iter();
             let ballast = ballast.filter(|piece| unit.panel == Some(piece.panel));
             Ok(UnitBodies {

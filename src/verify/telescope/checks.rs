@@ -209,10 +209,13 @@ fn of_balance(promise: &TelescopePromise, facts: &TelescopeFacts) -> Vec<Check> 
     let centre = pairs()
         .map(|(stated, found)| (crate::geom::Point::from(stated.centre_mm) - found.centre).norm());
     let stands = promise.least_angle_deg.is_some();
-    let lean = pairs().filter(|(stated, _)| stands || stated.toppling_deg.is_some());
-    let lean = lean.map(|(stated, found)| {
-        let stated = stated.toppling_deg.unwrap_or(f64::NEG_INFINITY);
-        (stated - found.toppling_deg).abs()
+    let lean = pairs().zip(&facts.depths_mm);
+    let lean = lean.filter(|((stated, _), _)| stands || stated.toppling_deg.is_some());
+    let lean = lean.map(|((stated, found), depth_mm)| {
+        // Where it reaches below its root it cannot stand, and no angle is true.
+        let is_true = *depth_mm <= GROUND_LIMIT_MM;
+        let stated = stated.toppling_deg.filter(|_| is_true);
+        (stated.unwrap_or(f64::NEG_INFINITY) - found.toppling_deg).abs()
     });
     let [centre, lean] = [centre.fold(0.0, f64::max), lean.fold(0.0, f64::max)];
     let mut checks = vec![

@@ -54,7 +54,9 @@ pub struct TelescopeFacts {
     pub mass_g: f64,
     /// The balance at every key.
     pub balance: Vec<Stands>,
-    /// How far any part reaches below the root's lowest point at any state, mm.
+    /// The depth to which parts reach below the root's lowest point at every key, mm.
+    pub depths_mm: Vec<f64>,
+    /// The depth to which any part reaches below the root's lowest point at any state, mm.
     pub below_foot_mm: f64,
     /// The boxes of all parts when all in and all out, mm.
     pub boxes_mm: [[f64; 3]; 2],
@@ -132,6 +134,11 @@ pub(super) fn judge_bodies(
         deviation: deviation(motion, &evidence.asked),
         mass_g: volume * promise.material.density_g_cm3 / crate::base::units::MM3_PER_CM3,
         balance: balance.collect(),
+        depths_mm: motion
+            .keys
+            .iter()
+            .map(|key| depth_mm(motion, &key.states, bodies))
+            .collect(),
         below_foot_mm: below_foot_mm(motion, bodies),
         boxes_mm: ends.map(|key| key.map_or([0.0; 3], |key| size_mm(motion, &key.states, bodies))),
     })
@@ -258,24 +265,28 @@ fn size_mm(motion: &TelescopeMotion, states: &[[f64; 2]], bodies: &[Body]) -> [f
 /// Returns how far parts reach below the root's lowest point, over the keys and the states between,
 /// mm: 0 if nothing does.
 fn below_foot_mm(motion: &TelescopeMotion, bodies: &[Body]) -> f64 {
-    let up = upright(motion);
-    let lowest = |body: &Body, frame: &Frame| {
-        let heights = body.mesh.vertices().par_iter();
-        let heights = heights.map(|p| up.to_local(&frame.to_model(p)).z);
-        heights.reduce(|| f64::INFINITY, f64::min)
-    };
     let first = motion.keys.first().map(|key| key.states.clone());
     let moves = motion.keys.windows(2);
     let between = moves.flat_map(|pair| {
         let shares = BETWEEN.into_iter().chain([1.0]);
         shares.map(|share| mixed(&pair[0].states, &pair[1].states, share))
     });
-    let depths = first.into_iter().chain(between).map(|states| {
-        let frames = motion.frames(&states);
-        let heights = bodies.iter().zip(&frames);
-        let mut heights = heights.map(|(body, frame)| lowest(body, frame));
-        let ground = heights.next().unwrap_or(0.0);
-        heights.map(|z| ground - z).fold(0.0, f64::max)
-    });
+    let states = first.into_iter().chain(between);
+    let depths = states.map(|states| depth_mm(motion, &states, bodies));
     depths.fold(0.0, f64::max)
+}
+
+/// Returns how far parts reach below the root's lowest point in a state, mm: 0 if nothing does.
+fn depth_mm(motion: &TelescopeMotion, states: &[[f64; 2]], bodies: &[Body]) -> f64 {
+    let up = upright(motion);
+    let lowest = |body: &Body, frame: &Frame| {
+        let heights = body.mesh.vertices().par_iter();
+        let heights = heights.map(|p| up.to_local(&frame.to_model(p)).z);
+        heights.reduce(|| f64::INFINITY, f64::min)
+    };
+    let frames = motion.frames(states);
+    let heights = bodies.iter().zip(&frames);
+    let mut heights = heights.map(|(body, frame)| lowest(body, frame));
+    let ground = heights.next().unwrap_or(0.0);
+    heights.map(|z| ground - z).fold(0.0, f64::max)
 }

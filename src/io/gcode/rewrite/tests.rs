@@ -167,3 +167,19 @@ fn a_program_without_features_is_copied() {
     assert_eq!(text, format!("{MARK}\n{program}\n"));
     assert_eq!(written, Rewritten::default());
 }
+
+#[test]
+fn what_could_be_more_or_less_is_weighed_where_it_lies() {
+    let program = format!("M83\n{HEAD}G1 X0 Y4 F1200\nG1 X10 E1\n");
+    let free = rewrite(&program, 1e9).unwrap().1.free;
+    // Four of five pieces of 2 mm lie below 8 mm, each with 0.2 mm³ times 1 + x/100.
+    let middles = [1.0, 3.0, 5.0, 7.0];
+    let expected: f64 = middles.iter().map(|x| 0.2 * (1.0 + x / 100.0)).sum();
+    assert!((free.volume() - expected).abs() < 5e-5, "{free:?}");
+    let center = free.centroid();
+    assert!(
+        (center.y - 4.0).abs() < 1e-9 && (center.z - 0.1).abs() < 1e-9,
+        "{center}"
+    );
+    assert!((center.x - 4.0).abs() < 0.1, "{center}");
+}
