@@ -461,6 +461,48 @@ fn sites_that_have_no_cells_are_refused_with_their_lines() {
     );
 }
 
+/// Returns a cube of 60 mm with a closed cube of 24 mm in it, as OBJ.
+fn hollow_cube() -> String {
+    let mut text = String::new();
+    for half in [30.0, 12.0] {
+        for corner in 0..8 {
+            let at = |bit: u32| if corner >> bit & 1 == 1 { half } else { -half };
+            text += &format!("v {} {} {}\n", at(0), at(1), at(2));
+        }
+    }
+    let sides = [
+        [0, 2, 3, 1],
+        [4, 5, 7, 6],
+        [0, 1, 5, 4],
+        [2, 6, 7, 3],
+        [0, 4, 6, 2],
+        [1, 3, 7, 5],
+    ];
+    for [a, b, c, d] in sides {
+        text += &format!("f {} {} {} {}\n", a + 1, b + 1, c + 1, d + 1);
+        text += &format!("f {} {} {} {}\n", d + 9, c + 9, b + 9, a + 9);
+    }
+    text
+}
+
+#[test]
+fn a_closed_cavity_is_no_outside_and_cells_of_a_box_are_all_told_to_be_at_its_surface() {
+    let folder = tempfile::tempdir().unwrap();
+    let model = folder.path().join("hollow.obj");
+    fs::write(&model, hollow_cube()).unwrap();
+    let words = "--size 20mm --iterations 1";
+    let printed = format!("{words} --printer formlabs-form4");
+    let output = run(folder.path(), path(&model), &printed);
+    assert_exit(&output, 2);
+    assert!(text(&output.stderr).contains("a closed cavity"));
+    assert!(!folder.path().join("c").exists());
+    let output = run(folder.path(), path(&model), &format!("{words} --json"));
+    assert_exit(&output, 0);
+    let facts = json(&output);
+    // 27 cubes, of which each is at the outside or at the cavity.
+    assert_eq!(facts["at_surface"], facts["cells"]);
+}
+
 #[test]
 fn a_folder_in_the_way_is_kept_unless_it_holds_cells_and_may_be_replaced() {
     let folder = tempfile::tempdir().unwrap();

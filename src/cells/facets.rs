@@ -114,8 +114,8 @@ fn grown(polytope: &Polytope) -> Polytope {
 struct Edge {
     /// The faces on both sides.
     faces: Vec<usize>,
-    /// Where the surface crosses it: the place along it, the corner, and true if one leaves the
-    /// model there.
+    /// The places where the surface crosses it: how far along it, the corner, and true if one
+    /// leaves the model there.
     crossings: Vec<(f64, u32, bool)>,
 }
 

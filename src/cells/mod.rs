@@ -1,7 +1,7 @@
 //! Cells of a solid: Voronoi diagrams cut off at its surface, and their relaxation under L∞ or L2.
 //!
-//! Under L∞ relaxed cells are near cubes, under L2 near round. The walls between them will be the
-//! density of prints that have no infill.
+//! Under L∞ relaxed cells are near cubes, under L2 near round. The walls between them are the
+//! density of prints that have no infill (`comb`).
 //!
 //! * [`Chain`]: the boundary of a region as signed triangles. Planes cut it exactly, and nothing is
 //!   triangulated but by fans.

@@ -195,15 +195,20 @@ impl Fastened<'_> {
         for peg in &self.pegs {
             body = body.union(&Csg::of_mesh(&peg.pin_body())?)?;
         }
-        let pinned_mm3 = body.to_mesh()?.signed_volume_mm3();
+        // A mesh that only went through the engine differs by rounding: what is not there is zero.
+        let pinned_mm3 = match self.pegs.is_empty() {
+            true => bare_mm3,
+            false => body.to_mesh()?.signed_volume_mm3(),
+        };
         for socket in &self.sockets {
             body = body.subtract(&Csg::of_mesh(&socket.socket_body())?)?;
         }
         cup.body = body.to_mesh()?;
-        cup.pins_mm3 = [
-            pinned_mm3 - bare_mm3,
-            pinned_mm3 - cup.body.signed_volume_mm3(),
-        ];
+        let taken_mm3 = match self.sockets.is_empty() {
+            true => 0.0,
+            false => pinned_mm3 - cup.body.signed_volume_mm3(),
+        };
+        cup.pins_mm3 = [pinned_mm3 - bare_mm3, taken_mm3];
         Ok(())
     }
 }

@@ -19,12 +19,15 @@ use crate::base::numbers::quantity;
 use crate::base::units::{format_count, show_mm, show_mm3};
 use crate::base::watch::Watch;
 use crate::cells::{
-    Body, Cell, CellFigures, Chebyshev, Norm, Order, Step, StepFigures, Weight, bodies, cells,
-    encode_obj, encode_sites, encode_steps, encode_vtk, nearest_axes, relax,
+    Beyond, Body, Cell, CellFigures, Chebyshev, Face, Norm, Order, Step, StepFigures, Weight,
+    bodies, cells, encode_obj, encode_sites, encode_steps, encode_vtk, nearest_axes, relax,
 };
 use crate::geom::{Matrix, Point};
 use crate::goal::find_upright;
 use crate::kit::{CELLS_FILE, Kit};
+
+/// A cell lacks this share of its volume at least if the surface cuts it.
+const SAME_RATIO: f64 = 1e-9;
 
 /// The facts of the cells that are printed.
 #[derive(Debug, Serialize)]
@@ -172,8 +175,13 @@ fn relaxed(
     });
     let figures = figures.collect();
     let bodies = bodies(&cells, &ordered.mesh, watch)?;
-    let is_cut = |(body, cell): &(&Body, &Cell)| body.faces.len() > cell.polytope.faces().len();
-    let at_surface = bodies.iter().zip(&cells).filter(is_cut).count();
+    let is_cut = |cell: &&Cell| {
+        let touches = |face: &Face| matches!(face.beyond, Beyond::Room);
+        let whole_mm3 = cell.polytope.chain().volume_mm3();
+        cell.polytope.faces().iter().any(touches)
+            || cell.part.volume_mm3() < whole_mm3 * (1.0 - SAME_RATIO)
+    };
+    let at_surface = cells.iter().filter(is_cut).count();
     let in_model = |at: &Point| ordered.axes.to_model(at);
     Ok(Relaxed {
         steps: step_figures(&taken, energies[1].iter().sum(), cubes),

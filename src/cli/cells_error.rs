@@ -109,6 +109,12 @@ pub enum CellsCommandError {
         /// The size at which there are as many as may be, mm.
         least_mm: f64,
     },
+    /// Holes could open into a closed cavity in place of the outside.
+    #[error(
+        "the model has a closed cavity, and holes into it drain nothing; remedy: fill it in \
+         the model, or leave the printer out"
+    )]
+    Hollow,
     /// No wall is known for a density.
     #[error(
         "a density is made by walls, and none is known; remedy: give a wall, such as `{}`, or a \

@@ -13,6 +13,7 @@ use crate::cells::Cell;
 use crate::comb::{Comb, CombCell, CombOrder, build};
 use crate::io::stl;
 use crate::kit::Kit;
+use crate::mesh::{bodies, shells};
 
 /// The file of the printable solid.
 const SOLID_FILE: &str = "solid.stl";
@@ -54,6 +55,9 @@ pub(super) fn printed(
         return Ok(None);
     };
     let order = comb_order(ordered, wall_mm)?;
+    if shells(ordered.solid.mesh()).len() > bodies(ordered.solid.mesh()).len() {
+        return Err(CellsCommandError::Hollow);
+    }
     let in_model = |cell: &Cell| cell.in_model(&ordered.axes);
     let cells: Vec<Cell> = cells.iter().map(in_model).collect();
     let comb = build(&ordered.solid, &cells, &order, watch)?;

@@ -184,8 +184,9 @@ struct Pass {
     next: Option<(Tilt, f64)>,
 }
 
-/// Scales toolpaths into a draft, again and again until their centre lies where the kit has it,
-/// comes no nearer, or more of the goal would break.
+/// Scales toolpaths into a draft until their centre lies where the kit has it.
+///
+/// It ends earlier if the centre comes no nearer, or if more of the goal would break.
 fn trimmed(
     order: &ScaleOrder,
     draft: &Path,

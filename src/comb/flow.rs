@@ -1,4 +1,4 @@
-//! Which voids drain, through which holes, and on which way.
+//! The voids that drain, their holes, and the way out of each.
 
 use std::collections::VecDeque;
 

@@ -298,8 +298,8 @@ impl Portions for OfField<'_> {
         } else {
             self.field.at(&place)
         };
-        // With the kit's own field, solid lines beside sparse infill back skins that slope. They stay as dense as a line
-        // must be; how far the whole is off is told by what is laid.
+        // With the kit's own field, solid lines beside sparse infill back skins that slope. They
+        // stay as dense as a line must be. The whole is weighed, so what they add is told.
         let is_sparse = self.wall.is_some() && self.sparse_ratio.is_some_and(|r| r < 1.0);
         let is_skin = is_sparse && feature == Feature::SolidInfill;
         let least = if is_skin { FACTORS[0] } else { 0.0 };

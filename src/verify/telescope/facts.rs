@@ -134,11 +134,7 @@ pub(super) fn judge_bodies(
         deviation: deviation(motion, &evidence.asked),
         mass_g: volume * promise.material.density_g_cm3 / crate::base::units::MM3_PER_CM3,
         balance: balance.collect(),
-        depths_mm: motion
-            .keys
-            .iter()
-            .map(|key| depth_mm(motion, &key.states, bodies))
-            .collect(),
+        depths_mm: depths_mm(motion, bodies),
         below_foot_mm: below_foot_mm(motion, bodies),
         boxes_mm: ends.map(|key| key.map_or([0.0; 3], |key| size_mm(motion, &key.states, bodies))),
     })
@@ -274,6 +270,13 @@ fn below_foot_mm(motion: &TelescopeMotion, bodies: &[Body]) -> f64 {
     let states = first.into_iter().chain(between);
     let depths = states.map(|states| depth_mm(motion, &states, bodies));
     depths.fold(0.0, f64::max)
+}
+
+/// Returns how far parts reach below the root's lowest point at every key, mm.
+fn depths_mm(motion: &TelescopeMotion, bodies: &[Body]) -> Vec<f64> {
+    let keys = motion.keys.iter();
+    keys.map(|key| depth_mm(motion, &key.states, bodies))
+        .collect()
 }
 
 /// Returns how far parts reach below the root's lowest point in a state, mm: 0 if nothing does.
