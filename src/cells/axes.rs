@@ -68,7 +68,7 @@ impl PlacedAxes {
     /// Makes axes at a place: the first one along `first`, the second toward `toward`. `None` if
     /// both lie on a line.
     pub fn new(at: Point, first: &Vector, toward: &Vector) -> Option<Self> {
-        let [first, toward] = [first, toward].map(|way| way / way.amax());
+        let [first, toward] = [first, toward].map(|way| way / way.amax().max(f64::MIN_POSITIVE));
         let first = first.try_normalize(0.0)?;
         let across = toward - first * first.dot(&toward);
         let is_beside = across.norm() > LEAST_SINE * toward.norm();

@@ -171,7 +171,7 @@ fn wall_mm(
 fn axes(args: &CellsArgs, solid: &Solid) -> Result<Axes, CellsCommandError> {
     let axes = if let Some(axis) = args.relaxation.axis {
         let axis = Vector::from(axis);
-        let axis = (axis / axis.amax()).try_normalize(0.0);
+        let axis = (axis / axis.amax().max(f64::MIN_POSITIVE)).try_normalize(0.0);
         let axis = axis.ok_or(CellsCommandError::NoAxis)?;
         let (u, v) = orthonormal_basis(&axis);
         Matrix::from_columns(&[u, v, axis])
