@@ -196,25 +196,33 @@ fn hold_cells(folder: &Path, volume_mm3: f64) -> usize {
     cells.len()
 }
 
-/// Writes a box as an OBJ file.
-fn write_box(file: &Path, size_mm: [f64; 3]) {
-    let [x, y, z] = size_mm;
+/// Writes boxes as an OBJ file, each by its least and greatest corner. A box whose least corner is
+/// the greater one is turned inside out.
+fn write_boxes(file: &Path, boxes: &[[Point; 2]]) {
     let mut text = String::new();
-    for k in 0..8 {
-        let at = |bit: usize, side: f64| if k >> bit & 1 == 1 { side } else { 0.0 };
-        text += &format!("v {} {} {}\n", at(0, x), at(1, y), at(2, z));
-    }
-    for [a, b, c, d] in [
-        [1, 3, 4, 2],
-        [5, 6, 8, 7],
-        [1, 2, 6, 5],
-        [3, 7, 8, 4],
-        [1, 5, 7, 3],
-        [2, 4, 8, 6],
-    ] {
-        text += &format!("f {a} {b} {c}\nf {a} {c} {d}\n");
+    for (number, ends) in boxes.iter().enumerate() {
+        for corner in 0..8 {
+            let [x, y, z] = [0, 1, 2].map(|axis| ends[corner >> axis & 1][axis]);
+            text += &format!("v {x} {y} {z}\n");
+        }
+        for face in [
+            [1, 3, 4, 2],
+            [5, 6, 8, 7],
+            [1, 2, 6, 5],
+            [3, 7, 8, 4],
+            [1, 5, 7, 3],
+            [2, 4, 8, 6],
+        ] {
+            let [a, b, c, d] = face.map(|corner| corner + 8 * number);
+            text += &format!("f {a} {b} {c}\nf {a} {c} {d}\n");
+        }
     }
     fs::write(file, text).unwrap();
+}
+
+/// Writes a box from the origin as an OBJ file.
+fn write_box(file: &Path, size_mm: [f64; 3]) {
+    write_boxes(file, &[[Point::origin(), Point::from(size_mm)]]);
 }
 
 fn scaled_volume_mm3(model: &Path, size_mm: f64) -> f64 {
@@ -461,35 +469,14 @@ fn sites_that_have_no_cells_are_refused_with_their_lines() {
     );
 }
 
-/// Returns a cube of 60 mm with a closed cube of 24 mm in it, as OBJ.
-fn hollow_cube() -> String {
-    let mut text = String::new();
-    for half in [30.0, 12.0] {
-        for corner in 0..8 {
-            let at = |bit: u32| if corner >> bit & 1 == 1 { half } else { -half };
-            text += &format!("v {} {} {}\n", at(0), at(1), at(2));
-        }
-    }
-    let sides = [
-        [0, 2, 3, 1],
-        [4, 5, 7, 6],
-        [0, 1, 5, 4],
-        [2, 6, 7, 3],
-        [0, 4, 6, 2],
-        [1, 3, 7, 5],
-    ];
-    for [a, b, c, d] in sides {
-        text += &format!("f {} {} {} {}\n", a + 1, b + 1, c + 1, d + 1);
-        text += &format!("f {} {} {} {}\n", d + 9, c + 9, b + 9, a + 9);
-    }
-    text
-}
-
 #[test]
 fn a_closed_cavity_is_no_outside_and_cells_of_a_box_are_all_told_to_be_at_its_surface() {
     let folder = tempfile::tempdir().unwrap();
     let model = folder.path().join("hollow.obj");
-    fs::write(&model, hollow_cube()).unwrap();
+    // Three mirrored axes turn the inner cube inside out.
+    let cube = |half_mm: f64| [-half_mm, half_mm].map(|x| Point::new(x, x, x));
+    let [low, high] = cube(12.0);
+    write_boxes(&model, &[cube(30.0), [high, low]]);
     let words = "--size 20mm --iterations 1";
     let printed = format!("{words} --printer formlabs-form4");
     let output = run(folder.path(), path(&model), &printed);
@@ -599,7 +586,7 @@ print(energy(sites.ravel())[0] / cube, found.fun / cube)
 ";
 
 #[test]
-fn the_papers_own_search_from_the_same_l2_cells_finds_no_better_ones() {
+fn the_papers_own_search_from_the_same_l2_cells_ends_within_a_hundredth_of_the_energy() {
     use std::io::Write;
     use std::process::{Command, Stdio};
     let python = std::env::var_os("EQUIPOISE_JUDGE_PYTHON").unwrap_or_else(|| "python3".into());

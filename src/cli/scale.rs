@@ -16,12 +16,12 @@ use crate::base::numbers::quantity;
 use crate::base::watch::Watch;
 use crate::field::FileError;
 use crate::job::InfillDensity;
-use crate::slice::{ScaleError, ScaleOrder, Scaled, Tilt, scale_toolpaths, trim};
+use crate::slice::{ScaleError, ScaleOrder, Scaled, Tilt, off_mm, scale_toolpaths, trim};
 use crate::verify::{Check, Figures, PrintedError, PrintedJudgement, PrintedPart, verify_printed};
 
 /// Most times that toolpaths are trimmed.
 const PASSES: usize = 4;
-/// A centre this near to its place is there, mm: a hundredth of what a round of slicing may miss.
+/// A centre this near to its place is there, mm: a tenth of what a round of slicing may miss.
 const TRIMMED_MM: f64 = 0.002;
 
 /// A reason why no toolpaths were written.
@@ -111,9 +111,7 @@ pub fn scale_extrusion(
             .as_ref()
             .zip(after.toolpaths.as_ref())
             .map(|(a, b)| [a, b]),
-        off_mm: scaled
-            .free
-            .and_then(|free| Some(trim(&free, &after, scaled.tilt)?.1)),
+        off_mm: scaled.free.and_then(|_| off_mm(&after)),
         broken: if args.field.is_none() {
             after.broken_goals().collect()
         } else {
@@ -180,8 +178,8 @@ fn write(
 struct Pass {
     scaled: Scaled,
     judged: PrintedJudgement,
-    /// The tilt that should bring them nearer, and how far they are off, mm.
-    next: Option<(Tilt, f64)>,
+    /// The tilt that should bring them nearer.
+    next: Option<Tilt>,
 }
 
 /// Scales toolpaths into a draft until their centre lies where the kit has it.
@@ -198,19 +196,24 @@ fn trimmed(
     };
     let mut best = pass(order, draft, watch)?;
     for _ in 0..PASSES {
-        let Some((tilt, off_mm)) = best.next.filter(|(_, off_mm)| *off_mm > TRIMMED_MM) else {
+        let is_near = off_mm(&best.judged).is_none_or(|mm| mm <= TRIMMED_MM);
+        let Some(tilt) = best.next.filter(|_| !is_near) else {
             break;
         };
         let next = pass(&tilted(Some(tilt)), draft, watch)?;
-        let is_worse = next.next.is_none_or(|(_, next_mm)| next_mm >= off_mm)
-            || next.judged.broken_goals().count() > best.judged.broken_goals().count();
-        if is_worse {
+        if !is_better(&next.judged, &best.judged) {
             best = pass(&tilted(best.scaled.tilt), draft, watch)?;
             break;
         }
         best = next;
     }
     Ok((best.scaled, best.judged))
+}
+
+/// Returns true if the centre came nearer, and no more of the goal breaks.
+fn is_better(next: &PrintedJudgement, best: &PrintedJudgement) -> bool {
+    let is_nearer = off_mm(next).zip(off_mm(best)).is_some_and(|(a, b)| a < b);
+    is_nearer && next.broken_goals().count() <= best.broken_goals().count()
 }
 
 /// Scales toolpaths into a draft, and weighs it.

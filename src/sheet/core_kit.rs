@@ -85,7 +85,7 @@ pub struct CoreSheet {
     /// The ways in which several polyhedra come together, in their order; empty for one.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub joins: Vec<JoinPromise>,
-    /// What is bought.
+    /// The things to buy.
     pub buy: Vec<BuyRow>,
     /// The direction up in the model, a unit vector.
     pub up: [f64; 3],

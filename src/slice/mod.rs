@@ -27,4 +27,4 @@ pub use images::{ImageOrder, Imaged, image_kit};
 pub use plates::{SliceOrder, Sliced, slice_kit};
 pub use row::{PlateSlice, Slices};
 pub use scaled::{MOST_FLOW_MM3_S, ScaleError, ScaleOrder, Scaled, scale_toolpaths};
-pub use tilt::{Tilt, trim};
+pub use tilt::{Tilt, off_mm, trim};

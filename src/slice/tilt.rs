@@ -26,25 +26,34 @@ impl Tilt {
     }
 }
 
-/// Returns the tilt that brings the centre of scaled toolpaths to that of the kit's files, and how
-/// far it is off, mm.
+/// Returns the way from the centre of toolpaths to that of the kit's files, mm; `None` if the
+/// plate does not hold all parts.
+fn way(judged: &PrintedJudgement) -> Option<Vector> {
+    let laid = judged.toolpaths.as_ref()?;
+    Some(Point::from(judged.written.center_mm) - Point::from(laid.center_mm))
+}
+
+/// Returns how far the centre of toolpaths is beside that of the kit's files, mm; `None` if the
+/// plate does not hold all parts.
+pub fn off_mm(judged: &PrintedJudgement) -> Option<f64> {
+    way(judged).map(|way| way.norm())
+}
+
+/// Returns the tilt that brings the centre of scaled toolpaths to that of the kit's files.
 ///
 /// `free` are the moments of what may change, model frame. `tilt` is the change that they have.
 ///
 /// The centre C of all that is laid, of volume V, moves to the wished C₀ if S · slope = V (C₀ − C).
 /// S is the second moment about C₀ of what may change. Some of it reaches solid and changes no
 /// more, so the search is repeated. `None` if the plate does not hold all parts.
-pub fn trim(free: &Moments, judged: &PrintedJudgement, tilt: Option<Tilt>) -> Option<(Tilt, f64)> {
-    let laid = judged.toolpaths.as_ref()?;
+pub fn trim(free: &Moments, judged: &PrintedJudgement, tilt: Option<Tilt>) -> Option<Tilt> {
+    let laid_mm3 = judged.toolpaths.as_ref()?.volume_mm3;
     let wished = Point::from(judged.written.center_mm);
-    let off = wished - Point::from(laid.center_mm);
     let spread = free.translated(&-wished.coords).second();
-    let step = spread.cholesky()?.solve(&(off * laid.volume_mm3));
+    let step = spread.cholesky()?.solve(&(way(judged)? * laid_mm3));
     let so_far = tilt.map(|tilt| Vector::from(tilt.slope_per_mm));
-    let so_far = so_far.unwrap_or_default();
-    let next = Tilt {
-        slope_per_mm: (so_far + step).into(),
+    Some(Tilt {
+        slope_per_mm: (so_far.unwrap_or_default() + step).into(),
         about_mm: wished.into(),
-    };
-    Some((next, off.norm()))
+    })
 }

@@ -519,3 +519,27 @@ fn the_bunny_on_several_polyhedra_passes_both_judges() {
         judge_in_python(&kit);
     }
 }
+
+/// Returns a base of two boxes on both sides of the plane x = `split_mm`. Each has a locked face
+/// towards it, at `faces_mm`; the second one ends at `end_mm`.
+fn two_boxes(split_mm: f64, faces_mm: [f64; 2], end_mm: f64) -> String {
+    let face = |normal: [f64; 3], offset_mm: f64, locked: bool| {
+        format!(
+            "[[polyhedron.face]]\nnormal = {normal:?}\noffset_mm = {offset_mm:?}\nlocked = {locked}\n"
+        )
+    };
+    let sides = [
+        face([0.0, 1.0, 0.0], 130.0, false),
+        face([0.0, -1.0, 0.0], -20.0, false),
+        face([0.0, 0.0, 1.0], 130.0, false),
+        face([0.0, 0.0, -1.0], -20.0, false),
+    ]
+    .concat();
+    let split = format!(
+        "[[split]]\nnormal = [1.0, 0.0, 0.0]\noffset_mm = {split_mm:?}\nbelow = \"Q1\"\nabove = \"Q2\"\n"
+    );
+    let [low_mm, high_mm] = faces_mm;
+    let low = face([1.0, 0.0, 0.0], low_mm, true) + &face([-1.0, 0.0, 0.0], -20.0, false);
+    let high = face([-1.0, 0.0, 0.0], -high_mm, true) + &face([1.0, 0.0, 0.0], end_mm, false);
+    format!("{split}[[polyhedron]]\n{sides}{low}[[polyhedron]]\n{sides}{high}")
+}

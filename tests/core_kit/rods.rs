@@ -11,7 +11,7 @@ use serde_json::Value;
 use super::common::{
     assert_exit, checklist, copy, equipoise, files, json, list, number, path, printed, sum, verify,
 };
-use super::{add, core, hold_broken, hold_broken_in_python, judge_in_python};
+use super::{add, core, hold_broken, hold_broken_in_python, judge_in_python, two_boxes};
 
 /// The sides of both boxes of the dumbbell, mm, and its length.
 const BOX_MM: [f64; 3] = [130.0, 150.0, 150.0];
@@ -195,31 +195,10 @@ fn give_base(folder: &Path, model: &Path, kit: &Path) {
     assert_eq!(files(&again), files(&replayed));
 }
 
-/// Returns a base of two boxes in the dumbbell, each with a face towards the neck.
-fn two_boxes() -> String {
-    let face = |normal: [f64; 3], offset_mm: f64, locked: bool| {
-        format!(
-            "[[polyhedron.face]]\nnormal = {normal:?}\noffset_mm = {offset_mm:?}\nlocked = {locked}\n"
-        )
-    };
-    let sides = [
-        face([0.0, 1.0, 0.0], 130.0, false),
-        face([0.0, -1.0, 0.0], -20.0, false),
-        face([0.0, 0.0, 1.0], 130.0, false),
-        face([0.0, 0.0, -1.0], -20.0, false),
-    ]
-    .concat();
-    let split =
-        "[[split]]\nnormal = [1.0, 0.0, 0.0]\noffset_mm = 150.0\nbelow = \"Q1\"\nabove = \"Q2\"\n";
-    let low = face([1.0, 0.0, 0.0], 110.0, true) + &face([-1.0, 0.0, 0.0], -20.0, false);
-    let high = face([-1.0, 0.0, 0.0], -190.0, true) + &face([1.0, 0.0, 0.0], 280.0, false);
-    format!("{split}[[polyhedron]]\n{sides}{low}[[polyhedron]]\n{sides}{high}")
-}
-
 /// Orders a kit of the dumbbell on the given base.
 fn on_two_boxes(folder: &Path, neck_mm: f64, options: &str) -> (PathBuf, std::process::Output) {
     let base = folder.join("base.toml");
-    fs::write(&base, two_boxes()).unwrap();
+    fs::write(&base, two_boxes(150.0, [110.0, 190.0], 280.0)).unwrap();
     let kit = folder.join("kit");
     let options = format!("--up z --goal none --base {} {options}", path(&base));
     let output = core(&dumbbell(folder, neck_mm), &kit, &options);

@@ -11,7 +11,7 @@ use serde_json::Value;
 use super::common::{
     assert_exit, checklist, copy, equipoise, files, json, list, number, path, printed, verify,
 };
-use super::{add, core, hold_broken, hold_broken_in_python, judge_in_python};
+use super::{add, core, hold_broken, hold_broken_in_python, judge_in_python, two_boxes};
 
 /// The sides of the long box, mm: as short as hands still reach the bolts within.
 const LONG_MM: [f64; 3] = [340.0, 150.0, 150.0];
@@ -305,7 +305,7 @@ fn a_disc_larger_than_the_common_panels_is_an_answer_with_what_helps() {
     let kit = folder.path().join("kit");
     let model = long_block(folder.path());
     let base = folder.path().join("base.toml");
-    fs::write(&base, two_boxes()).unwrap();
+    fs::write(&base, two_boxes(170.0, [169.95, 170.05], 320.0)).unwrap();
     let options = format!(
         "--up z --goal none --base {} --connector 90mm --json",
         path(&base)
@@ -325,25 +325,4 @@ fn a_disc_larger_than_the_common_panels_is_an_answer_with_what_helps() {
         "{answer}"
     );
     assert!(!kit.exists());
-}
-
-/// Returns a base of two boxes with one face each on the plane x = 170.
-fn two_boxes() -> String {
-    let face = |normal: [f64; 3], offset_mm: f64, locked: bool| {
-        format!(
-            "[[polyhedron.face]]\nnormal = {normal:?}\noffset_mm = {offset_mm:?}\nlocked = {locked}\n"
-        )
-    };
-    let sides = [
-        face([0.0, 1.0, 0.0], 130.0, false),
-        face([0.0, -1.0, 0.0], -20.0, false),
-        face([0.0, 0.0, 1.0], 130.0, false),
-        face([0.0, 0.0, -1.0], -20.0, false),
-    ]
-    .concat();
-    let split =
-        "[[split]]\nnormal = [1.0, 0.0, 0.0]\noffset_mm = 170.0\nbelow = \"Q1\"\nabove = \"Q2\"\n";
-    let low = face([1.0, 0.0, 0.0], 169.95, true) + &face([-1.0, 0.0, 0.0], -20.0, false);
-    let high = face([-1.0, 0.0, 0.0], -170.05, true) + &face([1.0, 0.0, 0.0], 320.0, false);
-    format!("{split}[[polyhedron]]\n{sides}{low}[[polyhedron]]\n{sides}{high}")
 }

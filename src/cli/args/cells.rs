@@ -116,11 +116,11 @@ const MOST_STEPS: i64 = 100_000;
 pub struct WallArgs {
     /// Write a printable solid for this printer: a known one's id, or a profile file
     ///
-    /// Its least wall lies around the cells, and between them too without a wall of your own. What
-    /// no openings drain stays solid.
+    /// Its least wall, or the wall that you give, lies between the cells and around them. What no
+    /// openings drain stays solid.
     #[arg(long, value_name = "ID|FILE")]
     pub printer: Option<String>,
-    /// The wall between two cells [default: the printer's minimum]
+    /// The wall between two cells and around them [default: the printer's minimum]
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
     pub wall: Option<Length>,
 }

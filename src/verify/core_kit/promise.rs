@@ -41,7 +41,7 @@ pub struct CorePromise {
     /// The rods between polyhedra.
     #[serde(default)]
     pub rods: Vec<RodPromise>,
-    /// What is bought.
+    /// The things to buy.
     #[serde(default)]
     pub buy: Vec<BuyPromise>,
     /// The films of glue.

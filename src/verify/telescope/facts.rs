@@ -19,6 +19,9 @@ use crate::verify::Pose;
 /// States looked at in each move besides its ends.
 pub(super) const BETWEEN: [f64; 3] = [0.25, 0.5, 0.75];
 
+/// States of each move at which it is looked at how low parts reach.
+const GROUND_STATES: usize = 20;
+
 /// Share of the clearance that shells must keep that do not slide in each other.
 pub(super) const APART_SHARE: f64 = 0.9;
 
@@ -264,7 +267,7 @@ fn below_foot_mm(motion: &TelescopeMotion, bodies: &[Body]) -> f64 {
     let first = motion.keys.first().map(|key| key.states.clone());
     let moves = motion.keys.windows(2);
     let between = moves.flat_map(|pair| {
-        let shares = BETWEEN.into_iter().chain([1.0]);
+        let shares = (1..=GROUND_STATES).map(|i| i as f64 / GROUND_STATES as f64);
         shares.map(|share| mixed(&pair[0].states, &pair[1].states, share))
     });
     let states = first.into_iter().chain(between);
