@@ -543,3 +543,40 @@ fn two_boxes(split_mm: f64, faces_mm: [f64; 2], end_mm: f64) -> String {
     let high = face([-1.0, 0.0, 0.0], -high_mm, true) + &face([1.0, 0.0, 0.0], end_mm, false);
     format!("{split}[[polyhedron]]\n{sides}{low}[[polyhedron]]\n{sides}{high}")
 }
+
+/// Gives the base of a kit back: the same parts and sheets come of it, and of its job on two
+/// threads. Returns the new kit.
+fn base_comes_back(folder: &Path, model: &Path, kit: &Path) -> PathBuf {
+    let again = folder.join("again");
+    let options = format!("--up z --base {}", path(&kit.join("base.toml")));
+    assert_exit(&core(model, &again, &options), 0);
+    let (mut same, mut others) = (files(kit), files(&again));
+    assert!(same.keys().eq(others.keys()));
+    // The order is another one, and these have its name or hash.
+    let listing = [
+        "job.toml",
+        "checklist.json",
+        "job.html",
+        "certificate.html",
+        "SHA256SUMS",
+    ];
+    for file in listing {
+        same.remove(Path::new(file));
+        others.remove(Path::new(file));
+    }
+    assert!(same == others, "the base makes other parts or sheets");
+    let replayed = folder.join("replayed");
+    let job = again.join("job.toml");
+    let arguments = [
+        "core",
+        "--job",
+        path(&job),
+        "--out",
+        path(&replayed),
+        "--threads",
+        "2",
+    ];
+    assert_exit(&equipoise(&arguments), 0);
+    assert!(files(&again) == files(&replayed), "a job makes another kit");
+    again
+}

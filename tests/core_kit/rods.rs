@@ -8,10 +8,10 @@ use equipoise::io::stl;
 use equipoise::mesh::{Csg, TriMesh, primitives};
 use serde_json::Value;
 
-use super::common::{
-    assert_exit, checklist, copy, equipoise, files, json, list, number, path, printed, sum, verify,
+use super::common::{assert_exit, checklist, copy, json, list, number, path, printed, sum, verify};
+use super::{
+    add, base_comes_back, core, hold_broken, hold_broken_in_python, judge_in_python, two_boxes,
 };
-use super::{add, core, hold_broken, hold_broken_in_python, judge_in_python, two_boxes};
 
 /// The sides of both boxes of the dumbbell, mm, and its length.
 const BOX_MM: [f64; 3] = [130.0, 150.0, 150.0];
@@ -48,7 +48,8 @@ fn a_dumbbell_is_joined_by_two_rods_and_passes_both_judges() {
     assert_eq!(code, Some(0), "{said}");
     judge_in_python(&kit);
     tell_lies(folder.path(), &kit);
-    give_base(folder.path(), &model, &kit);
+    let again = base_comes_back(folder.path(), &model, &kit);
+    assert_eq!(checklist(&kit)["rods"], checklist(&again)["rods"]);
 }
 
 /// Holds what two rods through the neck must have.
@@ -168,31 +169,6 @@ fn tell_lies(folder: &Path, kit: &Path) {
         hold_broken(&copied, lie.promise);
         hold_broken_in_python(&copied, lie.check);
     }
-}
-
-/// Gives the base of a kit back: the same rods and parts come of it.
-fn give_base(folder: &Path, model: &Path, kit: &Path) {
-    let again = folder.join("again");
-    let base = kit.join("base.toml");
-    let options = format!("--up z --base {}", path(&base));
-    assert_exit(&core(model, &again, &options), 0);
-    let (mut same, mut others) = (files(kit), files(&again));
-    // The order is another one, and these have its hash.
-    let listing = ["job.toml", "checklist.json", "job.html", "SHA256SUMS"];
-    for file in listing.into_iter().chain(["certificate.html"]) {
-        same.remove(Path::new(file));
-        others.remove(Path::new(file));
-    }
-    assert_eq!(same, others);
-    assert_eq!(checklist(kit)["rods"], checklist(&again)["rods"]);
-    let replayed = folder.join("replayed");
-    let job = again.join("job.toml");
-    let arguments = ["core", "--job", path(&job), "--out", path(&replayed)];
-    assert_exit(
-        &equipoise(&[&arguments[..], &["--threads", "2"]].concat()),
-        0,
-    );
-    assert_eq!(files(&again), files(&replayed));
 }
 
 /// Orders a kit of the dumbbell on the given base.

@@ -8,10 +8,10 @@ use equipoise::io::stl;
 use equipoise::mesh::primitives;
 use serde_json::Value;
 
-use super::common::{
-    assert_exit, checklist, copy, equipoise, files, json, list, number, path, printed, verify,
+use super::common::{assert_exit, checklist, copy, json, list, number, path, printed, verify};
+use super::{
+    add, base_comes_back, core, hold_broken, hold_broken_in_python, judge_in_python, two_boxes,
 };
-use super::{add, core, hold_broken, hold_broken_in_python, judge_in_python, two_boxes};
 
 /// The sides of the long box, mm: as short as hands still reach the bolts within.
 const LONG_MM: [f64; 3] = [340.0, 150.0, 150.0];
@@ -257,27 +257,7 @@ fn tell_lies(folder: &Path, kit: &Path, hold: fn(&Path, &Lie)) {
 /// Gives the base of a kit back: the same kit comes of it, and an edited one if its plane parts.
 fn give_base(folder: &Path, model: &Path, kit: &Path) {
     let base = kit.join("base.toml");
-    let again = folder.join("again");
-    let options = format!("--up z --base {}", path(&base));
-    assert_exit(&core(model, &again, &options), 0);
-    let mut same = files(kit);
-    let mut others = files(&again);
-    assert_eq!(
-        same.keys().collect::<Vec<_>>(),
-        others.keys().collect::<Vec<_>>()
-    );
-    // The order is another one, and the lists have its hash.
-    let listing = ["job.toml", "checklist.json", "job.html", "SHA256SUMS"];
-    for file in listing {
-        same.remove(Path::new(file));
-        others.remove(Path::new(file));
-    }
-    assert_eq!(same, others);
-    let replayed = folder.join("replayed");
-    let job = again.join("job.toml");
-    let arguments = ["core", "--job", path(&job), "--out", path(&replayed)];
-    assert_exit(&equipoise(&arguments), 0);
-    assert_eq!(files(&again), files(&replayed));
+    base_comes_back(folder, model, kit);
     // A plane that is moved into a polyhedron is named with its place.
     let text = fs::read_to_string(&base).unwrap();
     let line = text
