@@ -484,7 +484,12 @@ fn bad_input_is_named_with_what_to_type_and_leaves_nothing_behind() {
 #[test]
 #[ignore = "makes whole kits at 600 mm: minutes"]
 fn the_shared_models_become_kits_that_pass_both_judges() {
-    for name in ["bunny.stl", "homer.obj", "humpty.obj"] {
+    // Humpty topples at 0.8°, which is an answer of its own. He is fixed to the floor.
+    for (name, goal) in [
+        ("bunny.stl", "stand"),
+        ("homer.obj", "stand"),
+        ("humpty.obj", "none"),
+    ] {
         let Some(model) = shared_model(name) else {
             continue;
         };
@@ -492,7 +497,8 @@ fn the_shared_models_become_kits_that_pass_both_judges() {
         let kit = folder.path().join("kit");
         let arguments = [
             &["core", path(&model), "--out", path(&kit), "--size", "600mm"],
-            &words("--printer prusa-mk3s --cutter makerspace-900x600 --sheet birch-5")[..],
+            &words("--printer prusa-mk3s --cutter makerspace-900x600 --sheet birch-5 --goal")[..],
+            &[goal],
         ];
         assert_exit(&equipoise(&arguments.concat()), 0);
         judge_in_python(&kit);
