@@ -444,6 +444,7 @@ mod tests {
         assert!(shaped.field.is_some());
         assert_eq!(reread(&shaped), shaped);
         other.sliced = vec![SlicedRound {
+            infill_ratio: None,
             miss_mm: 0.0317,
             beyond: [460.1, -3.0, 0.1 + 0.2, 0.0, 1e-7, 2.0, 3.0, 4e9, 5.0, 6.0],
         }];

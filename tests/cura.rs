@@ -211,6 +211,59 @@ fn a_graded_kit_is_made_again_with_what_the_engine_lays() {
     assert_eq!(code, Some(0), "{said}");
 }
 
+#[test]
+fn an_engine_that_lays_more_infill_than_the_profile_says_is_counted_with() {
+    let Some(definitions) = cura_definitions() else {
+        return;
+    };
+    let options =
+        format!("{GRADED} --printer prusa-mk4 --infill 40% --levels 3 --slice --slicer cura");
+    let kit = prepare(&definitions, "more-infill", &options);
+    let infill = &common::checklist(&kit)["infill"];
+    let [nominal, laid, ratio] =
+        ["/nominal_ratio", "/laid_ratio", "/slicer_ratio"].map(|key| number(infill, key));
+    assert_eq!(nominal, 0.4);
+    assert!((1.04..1.2).contains(&ratio), "{ratio}");
+    // The profile's own is 0.3736.
+    assert!((laid / 0.373_55 - ratio).abs() < 1e-9, "{laid}");
+    let output = slice(&definitions, &kit, &[]);
+    assert_exit(&output, 0);
+    let laid_g = number(&json(&output), "/slices/plates/0/parts_g");
+    let promised_g = number(&common::checklist(&kit), "/assembly/mass_g");
+    assert!(
+        (laid_g / promised_g - 1.0).abs() < 0.01,
+        "{laid_g} {promised_g}"
+    );
+    assert_exit(&run(&definitions, &["verify", path(&kit)]), 0);
+    refuse_other_ratio(&definitions, &kit);
+}
+
+/// Asserts that a job whose slicer would lay half of the infill more is refused.
+fn refuse_other_ratio(definitions: &Path, kit: &Path) {
+    let file = kit.join("job.toml");
+    let job = fs::read_to_string(&file).unwrap();
+    let lines = job
+        .lines()
+        .map(|line| match line.starts_with("infill_ratio = ") {
+            true => "infill_ratio = 1.5",
+            false => line,
+        });
+    let other = kit.join("other.toml");
+    fs::write(&other, lines.collect::<Vec<&str>>().join("\n")).unwrap();
+    let out = kit.with_file_name("other");
+    let output = run(
+        definitions,
+        &["prepare", "--job", path(&other), "--out", path(&out)],
+    );
+    assert_exit(&output, 2);
+    assert!(
+        printed(&output).contains("[[sliced]]"),
+        "{}",
+        printed(&output)
+    );
+    assert!(!out.exists());
+}
+
 /// A printer with a table of infill, whose slicer reads a dialect.
 fn dialect_profile(file: &Path, dialect: &str) {
     let text = format!(

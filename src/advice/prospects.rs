@@ -275,7 +275,7 @@ fn try_contacts(model: &SampledModel, request: &Request) -> Option<(Contact, Tri
 /// Returns the reason why a goal is impossible, in a few words with the number.
 fn brief(trial: &Trial) -> String {
     match trial.solution.status {
-        Status::ConstraintsInfeasible { .. } => "wobbles however it is hollowed".to_owned(),
+        Status::ConstraintsInfeasible { .. } => "wobbles, whatever its interior".to_owned(),
         Status::NotDominant { least_ratio }
         | Status::UnstableForEveryInterior { least_ratio, .. } => {
             format!("too tall to spin: {}", show_wobble(least_ratio))

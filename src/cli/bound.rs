@@ -12,10 +12,20 @@ pub fn bound_words(checklist: &Checklist) -> String {
     let best = measured(proof.bound, unit);
     let infill = checklist.infill.as_ref();
     if let Some(field) = infill.and_then(|infill| infill.field.as_ref()) {
+        let least = match proof.bound <= 0.0 {
+            true => "the wished infill alone does what was asked".to_owned(),
+            false => format!("no densities that do what was asked differ by less than {best}"),
+        };
         return format!(
             "the field {field} differs from the wished infill by {} of solid print (root mean \
-             square); no densities that do what was asked differ by less than {best}",
+             square); {least}",
             measured(proof.value, unit)
+        );
+    }
+    if proof.figure == FigureName::InfillChangeRatio && proof.value <= 0.0 {
+        return format!(
+            "the infill is the wished one: it does what was asked{}",
+            kept_words(checklist)
         );
     }
     if proof.figure == FigureName::InfillChangeRatio {

@@ -17,6 +17,7 @@ use super::values::show_box;
 use super::voice::Voice;
 use super::wrap::wrapped;
 use crate::advice::Remedy;
+use crate::base::numbers::measured;
 use crate::base::units::{Length, show_mm};
 use crate::base::watch::Watch;
 use crate::error::{Error, GradedError};
@@ -137,6 +138,7 @@ fn run(request: &Request, watch: &Watch) -> Result<Ran, Error> {
             prepare::prepare_sliced(&request.job, request.slicer_profile.as_deref(), watch)?;
         let rounds = Rounds {
             misses_mm: sliced.misses_mm,
+            infill_ratio: sliced.infill_ratio,
             broken: sliced.broken,
         };
         Ran {
@@ -167,6 +169,8 @@ struct Ran {
 struct Rounds {
     /// The distance between the centre of the toolpaths and the promised one in every round, mm.
     misses_mm: Vec<f64>,
+    /// The infill that the slicer lays, over what the printer's profile says; `None` for as much.
+    infill_ratio: Option<f64>,
     /// The promises that the toolpaths of the best kit break.
     broken: Vec<String>,
 }
@@ -176,10 +180,17 @@ impl Rounds {
     fn words(&self) -> String {
         let misses = self.misses_mm.iter().map(|miss_mm| format!("{miss_mm:.4}"));
         let misses = misses.collect::<Vec<String>>().join(", ");
-        let sliced = format!(
+        let mut sliced = format!(
             "sliced {} times: the centre of mass was {misses} mm from the promised one",
             self.misses_mm.len()
         );
+        if let Some(ratio) = self.infill_ratio {
+            let infill = measured(100.0 * ratio, "%");
+            sliced += &format!(
+                "\nthe slicer lays {infill} of the infill that the printer's profile says; the kit \
+                 counts with it"
+            );
+        }
         if self.broken.is_empty() {
             return sliced;
         }

@@ -2,6 +2,7 @@
 
 use super::field_miss::FieldMiss;
 use super::miss::MatchMiss;
+use crate::base::numbers::measured;
 use crate::geom::Quadric;
 use crate::goal::{Goal, GoalKind};
 
@@ -137,7 +138,7 @@ impl Status {
                 proved,
             } => return explain_instability(least_ratio, proved),
             Self::CannotStand { greatest_angle_rad } => format!(
-                "it falls over however it is hollowed (at least {:.1}° short)",
+                "it falls over whatever its interior (at least {:.1}° short)",
                 -greatest_angle_rad.to_degrees()
             ),
             Self::Sinks { least_ratio } => format!(
@@ -152,11 +153,11 @@ impl Status {
                 least_offset_mm: offset,
                 ..
             } => format!(
-                "at this waterline, with any hollowing, the centre of mass stays at least \
+                "at this waterline, whatever its interior, the centre of mass stays at least \
                  {offset:.3} mm beside the centre of buoyancy, so it would not float upright"
             ),
             Self::Capsizes { greatest_gm_mm: gm } => format!(
-                "at this waterline, with any hollowing, the centre of mass stays at least {:.3} mm \
+                "at this waterline, whatever its interior, the centre of mass stays at least {:.3} mm \
                  above the metacentre, so it would turn over",
                 -gm
             ),
@@ -164,7 +165,7 @@ impl Status {
                 least_grade_mm_s: grade,
                 ..
             } => format!(
-                "with any hollowing, at its speed the rotor's balance grade stays at G {grade:.1} \
+                "whatever its interior, at its speed the rotor's balance grade stays at G {grade:.1} \
                  or above"
             ),
         };
@@ -283,7 +284,7 @@ const TILT_REMEDIES: [&str; 2] = [
 ];
 
 /// The reason why a body does not turn steadily about an axis.
-const WOBBLES: &str = "it would wobble about this axis however it is hollowed";
+const WOBBLES: &str = "it would wobble about this axis, whatever its interior";
 
 /// Words why a body cannot spin, and in brackets the numbers of the proof.
 fn explain_spin(why: &str, proof: &str) -> String {
@@ -292,14 +293,14 @@ fn explain_spin(why: &str, proof: &str) -> String {
 
 fn explain_imbalance(obstacle: Obstacle, least_miss: f64, kind: GoalKind) -> String {
     let task = obstacle.task(kind);
-    let miss = format!("it misses by {:.1} %", 100.0 * least_miss);
+    let miss = format!("it misses by {}", measured(100.0 * least_miss, "%"));
     match kind {
         GoalKind::Stand | GoalKind::Float => {
-            format!("Impossible: however it is hollowed with this wall, it cannot {task} ({miss}).")
+            format!("Impossible: with this wall it cannot {task}, whatever its interior ({miss}).")
         }
         _ => explain_spin(
             WOBBLES,
-            &format!("However it is hollowed with this wall, it cannot {task}; {miss}"),
+            &format!("With this wall it cannot {task}, whatever its interior; {miss}"),
         ),
     }
 }
@@ -316,7 +317,7 @@ fn explain_instability(least_ratio: f64, proved: bool) -> String {
 
 fn compare_moments(least_ratio: f64) -> String {
     format!(
-        "With any hollowing, the moment of inertia across the axis is at least {least_ratio:.3} \
+        "Whatever its interior, the moment of inertia across the axis is at least {least_ratio:.3} \
          times the one about it"
     )
 }
@@ -441,7 +442,7 @@ mod tests {
         let said = Status::NotDominant { least_ratio: 1.2 }.explain(&goal);
         assert!(
             said.starts_with(
-                "Impossible: it would wobble about this axis however it is hollowed. (With"
+                "Impossible: it would wobble about this axis, whatever its interior. (With"
             ),
             "{said}"
         );

@@ -8,6 +8,10 @@ use serde::{Deserialize, Serialize};
 pub struct SlicedRound {
     /// The distance between the centre of its toolpaths and the promised one, mm.
     pub miss_mm: f64,
+    /// The sparse infill that its slicer lays, over what the profile's table says of it. Kits after
+    /// it count with so much; `None` if the table is near enough.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub infill_ratio: Option<f64>,
     /// The moments of what its toolpaths lay beyond the written parts, in the model frame, mm³ to
     /// mm⁵. They are those of 1, x, y, z, xy, yz, xz, x², y² and z².
     pub beyond: [f64; 10],

@@ -95,6 +95,19 @@ pub(super) fn levels(sheet: &Checklist, infill: &InfillOrder) -> Markup {
     }
 }
 
+/// Returns the note on a slicer that lays other infill than the printer's profile says; nothing for
+/// one that does not.
+pub(super) fn slicer_note(infill: &InfillOrder) -> Markup {
+    html! {
+        @if let Some(ratio) = infill.slicer_ratio {
+            p {
+                "The slicer lays " (percent(ratio)) " of the infill that the printer's profile says. \
+                 The masses here count with it. Slice with no other slicer, or make the kit anew."
+            }
+        }
+    }
+}
+
 /// Returns the words for a part whose weight is wrong.
 pub(super) fn wrong_weight() -> &'static str {
     "Too heavy: the region inside was printed solid. Too light: the rest was not."
@@ -117,6 +130,7 @@ mod tests {
             regions: 1,
             volume_mm3: 2000.0,
             mass_g: 0.35,
+            slicer_ratio: None,
             beyond: None,
             misses_mm: Vec::new(),
             field: None,
@@ -129,6 +143,18 @@ mod tests {
             ..sample().0
         };
         (sheet, infill)
+    }
+
+    #[test]
+    fn the_sheet_says_that_the_slicer_lays_more_than_the_profile_says() {
+        let (_, infill) = graded();
+        assert_eq!(slicer_note(&infill).into_string(), "");
+        let more = InfillOrder {
+            slicer_ratio: Some(1.076),
+            ..infill
+        };
+        let words = slicer_note(&more).into_string();
+        assert!(words.contains("107.6"), "{words}");
     }
 
     #[test]

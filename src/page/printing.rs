@@ -56,6 +56,7 @@ pub(super) fn print_step(sheet: &Checklist, pictures: &[Picture]) -> Markup {
                 (figures(pictures, Role::CutAway))
                 (infill::levels(sheet, infill))
             }
+            (infill::slicer_note(infill))
         }
         @if let Some(toolpaths) = &sheet.toolpaths { (weighed(sheet, toolpaths)) }
         div class="cards" { @for part in &sheet.parts { (card(sheet, part, pictures)) } }

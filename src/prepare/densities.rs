@@ -12,6 +12,9 @@ use crate::job::{
 use crate::printer::{InfillPattern, Printer, Quantity};
 use crate::run::{Extent, Level, Nested};
 
+/// The most that lines of infill may be apart below denser print, mm: it hangs between them.
+const MOST_SPACING_MM: f64 = 4.5;
+
 /// A printer's infill, and the least of it that carries what is printed over it.
 struct Stock<'a> {
     pattern: &'a InfillPattern,
@@ -42,10 +45,7 @@ pub fn nested_inside(
     };
     let stock = Stock {
         pattern: printer.infill.as_ref().ok_or_else(no_infill)?,
-        least_ratio: printer
-            .number(Quantity::LeastInfillRatio)
-            .ok_or_else(no_infill)?
-            .value,
+        least_ratio: least_ratio(printer).ok_or_else(no_infill)?,
         inside,
     };
     let order = order(job, printer, &stock)?;
@@ -58,6 +58,12 @@ pub fn nested_inside(
         return Err(GradedError::OnlyThreeMf { regions });
     }
     Ok(nested)
+}
+
+/// Returns the least infill that carries solid print over it; `None` for a printer without infill.
+fn least_ratio(printer: &Printer) -> Option<f64> {
+    let least = printer.number(Quantity::LeastInfillRatio)?.value;
+    Some(least.max(printer.pixel_x_mm.value / MOST_SPACING_MM))
 }
 
 /// Returns the filling that stands for the regions where voids are solved for.
@@ -228,6 +234,16 @@ mod tests {
         assert_eq!(percents(&nested), [15.0]);
         assert_eq!(nested.levels[0].extent, Extent::Above(0.0));
         assert_eq!(fill(&nested).unwrap().density_ratio(), 0.142);
+    }
+
+    #[test]
+    fn broad_lines_need_more_infill_so_that_nothing_dense_hangs_far_between_them() {
+        let mut printer = Printer::find("prusa-mk4").unwrap();
+        assert_eq!(least_ratio(&printer), Some(0.15));
+        printer.pixel_x_mm.value = 0.9;
+        assert_eq!(least_ratio(&printer), Some(0.2));
+        let sparse = nested(&job(Some("15%..60%"), None, None), &printer);
+        assert!(sparse.unwrap_err().to_string().contains("no less than 20%"));
     }
 
     #[test]

@@ -12,7 +12,7 @@ use crate::mass::moments_of_mesh;
 use crate::mesh::{TriMesh, shells};
 use crate::printer::Printer;
 use crate::run::{Nested, Placed};
-use crate::verify::beyond_ratio;
+use crate::verify::{beyond_ratio, infill_share};
 
 use super::densities::nested;
 use super::levels::with_load;
@@ -119,7 +119,11 @@ pub fn refuse_pieces(placed: &Placed) -> Result<(), Error> {
 /// They say that more was laid than slicers lay.
 pub fn refuse_rounds(placed: &Placed) -> Result<(), SlicedError> {
     let solid = moments_of_mesh(placed.solid().mesh());
-    let is_other = |round: &SlicedRound| beyond_ratio(&round.beyond, &solid) > 1.0;
+    let is_other = |round: &SlicedRound| {
+        let infill = round.infill_ratio.map_or(0.0, infill_share);
+        let has_no_infill = placed.sparse.is_none() && round.infill_ratio.is_some();
+        has_no_infill || infill.max(beyond_ratio(&round.beyond, &solid)) > 1.0
+    };
     let own = placed.job.toolpaths.as_ref();
     match placed.job.sliced.iter().any(is_other) || own.is_some_and(|own| !own.is_sound()) {
         true => Err(SlicedError::OtherRounds),

@@ -6,7 +6,7 @@ use crate::base::watch::{Phase, Watch};
 use crate::cut::rods;
 use crate::error::Error;
 use crate::io;
-use crate::job::Job;
+use crate::job::{Job, SlicedRound};
 use crate::mend::{MendError, mend};
 use crate::mesh::{Defects, Solid, scaled};
 use crate::printer::{Printer, check_room_for_void};
@@ -14,13 +14,23 @@ use crate::repair::one_body_with;
 use crate::run::{Model, Shop};
 use crate::thin::thicken;
 
-/// Finds the job's printer. Refuses what it does not print.
+/// Finds the job's printer, with the infill that its slicer was seen to lay. Refuses what it does
+/// not print.
 pub fn printer(job: &Job, watch: &Watch) -> Result<Printer, Error> {
     watch.enter(Phase::Load);
-    let printer = Printer::find(&job.printer.id)?;
+    let mut printer = Printer::find(&job.printer.id)?;
+    if let (Some(infill), Some(ratio)) = (&mut printer.infill, infill_ratio(&job.sliced)) {
+        *infill = infill.scaled(ratio);
+    }
     printer.material(job.printer.material.as_deref())?;
     sparse_print(job, &printer)?;
     Ok(printer)
+}
+
+/// Returns the infill that the slicer of these rounds lays, over what the profile says of it;
+/// `None` if they say no other than the profile.
+pub fn infill_ratio(sliced: &[SlicedRound]) -> Option<f64> {
+    sliced.last().and_then(|round| round.infill_ratio)
 }
 
 /// Reads the job's model, repairs it and proves that it bounds one solid body.

@@ -12,6 +12,7 @@ mod graded;
 mod hardware;
 mod hints;
 mod judge;
+mod kept;
 mod levels;
 mod like;
 mod load;
@@ -27,14 +28,16 @@ mod rounds;
 mod slice;
 mod solve;
 mod spread;
+mod steps;
 mod stock;
 mod thresholds;
 mod upright;
 mod waterline;
 mod weighed;
 
+pub use kept::SlicedOutcome;
 pub use outcome::{Failure, Impossible, Outcome, Prepared};
-pub use rounds::{SlicedOutcome, prepare_sliced};
+pub use rounds::prepare_sliced;
 pub use slice::time_kit;
 
 use crate::base::verdict::Verdict;

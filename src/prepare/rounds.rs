@@ -5,8 +5,10 @@ use std::path::{Path, PathBuf};
 
 use super::drafts::{Aims, Drafts, draft};
 use super::judge::Draft;
+use super::kept::{Kept, Rounds, SlicedOutcome};
+use super::load::infill_ratio;
 use super::outcome::{Impossible, Outcome};
-use super::weighed::{Weighed, weigh};
+use super::weighed::weigh;
 use super::{advise, failure, papers, placed, slice, solve};
 use crate::base::verdict::Verdict;
 use crate::base::watch::Watch;
@@ -17,17 +19,6 @@ use crate::slice::SliceOrder;
 
 /// The most rounds after the first kit.
 const MOST_ROUNDS: usize = 4;
-
-/// The end of a run whose kits were sliced.
-#[derive(Debug)]
-pub struct SlicedOutcome {
-    /// The kit whose toolpaths came nearest to its promise.
-    pub outcome: Outcome,
-    /// The distance between the centre of the toolpaths and the promised one in every round, mm.
-    pub misses_mm: Vec<f64>,
-    /// The promises that the toolpaths of the kit break, in words; empty if they keep all.
-    pub broken: Vec<String>,
-}
 
 /// Prepares a job, slices its kit, and makes it again with what the toolpaths lay, until they keep
 /// the promise.
@@ -58,18 +49,23 @@ pub fn prepare_sliced(
         slicer: None,
         ..job.clone()
     };
-    let placed = placed(&job, watch)?;
-    let mut plans = Plans::of(&placed, watch)?;
+    let first = placed(&job, watch)?;
+    let mut plans = Plans::of(&first, watch)?;
     let mut rounds = Rounds::default();
+    let mut goals = Goals {
+        job: &job,
+        first: &first,
+        own: None,
+    };
     for number in 0..=MOST_ROUNDS {
         if number > 0 {
             watch.begin_round();
         }
-        let round = with_rounds(&placed, rounds.sliced.clone(), None);
+        let round = goals.of_round(&rounds.sliced, watch)?;
         let draft = match plans.draft(&round, watch) {
             Ok(Verdict::Found(draft)) => draft,
             Ok(Verdict::No(impossible)) if rounds.best.is_none() => {
-                let impossible = advise::remedies(&placed, impossible, watch)?;
+                let impossible = advise::remedies(&first, impossible, watch)?;
                 return Ok(rounds.end(Outcome::Impossible(Box::new(impossible))));
             }
             Err(error) if rounds.best.is_none() || matches!(error, Error::Cancelled) => {
@@ -95,6 +91,31 @@ pub fn prepare_sliced(
     let prepared = failure::on_failure(&last, prepared, watch)?;
     rounds.broken = weighed.broken;
     Ok(rounds.end(Outcome::Prepared(Box::new(prepared))))
+}
+
+/// The goal of the rounds, placed.
+struct Goals<'a> {
+    job: &'a Job,
+    /// With the infill that the printer's profile says.
+    first: &'a Placed,
+    /// With the infill that the slicer lays; `None` until that is known.
+    own: Option<Placed>,
+}
+
+impl Goals<'_> {
+    /// Returns the goal of the round after others.
+    fn of_round(&mut self, sliced: &[SlicedRound], watch: &Watch) -> Result<Placed, Error> {
+        let sliced = sliced.to_vec();
+        if self.own.is_none() && infill_ratio(&sliced).is_some() {
+            let job = Job {
+                sliced: sliced.clone(),
+                ..self.job.clone()
+            };
+            self.own = Some(placed(&job, watch)?);
+        }
+        let goal = self.own.as_ref().unwrap_or(self.first);
+        Ok(with_rounds(goal, sliced, None))
+    }
 }
 
 /// Returns a placed goal with the rounds, and the toolpaths, of its job.
@@ -151,48 +172,6 @@ impl<'a> Plans<'a> {
                     Ok(Verdict::Found(draft(aims, solved, watch)?))
                 }
             },
-        }
-    }
-}
-
-/// The kit of a round, and the weight of its toolpaths.
-struct Kept {
-    round: Placed,
-    draft: Draft,
-    weighed: Weighed,
-}
-
-/// The rounds so far.
-#[derive(Default)]
-struct Rounds {
-    sliced: Vec<SlicedRound>,
-    misses_mm: Vec<f64>,
-    best: Option<Box<Kept>>,
-    broken: Vec<String>,
-}
-
-impl Rounds {
-    /// Adds a round; returns true if it is near enough to be the last.
-    fn add(&mut self, round: Placed, draft: Draft, weighed: Weighed) -> bool {
-        self.misses_mm.push(weighed.miss_mm);
-        self.sliced.push(weighed.round());
-        let is_near = weighed.is_near();
-        let best = self.best.as_ref();
-        if best.is_none_or(|best| weighed.is_better_than(&best.weighed)) {
-            self.best = Some(Box::new(Kept {
-                round,
-                draft,
-                weighed,
-            }));
-        }
-        is_near
-    }
-
-    fn end(self, outcome: Outcome) -> SlicedOutcome {
-        SlicedOutcome {
-            outcome,
-            misses_mm: self.misses_mm,
-            broken: self.broken,
         }
     }
 }

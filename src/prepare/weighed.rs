@@ -3,7 +3,9 @@
 use std::path::PathBuf;
 
 use super::outcome::Prepared;
+use super::steps::{step, to_steps};
 use crate::base::digest::sha256_hex;
+use crate::base::units::MM3_PER_CM3;
 use crate::base::watch::{Phase, Watch};
 use crate::error::{Error, SlicedError};
 use crate::job::{SlicedKit, SlicedPart, SlicedPlate, SlicedRound};
@@ -11,7 +13,7 @@ use crate::kit::{Existing, Kit};
 use crate::mass::Moments;
 use crate::slice::{PlateSlice, SliceOrder, slice_kit};
 use crate::slicer::Scratch;
-use crate::verify::{PrintedJudgement, verify_printed};
+use crate::verify::{InfillOrder, PrintedJudgement, infill_share, verify_printed};
 
 /// Distance of the centre from the promised one that is near enough, mm.
 const NEAR_MM: f64 = 0.01;
@@ -19,6 +21,11 @@ const NEAR_MM: f64 = 0.01;
 const NEAR_DEG: f64 = 0.05;
 /// Deviation of the mass from the promised one that is near enough, as a share.
 const NEAR_MASS_RATIO: f64 = 2e-3;
+/// The share of a print by which toolpaths may be off before the infill is taken as wrong. It is
+/// half of what a slicer may lay beyond a kit's parts.
+const CALIBRATE_RATIO: f64 = 0.025;
+/// Steps to which the infill of a slicer is known.
+const INFILL_STEP: f64 = 1e-4;
 /// Steps to which a round's centre is known, mm.
 const STEP_MM: f64 = 1e-4;
 /// Steps to which its volume is known, as a share of it. The centre is as far from the origin as
@@ -43,6 +50,8 @@ pub struct Weighed {
     beyond: Moments,
     /// Their volume, mm³.
     volume_mm3: f64,
+    /// The sparse infill that the kit counts with, mm³ of solid print; 0 for a hollow kit.
+    infill_mm3: f64,
     /// The promises that they break, in words.
     pub broken: Vec<String>,
     /// The figures that the kit keeps of them.
@@ -83,8 +92,11 @@ pub fn weigh(order: &SliceOrder, prepared: &Prepared, watch: &Watch) -> Result<W
         parts: judgement.missing.join(", "),
     };
     let weighed = Weighed::of(&judgement, kit).ok_or_else(not_all)?;
+    let sheet = &prepared.checklist;
+    let infill_g = sheet.infill.as_ref().map_or(0.0, InfillOrder::infill_g);
     Ok(Weighed {
         is_sound: prepared.passes(),
+        infill_mm3: infill_g / sheet.material.density_g_cm3 * MM3_PER_CM3,
         ..weighed
     })
 }
@@ -123,6 +135,7 @@ impl Weighed {
             heavier_ratio: laid.mass_g / written.mass_g - 1.0,
             beyond: judgement.beyond?,
             volume_mm3: laid.volume_mm3,
+            infill_mm3: 0.0,
             broken: broken.map(|check| check.kind.to_string()).collect(),
             record: SlicedKit {
                 mass_g: to_steps(laid.mass_g, STEP_G),
@@ -149,33 +162,40 @@ impl Weighed {
         rank(self) < rank(other)
     }
 
-    /// Returns the round, rounded. Toolpaths differ in their last digits from run to run. So
-    /// another loop may end with other digits; the job that is kept makes the same kit.
-    pub fn round(&self) -> SlicedRound {
+    /// Returns the infill that the slicer lays, over what the kit counts with; `None` if the print
+    /// weighs what it should, or if no slicer differs so much from the profile.
+    fn infill_ratio(&self) -> Option<f64> {
+        let beyond_mm3 = self.beyond.volume();
+        if self.infill_mm3 == 0.0 || beyond_mm3.abs() <= CALIBRATE_RATIO * self.volume_mm3 {
+            return None;
+        }
+        let ratio = to_steps(1.0 + beyond_mm3 / self.infill_mm3, INFILL_STEP);
+        (infill_share(ratio) <= 1.0).then_some(ratio)
+    }
+
+    /// Returns the round, rounded. `known` is the infill of the slicer that the kit counts with;
+    /// it is weighed once. Nothing is made up for but that in the round that finds it.
+    ///
+    /// Toolpaths differ in their last digits from run to run. So another loop may end with other
+    /// digits; the job that is kept makes the same kit.
+    pub fn round(&self, known: Option<f64>) -> SlicedRound {
+        let found = self.infill_ratio().filter(|_| known.is_none());
+        if found.is_some() {
+            return SlicedRound {
+                miss_mm: to_steps(self.miss_mm, STEP_MM),
+                infill_ratio: found,
+                beyond: [0.0; 10],
+            };
+        }
         let volume_step = step(self.volume_mm3 * VOLUME_STEP);
         let moment_step = step(self.volume_mm3 * STEP_MM);
         let mut beyond = self.beyond.0.map(|moment| to_steps(moment, moment_step));
         beyond[0] = to_steps(self.beyond.0[0], volume_step);
         SlicedRound {
             miss_mm: to_steps(self.miss_mm, STEP_MM),
+            infill_ratio: known,
             beyond,
         }
-    }
-}
-
-/// Returns the power of ten at or below a positive number.
-fn step(number: f64) -> f64 {
-    10.0_f64.powf(number.log10().floor())
-}
-
-/// Rounds a number to whole steps.
-fn to_steps(number: f64, step: f64) -> f64 {
-    let steps = (number / step).round();
-    // A division by a whole power of ten rounds to the fewest digits, a product does not.
-    if step < 1.0 {
-        steps / step.recip().round() + 0.0
-    } else {
-        steps * step + 0.0
     }
 }
 
@@ -191,6 +211,7 @@ mod tests {
             heavier_ratio: 0.0,
             beyond: Moments([12.345_678_9; 10]),
             volume_mm3: 21_850.0,
+            infill_mm3: 0.0,
             broken: Vec::new(),
             record: SlicedKit {
                 slicer: String::new(),
@@ -206,10 +227,46 @@ mod tests {
 
     #[test]
     fn a_round_is_kept_to_a_tenth_of_a_micrometre_of_the_centre() {
-        let round = weighed(0.123_456, 0.0).round();
+        let round = weighed(0.123_456, 0.0).round(None);
         assert_eq!(round.miss_mm, 0.1235);
         assert_eq!(round.beyond[0], 12.35);
         assert_eq!(round.beyond[1..], [12.0; 9]);
+    }
+
+    #[test]
+    fn a_slicer_that_lays_more_infill_is_counted_with_once_and_nothing_else_is_made_up_for() {
+        let mut beyond = Moments([0.0; 10]);
+        beyond.0[..2].copy_from_slice(&[1_500.0, -300.0]);
+        let heavy = Weighed {
+            infill_mm3: 15_000.0,
+            beyond,
+            ..weighed(0.05, 0.0)
+        };
+        let found = heavy.round(None);
+        assert_eq!((found.infill_ratio, found.beyond), (Some(1.1), [0.0; 10]));
+        let after = heavy.round(found.infill_ratio);
+        assert_eq!((after.infill_ratio, after.beyond[0]), (Some(1.1), 1500.0));
+        let hollow = Weighed {
+            infill_mm3: 0.0,
+            ..heavy
+        };
+        assert_eq!(hollow.round(None).infill_ratio, None);
+    }
+
+    #[test]
+    fn a_print_far_too_heavy_is_not_said_to_have_more_infill() {
+        let double = Weighed {
+            infill_mm3: 6_000.0,
+            beyond: Moments([1_500.0; 10]),
+            ..weighed(0.05, 0.0)
+        };
+        assert_eq!(double.round(None).infill_ratio, None);
+        let right = Weighed {
+            infill_mm3: 15_000.0,
+            beyond: Moments([500.0; 10]),
+            ..weighed(0.05, 0.0)
+        };
+        assert_eq!(right.round(None).infill_ratio, None);
     }
 
     #[test]

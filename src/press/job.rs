@@ -87,6 +87,9 @@ impl Faults {
         let beyond = job.sliced.last().map(|round| round.beyond);
         let misses_mm: Vec<f64> = job.sliced.iter().map(|round| round.miss_mm).collect();
         self.compare("laid.beyond", &json!(stated.0), &json!(beyond));
+        let slicer_ratio = infill.and_then(|infill| infill.slicer_ratio);
+        let right = job.sliced.last().and_then(|round| round.infill_ratio);
+        self.compare("infill.slicer_ratio", &json!(slicer_ratio), &json!(right));
         self.compare("laid.misses_mm", &json!(stated.1), &json!(misses_mm));
         let mut own = json!(job.toolpaths);
         let plates = own.get_mut("plates").and_then(Value::as_array_mut);

@@ -42,6 +42,17 @@ impl InfillPattern {
         }
     }
 
+    /// Returns the pattern of a slicer that lays so much of what this table says; at most solid
+    /// print.
+    #[must_use]
+    pub fn scaled(&self, ratio: f64) -> Self {
+        let mut scaled = self.clone();
+        for [_, laid] in &mut scaled.core_ratio.value {
+            *laid = (*laid * ratio).min(1.0);
+        }
+        scaled
+    }
+
     /// Returns the density to set for which this one is laid, over that of solid print.
     ///
     /// What lies between the greatest infill and solid print cannot be laid. For that it is nearly

@@ -140,7 +140,8 @@ pub enum TetsError {
     /// A value is no density.
     #[error(
         "the density of {what} {} is {value}, and a density lies from 0 to 1, as a share of the \
-         solid material; remedy: divide the values by the density of the material",
+         solid material; remedy: write a number, and divide values above 1 by the density of the \
+         material",
         index + 1
     )]
     Density {

@@ -1,6 +1,6 @@
 //! What is asked of a kit's promises as a whole.
 
-use super::{Cleaning, InfillOrder, Promise};
+use super::{Cleaning, InfillOrder, Promise, beyond_ratio, infill_share};
 use crate::mass::Moments;
 
 /// The process whose voids drain, and need a vent for air.
@@ -29,6 +29,16 @@ impl Promise {
             (Some(hollow), Some(infill)) => Some(hollow + infill),
             (hollow, infill) => hollow.or(infill),
         }
+    }
+
+    /// Returns what a slicer is said to lay beyond a written print and beyond the profile's infill,
+    /// over the most that slicers lay; `None` if the kit says nothing of it.
+    pub(super) fn beyond_ratio(&self, written: &Moments) -> Option<f64> {
+        let beyond = self.laid_beyond();
+        let beyond = beyond.map(|beyond| beyond_ratio(&beyond.0, written));
+        let slicer = self.infill.as_ref().and_then(|infill| infill.slicer_ratio);
+        let slicer = slicer.map(infill_share);
+        beyond.into_iter().chain(slicer).reduce(f64::max)
     }
 
     /// Returns the gap ordered between the pins and sockets of a joint, mm; 0 for a joint that is

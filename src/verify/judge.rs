@@ -186,9 +186,7 @@ impl AllFigures {
                 promise.wall.required_mm,
             ),
             spin: SpinFacts::of_top(&promise.goal, &promise.hardware, outer),
-            beyond_ratio: promise
-                .laid_beyond()
-                .map(|beyond| super::beyond_ratio(&beyond.0, &written)),
+            beyond_ratio: promise.beyond_ratio(&written),
             ballast_room_mm: least_room_mm(&promise.ballast, &body.welded, outer),
             whole: assembled + inside + joined + hardware,
             setting,

@@ -115,9 +115,13 @@ impl Faults {
             self.0
                 .push(format!("infill.pattern states {found}, not {right}"));
         }
-        if let Some(nominal) = stated["nominal_ratio"].as_f64() {
-            let laid = pattern.laid_ratio(nominal);
-            self.compare("infill.laid_ratio", &stated["laid_ratio"], &[laid]);
+        let pattern = pattern.scaled(stated["slicer_ratio"].as_f64().unwrap_or(1.0));
+        let inner = stated["inner"].as_array().into_iter().flatten();
+        for level in std::iter::once(stated).chain(inner) {
+            if let Some(nominal) = level["nominal_ratio"].as_f64() {
+                let laid = pattern.laid_ratio(nominal);
+                self.compare("infill.laid_ratio", &level["laid_ratio"], &[laid]);
+            }
         }
     }
 

@@ -125,7 +125,7 @@ pub use promise::{
     PromisedFigure, PromisedJig, PromisedJoint, PromisedPart, PromisedVoid, SCHEMA, WallOrder,
 };
 pub use rotor::RotorOrder;
-pub use sparse::{InfillLevel, InfillOrder, beyond_ratio};
+pub use sparse::{InfillLevel, InfillOrder, beyond_ratio, infill_share};
 pub use water::WaterOrder;
 
 // The facts.

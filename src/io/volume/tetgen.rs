@@ -214,7 +214,7 @@ fn arrays(on: On, claimed: usize, rows: &[Row]) -> Vec<Array> {
         let is_label = |row: &Row| {
             row.words
                 .get(column)
-                .is_some_and(|it| !it.contains(['.', 'e']))
+                .is_some_and(|it| it.parse::<i64>().is_ok())
         };
         rows.iter().all(is_label) && on == On::Cells
     };

@@ -169,6 +169,7 @@ pub fn infill_order(placed: &Placed, made: &Made) -> Option<InfillOrder> {
     let written = made.parts.iter().find_map(|part| part.sparse.as_ref())?;
     let rows = infill_levels(placed, &written.regions);
     let (outermost, inner) = rows.split_first()?;
+    let last = placed.job.sliced.last();
     Some(InfillOrder {
         pattern: sparse.pattern.clone(),
         nominal_ratio: outermost.nominal_ratio,
@@ -176,7 +177,8 @@ pub fn infill_order(placed: &Placed, made: &Made) -> Option<InfillOrder> {
         regions: outermost.regions,
         volume_mm3: outermost.volume_mm3,
         mass_g: outermost.mass_g,
-        beyond: placed.job.sliced.last().map(|round| round.beyond),
+        slicer_ratio: last.and_then(|round| round.infill_ratio),
+        beyond: last.map(|round| round.beyond),
         misses_mm: placed
             .job
             .sliced

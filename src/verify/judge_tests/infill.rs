@@ -25,6 +25,7 @@ fn one_piece() -> Evidence {
         regions: 1,
         volume_mm3: REGION_MM3,
         mass_g: 0.142 * REGION_MM3 * 1.2e-3,
+        slicer_ratio: None,
         beyond: None,
         misses_mm: Vec::new(),
         field: None,

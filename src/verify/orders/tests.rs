@@ -68,6 +68,7 @@ fn read_in(dialect: Dialect) -> Read {
             regions: 1,
             volume_mm3: 4000.0,
             mass_g: 0.7,
+            slicer_ratio: None,
             beyond: None,
             misses_mm: Vec::new(),
             field: None,

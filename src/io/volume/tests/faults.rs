@@ -171,6 +171,21 @@ fn a_fault_in_a_vtk_file_is_told_with_its_line() {
 }
 
 #[test]
+fn densities_of_tetrahedra_that_are_no_numbers_are_not_taken_for_labels() {
+    let nodes = b"4 3 0\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n";
+    for word in ["nan", "inf", "-inf"] {
+        let cells = format!("1 4 1\n1 1 2 3 4 {word}\n");
+        let read = decode_tetgen([nodes, cells.as_bytes()], &DataChoice::Auto);
+        let (file, error) = read.expect_err(word);
+        assert_eq!(file, 1, "{error}");
+        assert!(
+            error.to_string().contains("line 2: the density of"),
+            "{error}"
+        );
+    }
+}
+
+#[test]
 fn a_fault_in_tetgen_s_files_is_told_with_its_line() {
     let says = |from: &str, to: &str| {
         assert!(NODE.contains(from) || ELE.contains(from), "{from}");
