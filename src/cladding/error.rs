@@ -1,5 +1,6 @@
 //! Errors in making the parts of a shell.
 
+use crate::base::numbers::measured;
 use crate::base::watch::Cancelled;
 use crate::mesh::{ClipError, Defects};
 use crate::voids::VoidError;
@@ -36,7 +37,7 @@ pub enum CladdingError {
         least_mm: f64,
     },
     /// No cut makes a part fit.
-    #[error("no cut makes the part over face {face} fit the printer's room")]
+    #[error("no cut makes the part over face {} fit the printer's room", .face + 1)]
     NoCut {
         /// The index of the face.
         face: usize,
@@ -71,12 +72,16 @@ pub enum CladdingError {
     },
     /// Panels of two polyhedra without room for the rods between them.
     #[error(
-        "the panels between polyhedra {} and {} have no room for two rods clear of their joints",
+        "two rods {rod} do not join polyhedra {} and {}: {lack}",
         .polyhedra[0] + 1, .polyhedra[1] + 1
     )]
     NoRods {
         /// The indices of the polyhedra.
         polyhedra: [usize; 2],
+        /// The id of the thinnest rod that was tried.
+        rod: String,
+        /// The reason.
+        lack: RodLack,
     },
     /// The boolean engine failed.
     #[error("cutting the shell failed")]
@@ -90,6 +95,31 @@ pub enum CladdingError {
     /// The caller stopped the run.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
+}
+
+/// A reason why two rods of a kind find no place.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+pub enum RodLack {
+    /// Their faces have no panels.
+    #[error("one of the faces between them has no panel")]
+    Panels,
+    /// Their panels are too small.
+    #[error("their panels have no room for both clear of the joints")]
+    Joints,
+    /// The model is too thin between the panels.
+    #[error("the model has no room for both bores with a wall about them")]
+    Wall,
+    /// The panels are too far apart.
+    #[error(
+        "they must be {} long, and are sold by {}",
+        measured(*.needed_mm, "mm"), measured(*.sold_mm, "mm")
+    )]
+    Length {
+        /// The length that is needed, mm.
+        needed_mm: f64,
+        /// The length in which they are sold, mm.
+        sold_mm: f64,
+    },
 }
 
 /// Lists indices as numbers from 1.

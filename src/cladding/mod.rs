@@ -46,7 +46,7 @@ pub use bolts::{Bolt, BoltKit, bolts};
 pub use cells::{Cell, cells};
 pub use cups::{Cup, CupRequest, ShellStyle};
 pub use divide::Scene;
-pub use error::CladdingError;
+pub use error::{CladdingError, RodLack};
 pub use floor::{FlatThing, places_on};
 pub use lie::Lie;
 pub use overlap::{barred_mm2, contact_mm2, face_mm2};

@@ -5,7 +5,7 @@
 //! cell, so it passes no parts but those of its two panels.
 
 use super::bolts::Pair;
-use super::error::CladdingError;
+use super::error::{CladdingError, RodLack};
 use super::rod_bore::RodBore;
 use super::spread::{Head, Spacing, beside_mm, is_in, spread};
 use crate::cutter::{Fastener, FastenerShape};
@@ -18,6 +18,10 @@ use crate::polyhedra::{BasePlan, Connection, Ground, Joint, RodRoom};
 const RODS: usize = 2;
 /// The least distance of the axes of two rods, in diameters of their holes: a web of one is left.
 const APART_HOLES: f64 = 2.0;
+/// Room for them beyond what they need, mm: places are rounded.
+const SPARE_MM: f64 = 1e-6;
+/// Directions about the middle of a way in which two rods are tried as near as they may stand.
+const TURNS: usize = 24;
 /// Web between a hole and the joints along its panel's edges, mm.
 const WEB_MM: f64 = 3.0;
 /// The length by which a rod stands out of a panel's inner side, mm: a fillet of glue goes round.
@@ -70,7 +74,7 @@ impl RodKit {
     /// Returns the room that two of these rods need in panels of a sheet and in the model, with a
     /// wall about their bores, mm.
     pub fn room(&self, sheet_mm: f64, wall_mm: f64) -> RodRoom {
-        let half_mm = 0.5 * self.apart_mm();
+        let half_mm = 0.5 * self.apart_mm() + SPARE_MM;
         RodRoom {
             face_mm: beside_mm(&self.head(), sheet_mm) + half_mm,
             way_mm: half_mm + 0.5 * self.bore_mm + wall_mm,
@@ -163,23 +167,37 @@ pub fn rods(
         let pair = Pair::find(plan, set, of, request.panels);
         let place = |kit| {
             let seat = Seat {
-                pair: pair.as_ref()?,
+                pair: pair.as_ref().ok_or(RodLack::Panels)?,
                 of,
                 kit,
                 request,
             };
             seat.rods(index)
         };
-        match request.kits.iter().find_map(place) {
-            Some(found) => all.extend(found),
-            None => {
-                return Err(CladdingError::NoRods {
-                    polyhedra: of.polyhedra,
-                });
-            }
-        }
+        all.extend(first_that_fits(request.kits, of, place)?);
     }
     Ok(all)
+}
+
+/// Returns the rods of the first kind that finds places; the error is that of the last.
+fn first_that_fits<'a>(
+    kits: &'a [RodKit],
+    of: &Connection,
+    place: impl Fn(&'a RodKit) -> Result<Vec<Rod>, RodLack>,
+) -> Result<Vec<Rod>, CladdingError> {
+    let mut refused = (String::new(), RodLack::Joints);
+    for kit in kits {
+        match place(kit) {
+            Ok(found) => return Ok(found),
+            Err(lack) => refused = (kit.rod.id.clone(), lack),
+        }
+    }
+    let (rod, lack) = refused;
+    Err(CladdingError::NoRods {
+        polyhedra: of.polyhedra,
+        rod,
+        lack,
+    })
 }
 
 /// Two panels and a kind of rod between them.
@@ -191,31 +209,9 @@ struct Seat<'a> {
 }
 
 impl Seat<'_> {
-    /// Returns the rods of a connection; `None` if they have no room.
-    fn rods(&self, connection: usize) -> Option<Vec<Rod>> {
-        let head = self.kit.head();
-        let ring = self.pair.ring(&head);
-        let middle = self.pair.flat(0, &self.of.ends[0]);
-        let reach_mm = REACH_WAYS * self.of.radius_mm;
-        let at = |cell: usize, middle: f64| {
-            let share = (cell as f64 + 0.5) / PLACES as f64;
-            middle + reach_mm * (2.0 * share - 1.0)
-        };
-        let grid = (0..PLACES * PLACES)
-            .map(|cell| [at(cell % PLACES, middle[0]), at(cell / PLACES, middle[1])]);
-        let places = grid.filter(|place| {
-            is_in(&ring, place)
-                && self.pair.is_clear(*place, head.radius_mm)
-                && self.is_inside(*place)
-        });
-        let places: Vec<[f64; 2]> = places.collect();
-        let spacing = Spacing {
-            wanted: RODS,
-            least_mm: self.kit.apart_mm(),
-        };
-        let apart = |a: &[f64; 2], b: &[f64; 2]| (a[0] - b[0]).hypot(a[1] - b[1]);
-        let chosen = spread(&places, &spacing, |place| apart(place, &middle), apart);
-        let rods = chosen.into_iter().map(|place| {
+    /// Returns the rods of a connection, or what they lack.
+    fn rods(&self, connection: usize) -> Result<Vec<Rod>, RodLack> {
+        let rods = self.chosen()?.map(|place| {
             let [low, high] = self.outer(place);
             let way = (high - low).normalize();
             let deep_mm = self.request.panels.sheet_mm + STAND_MM;
@@ -227,9 +223,75 @@ impl Seat<'_> {
                 ends: [low - way * deep_mm, high + way * deep_mm],
             }
         });
-        let rods: Vec<Rod> = rods.collect();
-        let fits = |rod: &Rod| rod.length_mm() <= self.kit.stock_mm;
-        (rods.len() == RODS && rods.iter().all(fits)).then_some(rods)
+        let needed_mm = rods.iter().map(Rod::length_mm).fold(0.0, f64::max);
+        let sold_mm = self.kit.stock_mm;
+        if needed_mm > sold_mm {
+            return Err(RodLack::Length { needed_mm, sold_mm });
+        }
+        Ok(rods.into())
+    }
+
+    /// Returns the places of two rods in the frame of the first panel: far apart on a grid. If that
+    /// has none, they stand as near to each other as they may, about the middle of the way.
+    fn chosen(&self) -> Result<[[f64; 2]; RODS], RodLack> {
+        let head = self.kit.head();
+        let ring = self.pair.ring(&head);
+        let is_clear =
+            |place: &[f64; 2]| is_in(&ring, place) && self.pair.is_clear(*place, head.radius_mm);
+        let clear: Vec<[f64; 2]> = self.grid().into_iter().filter(is_clear).collect();
+        let spacing = Spacing {
+            wanted: RODS,
+            least_mm: self.kit.apart_mm(),
+        };
+        let middle = self.middle();
+        let apart = |a: &[f64; 2], b: &[f64; 2]| (a[0] - b[0]).hypot(a[1] - b[1]);
+        let far = |places: &[[f64; 2]]| {
+            let chosen = spread(places, &spacing, |place| apart(place, &middle), apart);
+            <[[f64; 2]; RODS]>::try_from(chosen).ok()
+        };
+        let inside = clear.iter().copied().filter(|place| self.is_inside(*place));
+        let inside: Vec<[f64; 2]> = inside.collect();
+        if let Some(chosen) = far(&inside) {
+            return Ok(chosen);
+        }
+        let near = self.near_middle();
+        let mut on_panels = near.iter().filter(|pair| pair.iter().all(is_clear));
+        let has_panels = far(&clear).is_some() || on_panels.clone().next().is_some();
+        let fits = on_panels.find(|pair| pair.iter().all(|place| self.is_inside(*place)));
+        fits.copied().ok_or(match has_panels {
+            true => RodLack::Wall,
+            false => RodLack::Joints,
+        })
+    }
+
+    /// Returns the middle of the way in the frame of the first panel.
+    fn middle(&self) -> [f64; 2] {
+        self.pair.flat(0, &self.of.ends[0])
+    }
+
+    /// Returns the places of a grid about the middle of the way.
+    fn grid(&self) -> Vec<[f64; 2]> {
+        let middle = self.middle();
+        let reach_mm = REACH_WAYS * self.of.radius_mm;
+        let at = |cell: usize, middle: f64| {
+            let share = (cell as f64 + 0.5) / PLACES as f64;
+            middle + reach_mm * (2.0 * share - 1.0)
+        };
+        (0..PLACES * PLACES)
+            .map(|cell| [at(cell % PLACES, middle[0]), at(cell / PLACES, middle[1])])
+            .collect()
+    }
+
+    /// Returns pairs of places on both sides of the middle of the way, as near to each other as two
+    /// rods may stand.
+    fn near_middle(&self) -> [[[f64; 2]; RODS]; TURNS] {
+        let [x, y] = self.middle();
+        let half_mm = 0.5 * self.kit.apart_mm() + 0.5 * SPARE_MM;
+        std::array::from_fn(|turn| {
+            let angle = std::f64::consts::PI * turn as f64 / TURNS as f64;
+            let (sine, cosine) = angle.sin_cos();
+            [-half_mm, half_mm].map(|off_mm| [x + off_mm * cosine, y + off_mm * sine])
+        })
     }
 
     /// Returns the points at which a rod enters the outer sides of both panels.

@@ -1,14 +1,17 @@
 //! The answers where there is no such object, with what helps.
 
 use super::advise_base::{is_by_vertices, no_base, other_methods};
+use super::advise_size::{NEXT_RATIO, large_enough};
 use super::asked::Asked;
 use super::ballast::ballasted;
 use super::build::Refused;
+use super::error::CoreRunError;
 use super::made::Made;
 use super::mass::{Weighed, point, toppling_deg, weigh};
 use crate::ballast::{BallastError, Order};
 use crate::base::numbers::measured;
 use crate::base::setting::{Key, Setting};
+use crate::base::watch::{Cancelled, Watch};
 use crate::cladding::CladdingError;
 use crate::cutting::SheetError;
 use crate::geom::Point;
@@ -20,30 +23,43 @@ use crate::panels::PanelError;
 use crate::wing::{Impossible, Remedy};
 
 /// Tells why there is no such object, and what helps.
-pub fn refused(asked: &Asked, refused: &Refused) -> Impossible {
-    match refused {
-        Refused::Base(why) => no_base(asked, why),
-        Refused::Panels(why) => {
-            let mut answer = Impossible::new(why.to_string());
-            if matches!(why, PanelError::NoFingers { .. }) {
-                answer.remedies.push(Remedy {
-                    settings: vec![Setting::new(Key::Joints, CoreJoints::Auto)],
-                    words: "brackets hold the edges that have no room for fingers".to_owned(),
-                });
-            } else {
-                let thinner = if is_by_vertices(asked) {
-                    "use a thinner sheet, or make the model larger"
-                } else {
-                    "use a thinner sheet, ask for fewer faces, or make the model larger"
-                };
-                answer.hints.push(thinner.to_owned());
-                answer.hints.extend(other_methods(asked));
-            }
-            answer
-        }
+///
+/// # Errors
+/// The watch was stopped while other rods were tried.
+pub fn refused(
+    asked: &Asked,
+    refused: &Refused,
+    watch: &Watch,
+) -> Result<Impossible, CoreRunError> {
+    Ok(match refused {
+        Refused::Base(why) => no_base(asked, why, watch)?,
+        Refused::Panels(why) => unpanelled(asked, why, watch)?,
         Refused::Shell(why) => unclad(asked, why),
         Refused::Sheets(why) => uncut(asked, why),
+    })
+}
+
+/// Tells why a base gets no panels, and what helps.
+fn unpanelled(asked: &Asked, why: &PanelError, watch: &Watch) -> Result<Impossible, Cancelled> {
+    let mut answer = Impossible::new(why.to_string());
+    if matches!(why, PanelError::NoFingers { .. }) {
+        answer.remedies.push(Remedy {
+            settings: vec![Setting::new(Key::Joints, CoreJoints::Auto)],
+            words: "brackets hold the edges that have no room for fingers".to_owned(),
+        });
+        return Ok(answer);
     }
+    let thinner = if is_by_vertices(asked) {
+        "use a thinner sheet, or make the model larger"
+    } else {
+        answer
+            .remedies
+            .extend(large_enough(asked, NEXT_RATIO, watch)?);
+        "use a thinner sheet, ask for fewer faces, or make the model larger"
+    };
+    answer.hints.push(thinner.to_owned());
+    answer.hints.extend(other_methods(asked));
+    Ok(answer)
 }
 
 /// Tells why the panels find no place on sheets, and what helps.

@@ -1,49 +1,76 @@
 //! The answers where there is no base, with what helps.
 
+use super::advise_size::{NEXT_RATIO, large_enough};
 use super::asked::Asked;
 use super::base::{FailedStart, NoBase, NotFromStart};
+use super::build::is_joined_by;
+use super::error::CoreRunError;
 use super::method::other_starts;
 use crate::base::numbers::measured;
 use crate::base::setting::{Key, Setting};
+use crate::base::watch::{Cancelled, Watch};
 use crate::cladding::RodKit;
 use crate::geom::Plane;
 use crate::job::base_method::BaseMethod;
 use crate::polyhedra::{NoRoom, Unjoined};
-use crate::wing::{Impossible, Remedy};
+use crate::wing::Impossible;
+
+/// Kinds of rods that are tried before one is advised.
+const MOST_TRIED: usize = 2;
 
 /// Tells why there is no base, and what helps.
-pub fn no_base(asked: &Asked, why: &NoBase) -> Impossible {
-    match why {
-        NoBase::NoRoom(why) => no_room(asked, why),
-        NoBase::Apart { apart, joined } => match joined {
-            Some(joined) => stay_apart(asked, apart, *joined),
-            None => given_apart(asked, apart),
-        },
-        NoBase::NoStart(failed) => no_start(asked, failed),
-    }
+///
+/// # Errors
+/// The watch was stopped while other rods were tried.
+pub fn no_base(asked: &Asked, why: &NoBase, watch: &Watch) -> Result<Impossible, CoreRunError> {
+    Ok(match why {
+        NoBase::NoRoom(why) => no_room(asked, why, watch)?,
+        NoBase::Apart { apart, joined } => {
+            let rods = rods(asked, apart, watch)?;
+            match joined {
+                Some(joined) => stay_apart(asked, apart, *joined, rods),
+                None => given_apart(asked, apart, rods),
+            }
+        }
+        NoBase::NoStart(failed) => no_start(asked, failed, watch)?,
+    })
 }
 
-fn no_room(asked: &Asked, why: &NoRoom) -> Impossible {
-    let mut answer = Impossible::new(why.to_string());
-    answer.is_proved = why.deepest_mm < why.distance_mm;
-    let size_mm = asked.ground.solid().mesh().longest_side_mm();
-    if let Some(factor) = why.least_factor {
-        let larger_mm = (factor * size_mm).ceil();
-        answer.remedies.push(Remedy {
-            settings: vec![Setting::new(Key::Size, format!("{larger_mm}mm"))],
-            words: "the least size at which a base has room".to_owned(),
-        });
+fn no_room(asked: &Asked, why: &NoRoom, watch: &Watch) -> Result<Impossible, Cancelled> {
+    let (deepest, distance) = (
+        measured(why.deepest_mm, "mm"),
+        measured(why.distance_mm, "mm"),
+    );
+    let is_proved = why.deepest_mm < why.distance_mm;
+    let mut answer = Impossible::new(if is_proved {
+        format!(
+            "the model is too thin: its deepest point lies {deepest} below the surface, and a base \
+             stays {distance} away"
+        )
+    } else {
+        format!(
+            "the model is too thin: its deepest point lies {deepest} below the surface, a base stays \
+             {distance} away, and no polyhedron was found in what is left"
+        )
+    });
+    answer.is_proved = is_proved;
+    let from_factor = why.least_factor.unwrap_or(NEXT_RATIO);
+    let larger = large_enough(asked, from_factor, watch)?;
+    if larger.is_none() {
+        answer.hints.push("make the model larger".to_owned());
     }
-    answer
+    answer.remedies.extend(larger);
+    answer.hints.push("ask for less wall".to_owned());
+    Ok(answer)
 }
 
 /// Tells that no start of moved vertices yields a base, and what helps.
-fn no_start(asked: &Asked, failed: &[FailedStart]) -> Impossible {
+fn no_start(asked: &Asked, failed: &[FailedStart], watch: &Watch) -> Result<Impossible, Cancelled> {
     for one in failed {
         if let NotFromStart::NoRoom(why) = &one.why
             && why.deepest_mm < why.distance_mm
         {
-            return no_room(asked, why);
+            return no_room(asked, why, watch);
         }
     }
     let distance_mm = asked.base.distance_mm;
@@ -59,7 +86,7 @@ fn no_start(asked: &Asked, failed: &[FailedStart]) -> Impossible {
     };
     answer.tried = whys.collect();
     answer.hints = other_methods(asked);
-    answer
+    Ok(answer)
 }
 
 /// Words why one start yields no base.
@@ -110,7 +137,7 @@ fn planes_instead() -> String {
 }
 
 /// Tells that the polyhedra of a given base are not joined, and what helps.
-fn given_apart(asked: &Asked, apart: &Unjoined) -> Impossible {
+fn given_apart(asked: &Asked, apart: &Unjoined, rods: Vec<String>) -> Impossible {
     let [a, b] = apart.polyhedra.map(|at| at + 1);
     let mut answer = Impossible::new(format!(
         "the polyhedra {a} and {b} of the base are not joined. {}",
@@ -120,12 +147,12 @@ fn given_apart(asked: &Asked, apart: &Unjoined) -> Impossible {
     answer
         .hints
         .push("lock larger faces on the planes of the base".to_owned());
-    answer.hints.extend(rods(asked, apart));
+    answer.hints.extend(rods);
     answer
 }
 
 /// Tells that a polyhedron for which there is room stays apart from the others, and what helps.
-fn stay_apart(asked: &Asked, apart: &Unjoined, joined: usize) -> Impossible {
+fn stay_apart(asked: &Asked, apart: &Unjoined, joined: usize, rods: Vec<String>) -> Impossible {
     let [a, b] = apart.polyhedra.map(|at| at + 1);
     let mut answer = Impossible::new(format!(
         "{} polyhedra have room, but {a} and {b} were not joined by any plane that was tried. {}",
@@ -133,7 +160,7 @@ fn stay_apart(asked: &Asked, apart: &Unjoined, joined: usize) -> Impossible {
         shared(asked, apart)
     ));
     answer.hints.extend(smaller_disc(asked, apart));
-    answer.hints.extend(rods(asked, apart));
+    answer.hints.extend(rods);
     let fewer = Setting::new(Key::Polyhedra, joined);
     answer.hints.push(match joined {
         1 => format!("one polyhedron needs no joint: ask for `{fewer}`"),
@@ -190,11 +217,11 @@ fn plane_words(plane: &Plane) -> String {
     }
 }
 
-/// Tells which rods would join two polyhedra, and what the way between them lacks for those asked
-/// for.
-fn rods(asked: &Asked, apart: &Unjoined) -> Vec<String> {
+/// Tells which rods join two polyhedra when they are tried, and what the way between them lacks for
+/// those asked for.
+fn rods(asked: &Asked, apart: &Unjoined, watch: &Watch) -> Result<Vec<String>, CoreRunError> {
     let Some(way_mm) = apart.way_mm else {
-        return Vec::new();
+        return Ok(Vec::new());
     };
     let way = measured(way_mm, "mm");
     let (sheet_mm, wall_mm) = (asked.panels.sheet_mm, asked.wall_mm);
@@ -208,16 +235,20 @@ fn rods(asked: &Asked, apart: &Unjoined) -> Vec<String> {
         ));
     }
     let all = RodKit::all(&asked.shop.fasteners, asked.pins.pins.clearance_mm);
-    let fits = all.iter().find(|kit| needed_mm(kit) <= way_mm);
     let is_new = |kit: &&RodKit| asked.rods.iter().all(|own| own.rod.id != kit.rod.id);
-    hints.extend(fits.filter(is_new).map(|kit| {
-        let id = &kit.rod.id;
-        let setting = Setting::new(Key::Dowel, id);
-        format!(
-            "a way of {way} radius is between them, with room for two rods {id}: give `{setting}`"
-        )
-    }));
-    hints
+    let fits = all.iter().filter(|kit| needed_mm(kit) <= way_mm);
+    for kit in fits.filter(is_new).take(MOST_TRIED) {
+        if is_joined_by(asked, kit, watch)? {
+            let id = &kit.rod.id;
+            let setting = Setting::new(Key::Dowel, id);
+            hints.push(format!(
+                "a way of {way} radius is between them, with room for two rods {id}: give \
+                 `{setting}`"
+            ));
+            break;
+        }
+    }
+    Ok(hints)
 }
 
 #[cfg(test)]

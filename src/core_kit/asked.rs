@@ -38,6 +38,7 @@ const FLANGE_MM: f64 = 4.0;
 const GRIP_RATIO: f64 = 0.75;
 
 /// The order of an object, in mm.
+#[derive(Clone)]
 pub struct Asked<'a> {
     pub job: &'a CoreJob,
     pub shop: &'a Shop,
@@ -141,6 +142,20 @@ pub fn measure<'a>(
 }
 
 impl Asked<'_> {
+    /// Returns the same order with other rods to choose from, the best first.
+    pub fn with_rods(&self, rods: Vec<RodKit>) -> Self {
+        let thinnest = rods.last();
+        let room = thinnest.map(|kit| kit.room(self.panels.sheet_mm, self.wall_mm));
+        Self {
+            connector: ConnectorRequest {
+                rods: room,
+                ..self.connector
+            },
+            rods,
+            ..self.clone()
+        }
+    }
+
     /// Returns the printer's room, mm; `None` if it is not known.
     pub fn room_mm(&self) -> Option<[f64; 3]> {
         self.shop.printer.usable_volume_mm()

@@ -7,8 +7,8 @@ use super::pockets::{Pocket, cut_pockets, depth_mm, pockets};
 use crate::base::verdict::Verdict;
 use crate::base::watch::{Phase, Watch};
 use crate::cladding::{
-    Bolt, CladShell, CladdingError, PinRequest, Rod, RodBore, RodRequest, ShellRequest, ShellStyle,
-    Sides, bolts, rods,
+    Bolt, CladShell, CladdingError, PinRequest, Rod, RodBore, RodKit, RodRequest, ShellRequest,
+    ShellStyle, Sides, bolts, rods,
 };
 use crate::cutting::{CutSheet, SheetError, SheetOrder, cut_sheets};
 use crate::job::core_kit::CoreShell;
@@ -49,7 +49,44 @@ pub enum Refused {
 }
 
 /// Draws the object that is asked for.
+///
+/// Where rods find no places and nobody asked for them, it looks for a base without them.
 pub fn build(asked: &Asked, watch: &Watch) -> Result<Verdict<Built, Refused>, CoreRunError> {
+    let drawn = build_once(asked, watch)?;
+    let lacks_rods = matches!(
+        drawn,
+        Verdict::No(Refused::Shell(CladdingError::NoRods { .. }))
+    );
+    if !lacks_rods || !asked.job.dowel.is_auto() || asked.job.base.is_some() {
+        return Ok(drawn);
+    }
+    Ok(match build_once(&asked.with_rods(Vec::new()), watch)? {
+        Verdict::Found(built) => Verdict::Found(built),
+        Verdict::No(_) => drawn,
+    })
+}
+
+/// Returns true if two rods of a kind join the polyhedra of an order: the base is looked for again,
+/// and they find their places.
+pub fn is_joined_by(asked: &Asked, kit: &RodKit, watch: &Watch) -> Result<bool, CoreRunError> {
+    let other = asked.with_rods(vec![kit.clone()]);
+    let Verdict::Found(Base { plan, .. }) = base(&other, watch)? else {
+        return Ok(false);
+    };
+    let bodies = plan.polyhedra.iter();
+    let panels = bodies.map(|body| PanelSet::of(body, &other.panels));
+    let panels: Result<Vec<PanelSet>, PanelError> = panels.collect();
+    let mut panels = match panels {
+        Ok(panels) => panels,
+        Err(_) => return Ok(false),
+    };
+    Ok(match add_rods(&other, &plan, &mut panels) {
+        Ok(rods) => !rods.is_empty(),
+        Err(_) => false,
+    })
+}
+
+fn build_once(asked: &Asked, watch: &Watch) -> Result<Verdict<Built, Refused>, CoreRunError> {
     watch.enter(Phase::Columns);
     let Base { plan, vertices } = match base(asked, watch)? {
         Verdict::Found(base) => base,

@@ -7,7 +7,7 @@ use super::made::Made;
 use super::mass::Weighed;
 use super::sheet::checklist;
 use crate::base::watch::{Phase, Watch};
-use crate::io::{DrawingError, DrawnLine, decode_cut_svg, decode_dxf, stl};
+use crate::io::{DrawingError, DrawnLine, StlError, decode_cut_svg, decode_dxf, stl};
 use crate::make::File;
 use crate::sheet::Verdict;
 use crate::sheet::core_kit::CoreSheet;
@@ -44,11 +44,13 @@ pub fn draft(
     let certificate_json = json(CORE_CERTIFICATE_FILE, &certificate)?;
     let drawings = drawings(asked, &made);
     let promise: CorePromise = read_back(CHECKLIST_FILE, &json(CHECKLIST_FILE, &sheet)?)?;
+    let files = made.parts.iter().map(|part| stl::decode(&part.bytes));
     let evidence = CoreEvidence {
         model: stl::decode(&model_stl)?,
         panels: read_back(PANELS_FILE, &panels_json)?,
         certificate: read_back(CORE_CERTIFICATE_FILE, &certificate_json)?,
         parts: made.parts.iter().map(|part| part.in_model()).collect(),
+        files: files.collect::<Result<_, StlError>>()?,
         drawings: lines(&drawings, cut_sheets(&made).len())?,
         promise,
     };

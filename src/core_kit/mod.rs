@@ -9,6 +9,7 @@
 
 mod advise;
 mod advise_base;
+mod advise_size;
 mod asked;
 mod ballast;
 mod ballast_rows;
@@ -58,7 +59,7 @@ pub fn prepare(job: &CoreJob, watch: &Watch) -> Result<Outcome<CoreSheet>, CoreR
     let built = match build::build(&asked, watch)? {
         Verdict::Found(built) => built,
         Verdict::No(why) => {
-            let impossible = advise::refused(&asked, &why);
+            let impossible = advise::refused(&asked, &why, watch)?;
             return Ok(Outcome::Impossible(Box::new(impossible)));
         }
     };

@@ -5,6 +5,7 @@ use maud::{Markup, PreEscaped, html};
 
 use super::core_kit_ballast as ballast;
 use super::core_kit_joining as joining;
+use super::core_kit_work::ways;
 use super::document::styled_document;
 use super::fields::{blank, file_name};
 use super::figure::{Picture, Role, figures};
@@ -153,7 +154,8 @@ fn facts(sheet: &CoreSheet) -> Markup {
             ),
         ),
     ];
-    let rows = machines.into_iter().chain(masses(sheet)).chain(base);
+    let rows = machines.into_iter().chain(masses(sheet));
+    let rows = rows.chain(ways(sheet)).chain(base);
     html! {
         table class="facts" {
             @for (name, words) in rows { tr { th scope="row" { (name) } td { (words) } } }
@@ -161,8 +163,8 @@ fn facts(sheet: &CoreSheet) -> Markup {
     }
 }
 
-/// Returns the rows of masses: of this object, and of other ways to make it.
-fn masses(sheet: &CoreSheet) -> [(&'static str, String); 4] {
+/// Returns the rows of masses.
+fn masses(sheet: &CoreSheet) -> [(&'static str, String); 3] {
     let masses = &sheet.masses;
     let grams = |g: f64| measured(g, "g");
     [
@@ -184,14 +186,6 @@ fn masses(sheet: &CoreSheet) -> [(&'static str, String); 4] {
                     true => String::new(),
                     false => format!(", ballast {}", grams(masses.ballast_g)),
                 }
-            ),
-        ),
-        (
-            "Other ways",
-            format!(
-                "printed solid {}; a skin of this wall in parts, without a base, {} by its area",
-                grams(masses.if_solid_g),
-                grams(masses.if_skin_g)
             ),
         ),
         (

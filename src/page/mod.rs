@@ -15,6 +15,7 @@ mod core_kit_bench;
 mod core_kit_joining;
 mod core_kit_proof;
 mod core_kit_view;
+mod core_kit_work;
 mod cover;
 mod curves;
 mod cut_drawing;

@@ -110,7 +110,8 @@ impl PanelEdge {
 pub enum PanelError {
     /// The sheet is too thick for a face.
     #[error(
-        "the sheet of {sheet_mm} mm is too thick for face {face}: nothing of the panel is left"
+        "the sheet of {sheet_mm} mm is too thick for face {} of a polyhedron: nothing of the panel \
+         is left", .face + 1
     )]
     TooThick {
         /// The thickness, mm.
@@ -121,7 +122,7 @@ pub enum PanelError {
     /// An edge without room for fingers, where fingers were ordered.
     #[error(
         "the edge between faces {} and {} has no room for fingers: it is {length_mm:.1} mm long, \
-         at {angle_deg:.0}°", .faces[0], .faces[1]
+         at {angle_deg:.0}°", .faces[0] + 1, .faces[1] + 1
     )]
     NoFingers {
         /// The indices of the faces.

@@ -35,7 +35,10 @@ pub enum BaseFileError {
         place: Place,
     },
     /// Planes that bound no polyhedron inside the model.
-    #[error("{place}: {why}; remedy: move its faces inward, or take the polyhedron out")]
+    #[error(
+        "{place}: {why}; remedy: move its faces inward, take the polyhedron out, or give the model \
+         the size that the base was made for"
+    )]
     NotInside {
         /// The place of the polyhedron.
         place: Place,

@@ -97,8 +97,8 @@ impl Request {
 /// is no room.
 ///
 /// A local optimum of the volume, the best of several starts. If a limit cannot be kept, the
-/// polyhedron says so by [`Polyhedron::breaches`]. The same bytes on any number of threads. Takes
-/// some 3 to 10 s on 2 cores.
+/// polyhedron says so by [`Polyhedron::breaches`]. The same bytes on any number of threads.
+/// `cargo bench -- core/growth` measures its time.
 pub fn grow_polyhedron(
     ground: &Ground,
     request: &Request,

@@ -7,7 +7,7 @@ use super::branch::{Branch, Leaf, Parted, most_apart, most_gainful, part_branch}
 use super::connection::{ConnectorRequest, Joint, Pair};
 use super::ground::Ground;
 use super::inscribe::{Region, Request};
-use super::neck::ends_of_neck;
+use super::neck::{NeckPart, ends_of_neck};
 use super::polyhedron::Polyhedron;
 use super::unjoined::{NoPlan, Unjoined};
 use crate::base::verdict::Verdict;
@@ -237,15 +237,23 @@ impl Planner<'_> {
         {
             return Ok(parted);
         }
-        let distance_mm = self.request.distance_mm;
-        let ends = ends_of_neck(self.ground, &plane, distance_mm, self.connector);
-        let Some(ends) = ends else {
+        let Some(ends) = self.ends_of_neck(leaf, &plane) else {
             return Ok(parted);
         };
         let sides = ends.map(|end| [leaf.locked.as_slice(), &[end]].concat());
         let off = self.parted_at(leaf, plane, sides)?;
         let is_joined = off.as_ref().is_some_and(|off| off.unjoined.is_none());
         Ok(if is_joined { off } else { parted })
+    }
+
+    /// Returns the planes that bound both sides of a leaf's neck at a plane, if rods have room.
+    fn ends_of_neck(&self, leaf: &Leaf, plane: &Plane) -> Option<[Plane; 2]> {
+        let part = NeckPart {
+            ground: self.ground,
+            locked: &leaf.locked,
+            around: self.extent(&leaf.locked)?,
+        };
+        ends_of_neck(&part, plane, self.request.distance_mm, self.connector)
     }
 
     /// Parts a leaf by a plane, with a polyhedron below all planes of each side.

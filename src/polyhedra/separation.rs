@@ -30,7 +30,7 @@ pub struct Separation {
 #[non_exhaustive]
 pub enum SeparationError {
     /// No plane, or not the named one, parts a piece.
-    #[error("piece {piece} is parted by {parted_mm} mm, less than {distance_mm} mm")]
+    #[error("piece {piece} is parted by {parted_mm:.3} mm, less than {distance_mm} mm")]
     NotParted {
         /// The index of the piece.
         piece: usize,

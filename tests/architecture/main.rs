@@ -123,10 +123,11 @@ const ARROWS: &[(&str, &[&str])] = &[
             "repair", "geom", "mass", "mesh", "poses", "printer", "base", "voids",
         ],
     ),
+    // What a kit says of its rods is held against the catalogue of fasteners.
     (
         "verify",
         &[
-            "repair", "base", "geom", "goal", "io", "mass", "mesh", "printer", "thin",
+            "repair", "base", "cutter", "geom", "goal", "io", "mass", "mesh", "printer", "thin",
         ],
     ),
     ("draw", &["base", "geom", "mesh"]),

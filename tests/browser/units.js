@@ -4,6 +4,7 @@
 const fs = require("node:fs");
 const path = require("node:path");
 const { CHANGED, SOFTWARE_GL, accessible, clear, difference, drawn, ends, fitsPhone, must, opened, pixels, report, shoot } = require("./common.js");
+const { holdSheets } = require("./sheets.js");
 
 const kit = process.argv[2];
 const read = (file) => JSON.parse(fs.readFileSync(path.join(kit, file), "utf8"));
@@ -92,5 +93,6 @@ report(async () => {
   await bench(shown.page);
   await accessible(shown.page, "with the view");
   await fitsPhone(shown.page);
+  await holdSheets(kit, sheet);
   await ends(shown, file, mostPages);
 });

@@ -8,7 +8,9 @@ use equipoise::io::stl;
 use equipoise::mesh::primitives;
 use serde_json::Value;
 
-use super::common::{assert_exit, checklist, copy, json, list, number, path, printed, verify};
+use super::common::{
+    assert_exit, checklist, copy, json, list, number, path, printed, shared_model, verify,
+};
 use super::{
     add, base_comes_back, core, hold_broken, hold_broken_in_python, judge_in_python, two_boxes,
 };
@@ -305,4 +307,19 @@ fn a_disc_larger_than_the_common_panels_is_an_answer_with_what_helps() {
         "{answer}"
     );
     assert!(!kit.exists());
+}
+
+#[test]
+#[ignore = "a whole kit of a model that is not part of the project: two minutes on 2 busy cores"]
+fn homer_on_rods_has_no_part_that_passes_through_itself() {
+    let Some(model) = shared_model("homer.obj") else {
+        return;
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let kit = folder.path().join("kit");
+    let options = "--size 600mm --polyhedra 2 --connector 70mm";
+    assert_exit(&core(&model, &kit, options), 0);
+    assert_eq!(list(&checklist(&kit), "rods").len(), 2);
+    let (code, said) = verify(&kit);
+    assert_eq!(code, Some(0), "{said}");
 }

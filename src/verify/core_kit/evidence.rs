@@ -19,6 +19,9 @@ pub struct CoreEvidence {
     pub model: TriMesh,
     /// The printed parts in the order of the promises, each in the model's frame and its own size.
     pub parts: Vec<TriMesh>,
+    /// The triangles of the same parts as their files hold them. A turn into the model rounds every
+    /// corner, and slivers that touch in a file may then cross.
+    pub files: Vec<TriMesh>,
     /// The lines of every sheet, by its DXF and by its SVG.
     pub drawings: Vec<[Vec<DrawnLine>; 2]>,
 }

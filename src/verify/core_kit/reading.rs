@@ -57,13 +57,16 @@ fn read(folder: &KitFolder) -> Result<CoreEvidence, CoreVerifyError> {
     }
     let scale = promise.printer.print_scale_ratio.map(Vector::from);
     let read_mesh = |file: &str| read_model(&folder.path.join(file)).map_err(KitFolderError::from);
-    let part = |part: &CorePartPromise| Ok(in_model(&read_mesh(&part.file)?, part, scale));
-    let parts: Result<Vec<TriMesh>, KitFolderError> = promise.parts.iter().map(part).collect();
+    let files = promise.parts.iter().map(|part| read_mesh(&part.file));
+    let files: Vec<TriMesh> = files.collect::<Result<_, KitFolderError>>()?;
+    let parts = files.iter().zip(&promise.parts);
+    let parts = parts.map(|(mesh, part)| in_model(mesh, part, scale));
     let sheets = promise.cut_sheets.iter();
     let drawings: Result<Vec<_>, _> = sheets.map(|sheet| read_sheet(folder, sheet)).collect();
     Ok(CoreEvidence {
         model: read_mesh(MODEL_FILE)?,
-        parts: parts?,
+        parts: parts.collect(),
+        files,
         drawings: drawings?,
         promise,
         certificate,

@@ -10,6 +10,7 @@ use super::joining::of_panel;
 use super::panels::{panel_body, shared_mm3};
 use super::rod_promise::RodPromise;
 use crate::base::units::MM3_PER_CM3;
+use crate::cutter::{Fastener, FastenerShape};
 use crate::geom::{Bvh, Frame, Point, Vector};
 use crate::mesh::{ClipError, Csg, TriMesh, primitives};
 use crate::repair::weld;
@@ -131,6 +132,28 @@ pub fn rod_faults(evidence: &CoreEvidence) -> Result<Vec<String>, CoreVerifyErro
     Ok(faults)
 }
 
+/// Returns the reason why a rod is not what the catalogue has under its id; `None` if it is.
+fn misnamed(rod: &RodPromise) -> Option<&'static str> {
+    let Ok(stocked) = Fastener::find(&rod.id) else {
+        return Some("is in no catalogue");
+    };
+    let FastenerShape::Dowel {
+        diameter_mm,
+        length_mm,
+        ..
+    } = stocked.shape
+    else {
+        return Some("is no rod in the catalogue");
+    };
+    if [diameter_mm, length_mm] != [rod.diameter_mm, rod.stock_mm] {
+        return Some("has another size than the rod of its name");
+    }
+    let stock_mm3 = FRAC_PI_4 * diameter_mm.powi(2) * length_mm;
+    let density_g_cm3 = stocked.mass_g / stock_mm3 * MM3_PER_CM3;
+    let is_heavy = (rod.density_g_cm3 / density_g_cm3 - 1.0).abs() <= MASS_RATIO;
+    (!is_heavy).then_some("has another density than the rod of its name")
+}
+
 /// Returns the kinds of rods of which fewer are bought than are cut.
 fn unbought(evidence: &CoreEvidence) -> Vec<String> {
     let promise = &evidence.promise;
@@ -195,6 +218,9 @@ impl<'a> RodJudge<'a> {
 
     /// Returns the reason why a rod does not hold its panels; `None` if it does.
     fn misfit(&self, rod: &RodPromise) -> Option<&'static str> {
+        if let Some(why) = misnamed(rod) {
+            return Some(why);
+        }
         let [a, b] = rod.panels.map(|panel| of_panel(self.evidence, panel));
         if a.is_none() || b.is_none() || a == b {
             return Some("does not join two polyhedra");

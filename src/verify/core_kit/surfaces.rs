@@ -3,8 +3,9 @@
 use rayon::prelude::*;
 
 use super::evidence::CoreEvidence;
+use super::promise::CorePartPromise;
 use crate::base::watch::{Cancelled, Watch};
-use crate::mesh::{Crossings, Defects, bodies, shells};
+use crate::mesh::{Crossings, Defects, TriMesh, bodies, shells};
 use crate::repair::weld;
 
 /// The facts about the surfaces of parts, and how they lie.
@@ -44,7 +45,12 @@ pub fn measure_surfaces(evidence: &CoreEvidence, watch: &Watch) -> Result<Surfac
     let parts = (0..evidence.parts.len()).into_par_iter();
     let facts = parts.map(|part| {
         watch.check()?;
-        measure_part(evidence, part, watch)
+        let seen = Seen {
+            promise: &evidence.promise.parts[part],
+            mesh: &evidence.parts[part],
+            file: &evidence.files[part],
+        };
+        seen.measure(evidence.promise.printer.build_volume_mm, watch)
     });
     let facts: Vec<SurfaceFacts> = facts.collect::<Result<_, Cancelled>>()?;
     Ok(facts
@@ -52,40 +58,113 @@ pub fn measure_surfaces(evidence: &CoreEvidence, watch: &Watch) -> Result<Surfac
         .fold(SurfaceFacts::default(), SurfaceFacts::and))
 }
 
-fn measure_part(
-    evidence: &CoreEvidence,
-    index: usize,
-    watch: &Watch,
-) -> Result<SurfaceFacts, Cancelled> {
-    let (promise, mesh) = (&evidence.promise.parts[index], &evidence.parts[index]);
-    let id = || promise.id.clone();
-    let welded = weld(mesh);
-    let defects = Defects::of(&welded);
-    let printed = mesh
-        .map_vertices(|p| promise.print_from_model.to_print(p))
-        .aabb();
-    let size = printed.size();
-    let room = evidence.promise.printer.build_volume_mm;
-    // A turn on the plate is allowed; rounding in a file is not more than this.
-    let slack_mm = 1e-3;
-    let fits = room.is_none_or(|[x, y, z]| {
-        let lies = |a: f64, b: f64| a <= x + slack_mm && b <= y + slack_mm;
-        size.z <= z + slack_mm && (lies(size.x, size.y) || lies(size.y, size.x))
-    });
-    let inner = shells(&welded)
-        .iter()
-        .any(|shell| shell.signed_volume_mm3() < 0.0);
-    let count = bodies(&welded).len();
-    Ok(SurfaceFacts {
-        broken: defects
-            .map(|defects| format!("{}: {defects}", id()))
-            .into_iter()
-            .collect(),
-        crossings: Crossings::of_watched(&welded, watch)?.pairs,
-        in_pieces: (count != 1).then(id).into_iter().collect(),
-        closed: inner.then(id).into_iter().collect(),
-        above_plate_mm: printed.min.z.abs(),
-        pose_error: promise.print_from_model.rigidity_error(),
-        too_large: (!fits).then(id).into_iter().collect(),
-    })
+/// A part: what is promised of it, its triangles in the model, and those of its file.
+struct Seen<'a> {
+    promise: &'a CorePartPromise,
+    mesh: &'a TriMesh,
+    file: &'a TriMesh,
+}
+
+impl Seen<'_> {
+    /// Measures a part for a printer of a room, mm. Its surface is that of its file.
+    fn measure(&self, room_mm: Option<[f64; 3]>, watch: &Watch) -> Result<SurfaceFacts, Cancelled> {
+        let promise = self.promise;
+        let id = || promise.id.clone();
+        let welded = weld(self.file);
+        let defects = Defects::of(&welded);
+        let printed = self
+            .mesh
+            .map_vertices(|p| promise.print_from_model.to_print(p))
+            .aabb();
+        let size = printed.size();
+        // A turn on the plate is allowed; rounding in a file is not more than this.
+        let slack_mm = 1e-3;
+        let fits = room_mm.is_none_or(|[x, y, z]| {
+            let lies = |a: f64, b: f64| a <= x + slack_mm && b <= y + slack_mm;
+            size.z <= z + slack_mm && (lies(size.x, size.y) || lies(size.y, size.x))
+        });
+        let inner = shells(&welded)
+            .iter()
+            .any(|shell| shell.signed_volume_mm3() < 0.0);
+        let count = bodies(&welded).len();
+        Ok(SurfaceFacts {
+            broken: defects
+                .map(|defects| format!("{}: {defects}", id()))
+                .into_iter()
+                .collect(),
+            crossings: Crossings::of_watched(&welded, watch)?.pairs,
+            in_pieces: (count != 1).then(id).into_iter().collect(),
+            closed: inner.then(id).into_iter().collect(),
+            above_plate_mm: printed.min.z.abs(),
+            pose_error: promise.print_from_model.rigidity_error(),
+            too_large: (!fits).then(id).into_iter().collect(),
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::Rotation3;
+
+    use super::*;
+    use crate::geom::{Point, Vector};
+    use crate::verify::{CorePartKind, Pose};
+
+    /// Returns a pyramid on a foot of four triangles. One is a sliver without area: its corner `p`
+    /// lies on the diagonal of the foot.
+    fn pyramid_with_a_sliver() -> TriMesh {
+        let corners = [
+            [0.0, 0.0, 0.0],
+            [3.0, 0.0, 0.0],
+            [1.0, -2.0, 0.0],
+            [1.3, 2.0, 0.0],
+            [1.1, 0.0, 0.0],
+            [1.0, 0.1, 2.0],
+        ];
+        let [a, b, c, d, p, top] = [0, 1, 2, 3, 4, 5];
+        let foot = vec![[a, d, b], [a, b, p], [a, p, c], [p, b, c]];
+        let sides = vec![[d, a, top], [b, d, top], [c, b, top], [a, c, top]];
+        let triangles = [foot, sides].concat();
+        TriMesh::new(corners.map(Point::from).to_vec(), triangles).unwrap()
+    }
+
+    fn part_in(pose: Pose) -> CorePartPromise {
+        CorePartPromise {
+            id: "1a".to_owned(),
+            kind: CorePartKind::Shell,
+            panel: 1,
+            file: String::new(),
+            sha256: String::new(),
+            print_from_model: pose,
+            void_mm3: 0.0,
+            bores_mm3: 0.0,
+            pins_mm3: [0.0; 2],
+            cuts: Vec::new(),
+            bosses: Vec::new(),
+        }
+    }
+
+    #[test]
+    fn slivers_that_cross_only_when_turned_into_the_model_are_no_crossings() {
+        let file = pyramid_with_a_sliver();
+        assert_eq!(Crossings::of(&file).pairs, 0);
+        let mut turned_cross = 0;
+        for step in 1..200 {
+            let turn = Vector::new(0.017, 0.029, 0.011) * f64::from(step);
+            let turn = Rotation3::from_scaled_axis(turn);
+            let pose = Pose::new(turn.matrix(), &Vector::new(100.0, -50.0, 0.0));
+            let mesh = file.map_vertices(|p| pose.to_model(p));
+            turned_cross += usize::from(Crossings::of(&mesh).pairs > 0);
+            let promise = part_in(pose);
+            let seen = Seen {
+                promise: &promise,
+                mesh: &mesh,
+                file: &file,
+            };
+            let facts = seen.measure(None, &Watch::silent()).unwrap();
+            assert_eq!(facts.crossings, 0, "{step}");
+        }
+        // A judge that looked at the turned part would have refused it.
+        assert!(turned_cross > 10, "{turned_cross}");
+    }
 }
