@@ -91,6 +91,7 @@ fn ordered(asked: &Asked, made: &Made) -> TelescopeSheet {
         extended_mm: [0.0; 3],
         ratio: 0.0,
         trade: made.best.rows.clone(),
+        poses: Vec::new(),
         warnings: warnings(asked, made),
         checks: Vec::new(),
         files: BTreeMap::new(),
@@ -309,7 +310,7 @@ fn tip_play_mm(telescope: &Telescope) -> f64 {
 }
 
 /// Returns a made telescope on its foot, or on the root's own cap.
-fn standing<'a>(telescope: &'a Telescope, made: &'a Made) -> Standing<'a> {
+pub fn standing<'a>(telescope: &'a Telescope, made: &'a Made) -> Standing<'a> {
     let own = DiscFoot {
         radius_mm: telescope.shells[0].body_mm,
         height_mm: 0.0,
