@@ -177,7 +177,7 @@ pub(super) fn dry_fit(page: &TelescopePage) -> Markup {
         }
         p class="small" {
             "Clearance " (measured(sheet.clearance_mm, "mm")) " on each side: " (sheet.clearance_source) "."
-            @if !sheet.is_clearance_proved { " It counts as unproved until a pair of shells was tried on this machine." }
+            @if !sheet.is_clearance_proved { " It counts as unproved until the slide coupon, or a pair of shells, was tried on this machine." }
         }
         (figures(page.pictures, Role::CutJoint))
     }

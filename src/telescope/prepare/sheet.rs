@@ -364,8 +364,8 @@ pub fn untried(asked: &Asked, made: &Made) -> Option<String> {
     let is_untried = asked.slide.sure != Sure::Measured && count > 1;
     is_untried.then(|| {
         format!(
-            "The sliding clearance of {} mm was never tried on this machine. Print {} and {} with \
-             their caps first, and try them before you print the rest.",
+            "The sliding clearance of {} mm was never tried on this machine. Print its slide coupon, \
+             or {} and {} with their caps, and try them before you print the rest.",
             asked.slide.value,
             made.shell_id(count - 2),
             made.shell_id(count - 1)
