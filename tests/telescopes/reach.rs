@@ -116,6 +116,8 @@ struct Lie {
     pointer: &'static str,
     by: f64,
     found: &'static str,
+    /// True if the Python judge is asked, too: that takes some seconds.
+    asks_python: bool,
 }
 
 const LIES: [Lie; 4] = [
@@ -125,6 +127,7 @@ const LIES: [Lie; 4] = [
         pointer: "/poses/0/tips/0/reached_mm/1",
         by: 0.5,
         found: "off what is stated",
+        asks_python: false,
     },
     // Another place was wanted than the one that is reached.
     Lie {
@@ -132,6 +135,7 @@ const LIES: [Lie; 4] = [
         pointer: "/poses/0/tips/0/wanted_mm/0",
         by: 3.0,
         found: "in the place that was asked for",
+        asks_python: true,
     },
     // A shell is farther out than it can be.
     Lie {
@@ -139,6 +143,7 @@ const LIES: [Lie; 4] = [
         pointer: "/poses/0/keys/2/0/1/0",
         by: 50.0,
         found: "beyond its range",
+        asks_python: false,
     },
     // A shell is said to be beside its place.
     Lie {
@@ -146,10 +151,12 @@ const LIES: [Lie; 4] = [
         pointer: "/poses/0/shells/0/2/0/3",
         by: 0.1,
         found: "not where its joints place it",
+        asks_python: true,
     },
 ];
 
-/// Changes numbers of poses in turn, and a pose file: both judges must find each.
+/// Changes numbers of poses in turn, and a pose file: the judge must find each, and the Python one
+/// what it is asked about.
 fn lie_about_poses(kit: &Path) {
     let file = kit.join("poses/bow.toml");
     let right = fs::read_to_string(&file).unwrap();
@@ -171,7 +178,8 @@ fn lie_about_poses(kit: &Path) {
         let (code, said) = verify(kit);
         assert_eq!(code, Some(1), "{}: {said}", lie.pointer);
         assert!(said.contains(lie.found), "{}: {said}", lie.pointer);
-        if let Some(output) = telescope_judge_says(kit) {
+        let asked = lie.asks_python.then(|| telescope_judge_says(kit));
+        if let Some(output) = asked.flatten() {
             assert_exit(&output, 1);
         }
         fs::write(&file, right).unwrap();
@@ -200,7 +208,8 @@ fn a_place_out_of_reach_is_told_with_its_distance_and_a_place_that_is_reached() 
     assert!(number(&checklist(&kit), "/poses/0/off_mm") < 1.0);
 
     // A place beside the plane of the arc is near enough for no proof.
-    let aside = format!("{SMALL} --reach tip=30,40,50 --json --out {}", path(&kit));
+    let other = folder.path().join("aside");
+    let aside = format!("{SMALL} --reach tip=30,40,50 --json --out {}", path(&other));
     let answer = json(&equipoise(&words(&aside)));
     assert_eq!(answer["is_proved"], false);
 }
@@ -241,10 +250,7 @@ fn poses_that_cannot_be_read_are_refused_with_their_line_and_leave_nothing() {
         assert!(!kit.exists());
     }
     for (options, said) in [
-        (
-            "--reach hand=1,2,3",
-            "there is no tip hand; remedy: name one of tip",
-        ),
+        ("--reach hand=1,2,3", "there is no tip hand"),
         (
             "--reach tip=1,2,3 --reach tip=1,2,4",
             "the tip tip cannot be in two places",
