@@ -18,6 +18,7 @@
 mod core_kit;
 #[path = "../examples/make_models/models.rs"]
 mod models;
+mod telescope;
 
 use std::path::{Path, PathBuf};
 use std::sync::{LazyLock, OnceLock};

@@ -17,6 +17,7 @@ mod sliced;
 mod slicer;
 mod stock_list;
 pub mod telescope;
+mod telescope_pose;
 mod telescope_root;
 
 use std::path::{Path, PathBuf};

@@ -7,6 +7,8 @@
 )]
 
 mod common;
+#[path = "telescopes/reach.rs"]
+mod reach;
 #[path = "telescopes/scene.rs"]
 mod scene;
 

@@ -133,6 +133,10 @@ choice! {
         Order = "order",
         /// The radius of a telescope's foot.
         Foot = "foot",
+        /// A place that a telescope's tip is to reach.
+        Reach = "reach",
+        /// The pose file of a telescope.
+        Pose = "pose",
         /// The greatest number of faces of a base.
         Faces = "faces",
         /// The method by which a base is looked for.

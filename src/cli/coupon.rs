@@ -7,14 +7,14 @@ use super::args::CouponArgs;
 use super::exit::Exit;
 use super::flags::{
     command_for_coupons, commands_on_coupon_sheet, commands_on_cut_coupon_sheet,
-    commands_on_density_sheet,
+    commands_on_density_sheet, commands_on_slide_sheet,
 };
 use super::signals::Stop;
 use super::voice::Voice;
 use crate::base::watch::Watch;
 use crate::coupon::{
-    CouponError, CouponSet, CutCouponError, CutCouponSet, DensitySet, NoInfill, coupon_kit,
-    cut_coupon_kit, density_kit,
+    CouponError, CouponSet, CutCouponError, CutCouponSet, DensitySet, NoInfill, SlideSet,
+    coupon_kit, cut_coupon_kit, density_kit, slide_kit,
 };
 use crate::cutter::{self, Cutter, StockSheet};
 use crate::kit::{Existing, Kit, KitError};
@@ -71,6 +71,7 @@ pub fn coupon(
     let made = match (&args.cutter, &args.sheet, &args.printer) {
         (Some(cutter), Some(sheet), _) => of_cutter(cutter, sheet)?,
         (_, _, Some(printer)) if args.density => of_infill(printer, args)?,
+        (_, _, Some(printer)) if args.slide => of_slide(printer, args)?,
         (_, _, printer) => of_printer(printer.as_deref().unwrap_or_default(), args)?,
     };
     let target = args
@@ -139,6 +140,17 @@ fn of_infill(printer: &str, args: &CouponArgs) -> Result<Made, CouponCommandErro
         what: format!("the infill of {} ({})", set.printer_name, set.material_name),
         sizes: serde_json::to_string_pretty(&set)?,
         id: format!("{}-density", printer.id),
+    })
+}
+
+fn of_slide(printer: &str, args: &CouponArgs) -> Result<Made, CouponCommandError> {
+    let printer = Printer::find(printer)?;
+    let set = SlideSet::of(&printer, printer.material(args.material.as_deref())?);
+    Ok(Made {
+        kit: slide_kit(&set, &commands_on_slide_sheet(&set))?,
+        what: format!("shells of {} ({})", set.printer_name, set.material_name),
+        sizes: serde_json::to_string_pretty(&set)?,
+        id: format!("{}-slide", printer.id),
     })
 }
 

@@ -1,7 +1,10 @@
 //! The flags of the command line: the one file that words a setting as a flag.
 
 use crate::base::setting::{Key, Setting, reword};
-use crate::coupon::{Commands, CouponSet, CutCommands, CutCouponSet, DensityCommands, DensitySet};
+use crate::coupon::{
+    Commands, CouponSet, CutCommands, CutCouponSet, DensityCommands, DensitySet, SlideCommands,
+    SlideSet,
+};
 use crate::job::Job;
 
 /// The flag of the most memory that a command may take.
@@ -88,6 +91,22 @@ pub fn commands_on_density_sheet(set: &DensitySet) -> DensityCommands {
     }
 }
 
+/// Returns the commands that the sheet of a printer's slide coupon names.
+pub fn commands_on_slide_sheet(set: &SlideSet) -> SlideCommands {
+    let profile = format!("shop-{}.toml", set.printer);
+    SlideCommands {
+        make_profile: format!(
+            "equipoise printers new --from {0} --id shop-{0} --out {profile}",
+            set.printer
+        ),
+        calibrate: format!(
+            "equipoise printers calibrate {profile} --material {} --lot LOT --slide MM",
+            set.material
+        ),
+        choose_profile: format!("--printer {profile}"),
+    }
+}
+
 /// Returns the command that writes a shop's own profile from a cutter or a sheet.
 pub fn command_for_new_cutter(id: &str) -> String {
     format!("equipoise cutters new --from {id} --id shop-{id} --out shop-{id}.toml")
@@ -110,7 +129,7 @@ pub const OTHER_PLANS: &str = "equipoise cuts";
 
 /// The flags of which `printers calibrate` needs one.
 pub const MEASUREMENTS: &str =
-    "--weighed, --infill, --clearance, --press, --loose, --pin or --wall";
+    "--weighed, --infill, --clearance, --press, --loose, --slide, --pin or --wall";
 
 /// The mark before the table of printers in README.
 pub const TABLE_BEGIN: &str = "<!-- equipoise printers list --markdown -->";

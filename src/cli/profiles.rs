@@ -226,7 +226,8 @@ fn measurements(args: &CalibrateArgs, printer: &Printer) -> Result<Measured, Pro
     Ok(Measured {
         day: args.date.clone().unwrap_or_else(today),
         lot: args.lot.clone(),
-        material: Some((material.id.clone(), material.name.clone())),
+        material: Some(material.clone()),
+        slide_mm: args.slide,
         weighed_g: args.weighed.clone(),
         coupon_mm3: args.volume.unwrap_or(set.density_volume_mm3),
         infill: weighed_infill(args, printer)?,
@@ -260,12 +261,19 @@ fn print_changes(
     printer: &Printer,
     out: &mut dyn Write,
 ) -> Result<(), ProfilesError> {
-    if let (Some(density), Some((id, _))) = (measured.density_g_cm3(), &measured.material) {
+    if let (Some(density), Some(material)) = (measured.density_g_cm3(), &measured.material) {
+        let id = &material.id;
         let spread = measured.spread_ratio().map_or_else(
             || "no window yet: weigh a second coupon".to_owned(),
             |spread| format!("± {}", show_percent(spread)),
         );
         writeln!(out, "{id}: {density:.4} g/cm³, {spread}")?;
+    }
+    if let (Some(mm), Some(material)) = (measured.slide_mm, &measured.material) {
+        let before = printer.slide_clearance(material);
+        let before = before.map_or_else(|| "not known".to_owned(), |it| it.value.to_string());
+        let quantity = Quantity::ClearanceSlidePerSideMm;
+        writeln!(out, "{}: {quantity}: {mm} (was {before})", material.id)?;
     }
     for (quantity, value) in &measured.lengths {
         let before = printer

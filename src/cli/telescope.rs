@@ -8,6 +8,7 @@ use crate::base::units::format_count;
 use crate::base::watch::Watch;
 use crate::job::telescope::TelescopeJob;
 use crate::sheet::network::{AnyTelescopeSheet, NetworkSheet};
+use crate::sheet::pose::PoseRow;
 use crate::sheet::telescope::TelescopeSheet;
 use crate::telescope::{TelescopeRunError, Tried, prepare};
 use crate::verify::{JOB_FILE, find_model};
@@ -57,12 +58,13 @@ fn lines(sheet: &TelescopeSheet) -> String {
             measured(worst, "°")
         )
     });
+    let poses = pose_lines(&sheet.poses);
     format!(
         "shells     {}, {} in all, for {}\n\
          all in     {}\n\
          all out    {}, {} along the curve\n\
          deviation  {} at most, {} rms\n\
-         opens      {}, proved free of collisions\n{stands}\
+         opens      {}, proved free of collisions\n{stands}{poses}\
          tip        plays by {}\n",
         sheet.shells.len(),
         measured(sheet.mass_g, "g"),
@@ -99,7 +101,7 @@ fn network_lines(sheet: &NetworkSheet) -> String {
         "limbs      {}, {} in all, for {}\n{}{}\
          all in     {}\n\
          all out    {}\n\
-         opens      limb {}\n",
+         opens      limb {}\n{}",
         sheet.limbs.len(),
         measured(sheet.mass_g, "g"),
         sheet.printer.name,
@@ -108,5 +110,17 @@ fn network_lines(sheet: &NetworkSheet) -> String {
         measured_extent(&sheet.collapsed_mm),
         measured_extent(&sheet.extended_mm),
         sheet.order.join(", then "),
+        pose_lines(&sheet.poses),
     )
+}
+
+/// Returns the poses, and how near their tips are to the places that were asked for.
+fn pose_lines(poses: &[PoseRow]) -> String {
+    let line = |pose: &PoseRow| {
+        let off = pose.off_mm.map_or_else(String::new, |off_mm| {
+            format!(", {off_mm:.3} mm off the places asked for at most")
+        });
+        format!("pose       {}{off}, in {}\n", pose.name, pose.file)
+    };
+    poses.iter().map(line).collect()
 }

@@ -6,6 +6,7 @@ mod cutting;
 mod density;
 mod sheet;
 mod sizes;
+mod slide;
 
 pub use bodies::Coupon;
 pub use cutting::{
@@ -16,6 +17,7 @@ pub use density::{
 };
 pub use sheet::Commands;
 pub use sizes::{CouponSet, Hole};
+pub use slide::{Sleeve, SlideCommands, SlideSet, slide_kit};
 
 use crate::io::stl;
 use crate::io::threemf::PackageError;

@@ -46,6 +46,8 @@
 //! | Who says that a telescope opens without a collision? | `Telescope::open_in` in `telescope/motion.rs`, over the gaps of `telescope/clearance.rs` |
 //! | What happens to a curve, in which order? | `prepare` in `telescope/prepare/mod.rs`, a line of six stages |
 //! | Who says that a telescope's kit is right? | `judge_telescope` in `verify/telescope/facts.rs`, with its own screws in `verify/telescope/motion.rs` |
+//! | Which strokes bring a tip to a place, and what if none do? | `Network::reach` in `telescope/pose.rs`; `Poser` in `telescope/prepare/posing.rs` sweeps the way, `telescope/prepare/unreached.rs` words the answer, `verify/telescope/poses.rs` judges it |
+//! | How does a shop find out which clearance slides? | `SlideSet` in `coupon/slide/set.rs`, bodies in `coupon/slide/bodies.rs`; `printer/calibrate.rs` writes it to the material |
 //! | How does a tube slide along its own axis? | `Helix` in `curve/helix.rs`: frames along a helix compose, so it slides in itself |
 //! | Where does a limb of a model begin and end, and how thick is it? | `Skeleton::of` in `skeleton/tree.rs`, by the contraction of `skeleton/flow.rs` and the pruning of `skeleton/tidy.rs` |
 //! | How is a limb held by its juncture? | `Telescope::socket` and `Telescope::peg` in `telescope/mount.rs`, bodies in `telescope/prepare/network/bodies.rs` |

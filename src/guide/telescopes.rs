@@ -68,7 +68,19 @@
 //! length c leaves a path of curvature κ by κ c²/8. Keys are so near that this is 2 µm at most. The
 //! judge holds the file against its own screws: at the keys, and at three states between two.
 //!
-//! # 8. Limits
+//! # 8. Poses
+//! A joint has one way: its shell slides out, then it turns. So it has one unknown, the way it has
+//! gone, and its range has two ends and a corner. The velocity of a tip is that of a screw. It is
+//! that of the inner helix while it slides, and about the tangent at the pivot while it turns.
+//! Damped least squares within these bounds start from 48 states, all out first
+//! ([`crate::telescope::Network::reach`]). Of 20 places that eight shells of 40 mm reach, all are
+//! met to 1e-6 mm (`telescope/tests/pose.rs`).
+//!
+//! A search that ends far off is no proof. But no arc is longer than what its shell shows. So a
+//! place beyond the sum of all is proved too far ([`crate::telescope::Network::too_far`]). The way
+//! there goes joint after joint from all in, and is swept as in section 4.
+//!
+//! # 9. Limits
 //! Three theorems refuse curves ([`crate::telescope::Limit`]). Walls may not fit into the root,
 //! strands may be nearer than the tubes are thick, arcs too long for the ball that holds them. A
 //! poor deviation alone is no proof, and is told as the best that was found.

@@ -6,6 +6,7 @@ use std::str::FromStr;
 
 use serde::{Deserialize, Deserializer, Serialize, de::Error as _};
 
+pub use super::telescope_pose::{PoseChoice, Reach, ReachError};
 pub use super::telescope_root::{Root, RootError};
 use super::{JobError, PrinterChoice, Scaling};
 use crate::base::toml_text::{self, TextFault};
@@ -167,6 +168,12 @@ pub struct TelescopeJob {
     /// The root of the skeleton; its own if `None`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub root: Option<Root>,
+    /// The places that tips are to reach in one pose.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub reach: Vec<Reach>,
+    /// A pose file; `None` if none is given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub pose: Option<PoseChoice>,
     /// The curve.
     pub curve: CurveChoice,
     /// The printer and its material.
@@ -213,6 +220,8 @@ impl TelescopeJob {
             junctures: None,
             keep_solid: None,
             root: None,
+            reach: Vec::new(),
+            pose: None,
             curve: CurveChoice {
                 source: source.to_owned(),
                 sha256: None,
@@ -240,6 +249,7 @@ impl TelescopeJob {
         if let Some(name) = named {
             job.curve.source = name.to_string_lossy().into_owned();
         }
+        job.pose = job.pose.as_ref().map(PoseChoice::in_kit);
         job
     }
 
@@ -372,6 +382,11 @@ mod tests {
         job.foot = FootSize::Given(Length::from_mm(32.5).unwrap());
         job.deviation = Some(Length::from_mm(0.75).unwrap());
         job.curve.scaling = Scaling::Factor(2.5);
+        job.reach = vec!["tip=1,2.5,-3".parse().unwrap()];
+        job.pose = Some(PoseChoice {
+            source: "bow.toml".to_owned(),
+            text: "kind = \"pose\"\n# a \"quoted\" line\n".to_owned(),
+        });
         let text = job.to_toml().unwrap();
         assert!(text.contains("kind = \"telescope\""));
         assert_eq!(TelescopeJob::from_toml("job.toml", &text).unwrap(), job);

@@ -39,6 +39,8 @@ pub enum Role {
     Proof,
     /// Telescope: a state of its opening.
     State,
+    /// Telescope: a pose.
+    Pose,
     /// Telescope: one joint cut open.
     CutJoint,
     /// Screw on: the parts of a unit that pins join, drawn apart.

@@ -7,6 +7,7 @@ use super::document::styled_document;
 use super::fields::file_name;
 use super::figure::{Picture, Role, figures};
 use super::job_id::JobId;
+use super::poses::poses;
 use super::running::style;
 use super::stage::{Stage, viewer};
 use super::telescope::{
@@ -286,6 +287,7 @@ fn open(page: &NetworkPage) -> Markup {
                 tbody { @for joint in joints(limb) { (joint_line(joint)) } }
             }
         }
+        (poses(&sheet.poses, page.pictures))
     }
 }
 

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::figure::{Draft, Picture, Role};
-use super::telescope_album::viewer_of;
+use super::telescope_album::{pose_picture, viewer_of};
 use crate::draw::{Camera, Item, Label, PictureError, Scene, Shot, TEXT_PX, part_color};
 use crate::geom::{Aabb, Point, Vector};
 use crate::mesh::TriMesh;
@@ -37,6 +37,8 @@ pub struct NetworkView {
     pub half: Vec<TriMesh>,
     /// The meshes all out.
     pub extended: Vec<TriMesh>,
+    /// The names of the poses, and the meshes in each.
+    pub poses: Vec<(String, Vec<TriMesh>)>,
     /// The direction that points up.
     pub up: Vector,
     /// The number of parts of every juncture.
@@ -75,6 +77,12 @@ pub fn draw_network(view: &NetworkView) -> Result<Vec<Picture>, PictureError> {
     ];
     let parts = divided.iter().map(|own| parts_of(view, own, &toward));
     drafts.extend(parts);
+    let poses = view.poses.iter().map(|(name, meshes)| Draft {
+        file: pose_picture(name),
+        role: Role::Pose,
+        ..state(view, meshes, ["", &format!("Pose {name}.")], &toward)
+    });
+    drafts.extend(poses);
     drafts.par_iter().map(Draft::draw).collect()
 }
 

@@ -6,6 +6,7 @@ use super::document::styled_document;
 use super::fields::{blank, file_name};
 use super::figure::{Picture, Role, figures};
 use super::job_id::JobId;
+use super::poses::poses;
 use super::running::style;
 use super::stage::{Stage, viewer};
 use super::wing_frame::{self as frame, Cover};
@@ -176,7 +177,7 @@ pub(super) fn dry_fit(page: &TelescopePage) -> Markup {
         }
         p class="small" {
             "Clearance " (measured(sheet.clearance_mm, "mm")) " on each side: " (sheet.clearance_source) "."
-            @if !sheet.is_clearance_proved { " It counts as unproved until a pair of shells was tried on this machine." }
+            @if !sheet.is_clearance_proved { " It counts as unproved until the slide coupon, or a pair of shells, was tried on this machine." }
         }
         (figures(page.pictures, Role::CutJoint))
     }
@@ -243,6 +244,7 @@ fn open(page: &TelescopePage) -> Markup {
             tbody { @for joint in steps.filter_map(row) { (joint_line(joint)) } }
         }
         @if sheet.is_pressed { p class="small" { "Over the last millimetres it takes a push: a ring is pressed in, and holds the shell." } }
+        (poses(&sheet.poses, page.pictures))
     }
 }
 

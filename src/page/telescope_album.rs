@@ -69,6 +69,8 @@ pub struct TelescopeView<'a> {
     pub half: Vec<Frame>,
     /// The frames all out.
     pub extended: Vec<Frame>,
+    /// The names of the poses, and the frames in each.
+    pub poses: Vec<(String, Vec<Frame>)>,
     /// The direction that points up.
     pub up: Vector,
     /// A joint to cut open; `None` for a single shell.
@@ -77,9 +79,10 @@ pub struct TelescopeView<'a> {
 
 /// A state to draw: its file, its frames and its words.
 struct State<'a> {
-    file: &'static str,
+    file: String,
+    role: Role,
     frames: &'a [Frame],
-    caption: &'static str,
+    caption: String,
 }
 
 /// Draws the pictures of a telescope; the same bytes on any number of threads.
@@ -87,23 +90,7 @@ struct State<'a> {
 /// # Errors
 /// A picture cannot be encoded.
 pub fn draw_telescope(view: &TelescopeView) -> Result<Vec<Picture>, PictureError> {
-    let states = [
-        State {
-            file: "pictures/collapsed.png",
-            frames: &view.collapsed,
-            caption: "All in.",
-        },
-        State {
-            file: "pictures/half-open.png",
-            frames: &view.half,
-            caption: "Half of the joints out.",
-        },
-        State {
-            file: "pictures/extended.png",
-            frames: &view.extended,
-            caption: "All out.",
-        },
-    ];
+    let states = states(view);
     let toward = viewer(view);
     let placed: Vec<Vec<TriMesh>> = states
         .iter()
@@ -117,6 +104,32 @@ pub fn draw_telescope(view: &TelescopeView) -> Result<Vec<Picture>, PictureError
     drafts.push(exploded(view, &apart));
     drafts.extend(view.joint.as_ref().map(joint));
     drafts.par_iter().map(Draft::draw).collect()
+}
+
+fn states<'a>(view: &'a TelescopeView) -> Vec<State<'a>> {
+    let usual = [
+        ("collapsed.png", &view.collapsed, "All in."),
+        ("half-open.png", &view.half, "Half of the joints out."),
+        ("extended.png", &view.extended, "All out."),
+    ];
+    let usual = usual.into_iter().map(|(file, frames, caption)| State {
+        file: format!("pictures/{file}"),
+        role: Role::State,
+        frames,
+        caption: caption.to_owned(),
+    });
+    let poses = view.poses.iter().map(|(name, frames)| State {
+        file: pose_picture(name),
+        role: Role::Pose,
+        frames,
+        caption: format!("Pose {name}."),
+    });
+    usual.chain(poses).collect()
+}
+
+/// Returns the picture of a pose in a kit.
+pub(super) fn pose_picture(name: &str) -> String {
+    format!("pictures/pose-{name}.png")
 }
 
 fn viewer(view: &TelescopeView) -> Vector {
@@ -149,9 +162,9 @@ fn of_state<'a>(
 ) -> Draft<'a> {
     let parts = view.parts.iter().zip(meshes);
     Draft {
-        file: state.file.to_owned(),
-        role: Role::State,
-        caption: state.caption.to_owned(),
+        file: state.file.clone(),
+        role: state.role,
+        caption: state.caption.clone(),
         alt: format!("The telescope from the side. {}", state.caption),
         shot: Shot {
             scene: Scene {

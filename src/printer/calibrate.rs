@@ -1,12 +1,10 @@
 //! Writing of measured values into a shop's own profile, with day and lot. The rest of the file
 //! stays as it is.
 
-use std::ops::Range;
-
 use serde::Deserialize;
 use toml::Spanned;
 
-use super::{Quantity, profile::ProfileText, reader::Reader};
+use super::{Material, Quantity, Sourced, edits::Edits, profile::ProfileText, reader::Reader};
 use crate::base::toml_text::TextFault;
 use crate::base::units::MM3_PER_CM3;
 
@@ -29,14 +27,17 @@ pub struct Measured {
     pub day: String,
     /// The lot of the material.
     pub lot: String,
-    /// Id and name of the material.
-    pub material: Option<(String, String)>,
+    /// The material, as the profile has it.
+    pub material: Option<Material>,
     /// Masses of the density coupons, g.
     pub weighed_g: Vec<f64>,
     /// Drawn volume of one density coupon, mm³.
     pub coupon_mm3: f64,
     /// Clearances, pins, walls and the like, mm.
     pub lengths: Vec<(Quantity, f64)>,
+    /// The clearance with which shells of the material slide, mm on each side; `None` if no sleeve
+    /// was tried.
+    pub slide_mm: Option<f64>,
     /// The infill whose blocks were weighed; `None` if none were.
     pub infill: Option<MeasuredInfill>,
 }
@@ -104,7 +105,8 @@ impl Measured {
     }
 
     fn check(&self) -> Result<(), CalibrateError> {
-        if self.weighed_g.is_empty() && self.lengths.is_empty() && self.infill.is_none() {
+        let is_empty = self.weighed_g.is_empty() && self.lengths.is_empty();
+        if is_empty && self.infill.is_none() && self.slide_mm.is_none() {
             return Err(CalibrateError::Nothing);
         }
         if let Some(&bad) = self
@@ -138,10 +140,7 @@ pub fn calibrate(file: &str, text: &str, measured: &Measured) -> Result<String, 
     let reader = Reader::new(file, text);
     let profile: ProfileText = reader.parse()?;
     let own: OwnMaterials = reader.parse()?;
-    let mut edits = Edits {
-        text,
-        edits: Vec::new(),
-    };
+    let mut edits = Edits::new(text);
     let mut added = String::new();
     for &(quantity, value) in &measured.lengths {
         let entry = inline_table(value, &measured.source("read off a coupon"));
@@ -164,13 +163,13 @@ pub fn calibrate(file: &str, text: &str, measured: &Measured) -> Result<String, 
             }
         }
     }
-    if let (Some((id, name)), Some(density_g_cm3)) = (&measured.material, measured.density_g_cm3())
-    {
-        let entries = MaterialEntries::new(measured, density_g_cm3);
+    let is_of_material = !measured.weighed_g.is_empty() || measured.slide_mm.is_some();
+    if let Some(kept) = measured.material.as_ref().filter(|_| is_of_material) {
+        let entries = MaterialEntries::new(measured);
         let mut materials = own.material.iter();
-        match materials.find(|material| material.id.get_ref() == id) {
+        match materials.find(|material| *material.id.get_ref() == kept.id) {
             Some(material) => edits.update_material(material, entries),
-            None => edits.add_material(id, name, &entries),
+            None => edits.add_material(kept, entries.or_kept(kept)),
         }
     }
     Ok(edits.apply())
@@ -215,21 +214,34 @@ struct OwnMaterial {
     id: Spanned<String>,
     density_g_cm3: Spanned<toml::Value>,
     density_spread_ratio: Option<Spanned<toml::Value>>,
+    clearance_slide_per_side_mm: Option<Spanned<toml::Value>>,
     lot: Option<Spanned<toml::Value>>,
     measured_on: Option<Spanned<toml::Value>>,
 }
 
-/// The measured entries of a material, as they stand in a profile.
+/// The entries of a material, as they stand in a profile; `None` for those that stay.
+#[derive(Default)]
 struct MaterialEntries {
-    density: String,
+    density: Option<String>,
     /// `None` for a single coupon.
     spread: Option<String>,
-    lot: String,
-    day: String,
+    slide: Option<String>,
+    flow: Option<String>,
+    lot: Option<String>,
+    day: Option<String>,
 }
 
 impl MaterialEntries {
-    fn new(measured: &Measured, density_g_cm3: f64) -> Self {
+    /// Returns what was measured.
+    fn new(measured: &Measured) -> Self {
+        let slide = measured.slide_mm;
+        let slide = slide.map(|mm| inline_table(mm, &measured.source("sleeves tried")));
+        let Some(density_g_cm3) = measured.density_g_cm3() else {
+            return Self {
+                slide,
+                ..Self::default()
+            };
+        };
         let count = measured.weighed_g.len();
         let source = measured.source(&format!(
             "{count} coupons of {:.1} mm³ weighed",
@@ -239,128 +251,89 @@ impl MaterialEntries {
             .spread_ratio()
             .map(|spread| inline_table(spread, &format!("{source}; 95 % of the next")));
         Self {
-            density: inline_table(density_g_cm3, &source),
+            density: Some(inline_table(density_g_cm3, &source)),
             spread,
-            lot: string(&measured.lot),
-            day: measured.day.clone(),
+            slide,
+            flow: None,
+            lot: Some(string(&measured.lot)),
+            day: Some(measured.day.clone()),
         }
+    }
+
+    /// Returns these entries, and those of a material that are not among them. Its spread, lot and
+    /// day are those of its density.
+    fn or_kept(self, kept: &Material) -> Self {
+        let weighed = self.density.is_some();
+        let of_density = |own: Option<String>| own.filter(|_| !weighed);
+        let number = |own: &Option<Sourced<f64>>| own.as_ref().map(sourced_table);
+        Self {
+            density: self
+                .density
+                .or_else(|| Some(sourced_table(&kept.density_g_cm3))),
+            spread: self
+                .spread
+                .or(of_density(number(&kept.density_spread_ratio))),
+            slide: self
+                .slide
+                .or_else(|| number(&kept.clearance_slide_per_side_mm)),
+            flow: self.flow.or_else(|| number(&kept.flow_ratio)),
+            lot: self.lot.or(of_density(kept.lot.as_deref().map(string))),
+            day: self.day.or(of_density(kept.measured_on.clone())),
+        }
+    }
+
+    /// Returns the entries with their keys, the density first.
+    fn lines(self) -> [(&'static str, Option<String>); 6] {
+        [
+            ("density_g_cm3", self.density),
+            ("density_spread_ratio", self.spread),
+            (Quantity::ClearanceSlidePerSideMm.key(), self.slide),
+            ("flow_ratio", self.flow),
+            ("lot", self.lot),
+            ("measured_on", self.day),
+        ]
     }
 }
 
-/// Replacements of pieces of a text.
-struct Edits<'a> {
-    text: &'a str,
-    edits: Vec<(Range<usize>, String)>,
+/// Formats a number with the source that it has as an inline table.
+fn sourced_table(number: &Sourced<f64>) -> String {
+    let sure = toml::Value::try_from(number.sure);
+    let sure = sure.map_or_else(|_| string("own-choice"), |sure| sure.to_string());
+    let (value, source) = (number.value, string(&number.source));
+    format!("{{ value = {value}, source = {source}, sure = {sure} }}")
 }
 
 impl Edits<'_> {
-    fn replace(&mut self, range: Range<usize>, new: String) {
-        self.edits.push((range, new));
-    }
-
-    /// Adds lines after the line in which a place lies.
-    fn add_after_line(&mut self, place: usize, lines: &str) {
-        match self.text[place..].find('\n') {
-            Some(end) => {
-                let at = place + end + 1;
-                self.replace(at..at, lines.to_owned());
-            }
-            None => {
-                let at = self.text.len();
-                self.replace(at..at, format!("\n{lines}"));
-            }
-        }
-    }
-
-    /// Adds lines at the head of `[numbers]`, which is added if missing.
-    fn add_numbers(&mut self, lines: &str) {
-        const HEADER: &str = "[numbers]";
-        let mut start = 0;
-        let mut header = None;
-        let mut first_material = self.text.len();
-        for line in self.text.split_inclusive('\n') {
-            if line.trim_end().starts_with(HEADER) {
-                header = Some(start + line.len());
-            } else if line.starts_with("[[material]]") {
-                first_material = first_material.min(start);
-            }
-            start += line.len();
-        }
-        match header {
-            Some(at) => {
-                let newline = if self.text[..at].ends_with('\n') {
-                    ""
-                } else {
-                    "\n"
-                };
-                self.replace(at..at, format!("{newline}{lines}"));
-            }
-            None => self.replace(
-                first_material..first_material,
-                format!("\n{HEADER}\n{lines}\n"),
-            ),
-        }
-    }
-
     /// Adds a material at the end.
-    fn add_material(&mut self, id: &str, name: &str, entries: &MaterialEntries) {
-        let MaterialEntries {
-            density,
-            spread,
-            lot,
-            day,
-        } = entries;
-        let spread = spread.as_ref().map_or_else(String::new, |spread| {
-            format!("density_spread_ratio = {spread}\n")
-        });
-        let head = format!("\n[[material]]\nid = \"{id}\"\nname = {}\n", string(name));
-        let rest = format!("density_g_cm3 = {density}\n{spread}lot = {lot}\nmeasured_on = {day}\n");
-        let end = self.text.len();
-        let newline = if self.text.ends_with('\n') { "" } else { "\n" };
-        self.replace(end..end, format!("{newline}{head}{rest}"));
+    fn add_material(&mut self, material: &Material, entries: MaterialEntries) {
+        let (id, name) = (&material.id, string(&material.name));
+        let mut lines = format!("\n[[material]]\nid = \"{id}\"\nname = {name}\n");
+        for (key, value) in entries.lines() {
+            if let Some(value) = value {
+                lines += &format!("{key} = {value}\n");
+            }
+        }
+        self.add_at_end(&lines);
     }
 
     /// Replaces the entries of a material; those it lacks follow its density.
     fn update_material(&mut self, material: &OwnMaterial, entries: MaterialEntries) {
-        let MaterialEntries {
-            density,
-            spread,
-            lot,
-            day,
-        } = entries;
-        let after = material.density_g_cm3.span().end;
-        self.replace(material.density_g_cm3.span(), density);
-        let others = [
-            (
-                "density_spread_ratio",
-                &material.density_spread_ratio,
-                spread,
-            ),
-            ("lot", &material.lot, Some(lot)),
-            ("measured_on", &material.measured_on, Some(day)),
-        ];
-        for (key, old, new) in others {
+        let density = &material.density_g_cm3;
+        let after = density.span().end;
+        for (key, new) in entries.lines() {
+            let old = match key {
+                "density_g_cm3" => Some(density),
+                "density_spread_ratio" => material.density_spread_ratio.as_ref(),
+                "lot" => material.lot.as_ref(),
+                "measured_on" => material.measured_on.as_ref(),
+                _ => material.clearance_slide_per_side_mm.as_ref(),
+            };
             match (old, new) {
                 (Some(old), Some(new)) => self.replace(old.span(), new),
                 (None, Some(new)) => self.replace(after..after, format!("\n{key} = {new}")),
                 (_, None) => {}
             }
         }
-    }
-
-    /// Returns the text with all pieces replaced.
-    fn apply(mut self) -> String {
-        // The sort is stable: insertions at one place keep their order.
-        self.edits
-            .sort_by_key(|(range, _)| (range.start, range.end));
-        let mut text = String::new();
-        let mut done = 0;
-        for (range, new) in &self.edits {
-            text += &self.text[done..range.start];
-            text += new;
-            done = range.end;
-        }
-        text + &self.text[done..]
     }
 }
 
@@ -377,15 +350,21 @@ mod tests {
         Measured {
             day: "2026-11-21".into(),
             lot: "A7".into(),
-            material: Some(("pla".into(), "PLA".into())),
+            material: Some(material("pla")),
             weighed_g: vec![9.80, 9.84, 9.88],
             coupon_mm3: 8000.0,
             lengths: vec![
                 (Quantity::MinWallMm, 1.2),
                 (Quantity::ClearancePerSideMm, 0.15),
             ],
-            infill: None,
+            ..Measured::default()
         }
+    }
+
+    /// Returns a material as a shipped printer has it.
+    fn material(id: &str) -> Material {
+        let printer = Printer::find("prusa-mk4").unwrap();
+        printer.material(Some(id)).unwrap().clone()
     }
 
     fn read(text: &str) -> Printer {
@@ -492,6 +471,46 @@ mod tests {
             "blocks weighed, lot A7, 2026-11-21"
         );
         assert!(twice.starts_with("# the one by the window"), "{twice}");
+    }
+
+    #[test]
+    fn a_sliding_clearance_is_that_of_its_material_and_the_rest_of_it_stays() {
+        let slide = |id: &str, mm: f64| Measured {
+            day: "2026-11-21".into(),
+            lot: "A7".into(),
+            material: Some(material(id)),
+            slide_mm: Some(mm),
+            ..Measured::default()
+        };
+        let once = calibrate("shop.toml", OWN, &slide("petg", 0.45)).unwrap();
+        let twice = calibrate("shop.toml", &once, &slide("petg", 0.5)).unwrap();
+        assert_eq!(twice.matches("[[material]]").count(), 1, "{twice}");
+        let printer = read(&twice);
+        let petg = printer.material(Some("petg")).unwrap();
+        let found = printer.slide_clearance(petg).unwrap();
+        assert_eq!((found.value, found.sure), (0.5, Sure::Measured));
+        assert_eq!(found.source, "sleeves tried, lot A7, 2026-11-21");
+        // Its density is the one before, with its source, and counts as no more than that.
+        assert_eq!(petg.density_g_cm3, material("petg").density_g_cm3);
+        assert_eq!(petg.lot, None);
+        // Other materials slide as before.
+        let pla = printer.material(Some("pla")).unwrap();
+        let others = printer.slide_clearance(pla).unwrap();
+        assert_eq!((others.value, others.sure), (0.3, Sure::Recalled));
+    }
+
+    #[test]
+    fn a_material_that_is_weighed_keeps_its_own_sliding_clearance() {
+        let weighed = Measured {
+            material: Some(material("petg")),
+            lengths: Vec::new(),
+            ..measured()
+        };
+        let text = calibrate("shop.toml", OWN, &weighed).unwrap();
+        let printer = read(&text);
+        let petg = printer.material(Some("petg")).unwrap();
+        assert_eq!(printer.slide_clearance(petg).unwrap().value, 0.4);
+        assert_eq!(petg.density_g_cm3.sure, Sure::Measured);
     }
 
     #[test]

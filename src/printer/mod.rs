@@ -32,6 +32,7 @@ mod cleaning;
 mod complete;
 mod corner;
 mod drains;
+mod edits;
 mod error;
 mod find;
 pub mod import;

@@ -9,6 +9,7 @@ mod joints;
 mod kind;
 pub mod network;
 mod parts;
+pub mod pose;
 mod print_time;
 mod printer;
 mod shortfall;

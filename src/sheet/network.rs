@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 
 use super::kind::kind_sheet;
+use super::pose::PoseRow;
 use super::telescope::{CurveRow, TelescopeMaterial, TelescopePrinter, TelescopeSheet};
 use super::{KindSheet, Verdict};
 use crate::verify::{Check, JuncturePromise, NETWORK_SCHEMA};
@@ -59,6 +60,9 @@ pub struct NetworkSheet {
     pub collapsed_mm: [f64; 3],
     /// The box when all out, along the model's axes, mm.
     pub extended_mm: [f64; 3],
+    /// The poses.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub poses: Vec<PoseRow>,
     /// Warnings.
     pub warnings: Vec<String>,
     /// Every promise with its verdict: of each kind the worst of all limbs.

@@ -6,6 +6,7 @@ use serde::Serialize;
 
 use super::Verdict;
 use super::kind::kind_sheet;
+use super::pose::PoseRow;
 use crate::verify::{
     BalancePromise, Check, DeviationPromise, JointPromise, PrinterLimits, TelescopePartPromise,
 };
@@ -92,6 +93,9 @@ pub struct TelescopeSheet {
     pub ratio: f64,
     /// The numbers of shells that were tried.
     pub trade: Vec<TradeRow>,
+    /// The poses.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub poses: Vec<PoseRow>,
     /// Warnings.
     pub warnings: Vec<String>,
     /// Every promise with its verdict.

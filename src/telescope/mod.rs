@@ -11,7 +11,8 @@
 //! [`Telescope::shell_solid`] and [`Telescope::cap_solid`] make its parts.
 //! [`Telescope::find_opening`] opens it without a collision.
 //!
-//! [`Network`] joins telescopes to a tree of junctures.
+//! [`Network`] joins telescopes to a tree of junctures. [`Network::reach`] finds states whose tips
+//! come near to wanted places.
 //!
 //! * **Measures:** [`JointSizes`], walls, clearances and lengths of a joint; [`Radii`], what
 //!   follows from them for a body.
@@ -33,6 +34,8 @@ mod mount;
 mod nest;
 mod network;
 mod parts;
+mod pose;
+mod pose_file;
 pub mod prepare;
 mod profile;
 mod sizes;
@@ -54,6 +57,8 @@ pub use limits::{Limit, ball_limit, budget_limit, strands_limit};
 pub use motion::{Collision, Key, Opening, Order};
 pub use nest::{Joint, JointState, Shell, Telescope};
 pub use network::{Limb, Network, NetworkFrames};
+pub use pose::{Reached, Target, TooFar};
+pub use pose_file::{PoseFile, PoseJoint, PoseLine, pose_text};
 pub use prepare::{TelescopeRunError, Tried, prepare};
 pub use profile::Profile;
 pub use sizes::{JointSizes, Radii};

@@ -91,7 +91,13 @@ impl Telescope {
     /// near that no point moves by more than half of the gap. So none lies between them in which
     /// shells touch. That holds for pairs that cease to be of one bend between the two, too.
     pub fn open_in(&self, order: &Order) -> Result<Opening, Box<Collision>> {
-        let keys = self.keys(order);
+        self.move_in(order, &self.open())
+    }
+
+    /// Goes from all in to another state in an order, or says which shells collide. It is checked
+    /// as an opening is.
+    pub fn move_in(&self, order: &Order, to: &[JointState]) -> Result<Opening, Box<Collision>> {
+        let keys = self.keys(order, to);
         let mut least = Shown::of(self, &keys[0]).gaps().least;
         for pair in keys.windows(2) {
             let motion = Move {
@@ -113,28 +119,33 @@ impl Telescope {
     /// Finds a free order: root first or tip first, the one with the greater gap, else one found
     /// step by step. The error is that of the root first if none is free.
     pub fn find_opening(&self) -> Result<Opening, Box<Collision>> {
+        self.find_way(&self.open())
+    }
+
+    /// Finds a free order from all in to another state, as [`Self::find_opening`] does.
+    pub fn find_way(&self, to: &[JointState]) -> Result<Opening, Box<Collision>> {
         let joints = self.joints.len();
-        let first = self.open_in(&Order::root_first(joints));
-        match (first, self.open_in(&Order::tip_first(joints))) {
+        let first = self.move_in(&Order::root_first(joints), to);
+        match (first, self.move_in(&Order::tip_first(joints), to)) {
             (Ok(root), Ok(tip)) if tip.least.gap_mm > root.least.gap_mm => Ok(tip),
             (Ok(root), _) => Ok(root),
             (Err(_), Ok(tip)) => Ok(tip),
             (Err(collision), Err(_)) => {
-                let found = self.step_by_step();
-                let opening = found.and_then(|order| self.open_in(&order).ok());
+                let found = self.step_by_step(to);
+                let opening = found.and_then(|order| self.move_in(&order, to).ok());
                 opening.ok_or(collision)
             }
         }
     }
 
-    /// Opens at each turn the joint that keeps the greatest gap; `None` if a turn has none.
-    fn step_by_step(&self) -> Option<Order> {
+    /// Moves at each turn the joint that keeps the greatest gap; `None` if a turn has none.
+    fn step_by_step(&self, to: &[JointState]) -> Option<Order> {
         let mut left: Vec<usize> = (0..self.joints.len()).collect();
         let mut groups = Vec::new();
         let mut state = self.closed();
         while !left.is_empty() {
             let gap_of = |joint: &usize| {
-                let [slid, turned] = self.moved(&state, &[*joint]);
+                let [slid, turned] = moved(&state, to, &[*joint]);
                 let slide = self.least_between(&state, &slid)?;
                 let turn = self.least_between(&slid, &turned)?;
                 Some(slide.min(turn))
@@ -146,7 +157,7 @@ impl Telescope {
                 .filter_map(|(i, gap)| gap.map(|gap| (i, gap)));
             let (best, _) = free.max_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0)))?;
             let joint = left.remove(best);
-            [_, state] = self.moved(&state, &[joint]);
+            [_, state] = moved(&state, to, &[joint]);
             groups.push(vec![joint]);
         }
         Some(Order(groups))
@@ -162,11 +173,11 @@ impl Telescope {
     }
 
     /// Returns the states between the moves of an order.
-    fn keys(&self, order: &Order) -> Vec<Key> {
+    fn keys(&self, order: &Order, to: &[JointState]) -> Vec<Key> {
         let mut keys = vec![self.closed()];
         let mut state = self.closed();
         for group in &order.0 {
-            let [slid, turned] = self.moved(&state, group);
+            let [slid, turned] = moved(&state, to, group);
             state.clone_from(&turned);
             keys.push(slid);
             keys.push(turned);
@@ -174,20 +185,19 @@ impl Telescope {
         keys.dedup();
         keys
     }
+}
 
-    /// Returns the states after joints slid out, and after they turned.
-    fn moved(&self, state: &[JointState], joints: &[usize]) -> [Key; 2] {
-        let open = self.open();
-        let mut slid = state.to_vec();
-        for joint in joints.iter().filter(|joint| **joint < open.len()) {
-            slid[*joint].slide_mm = open[*joint].slide_mm;
-        }
-        let mut turned = slid.clone();
-        for joint in joints.iter().filter(|joint| **joint < open.len()) {
-            turned[*joint].turn_rad = open[*joint].turn_rad;
-        }
-        [slid, turned]
+/// Returns the states after joints slid to another state, and after they turned.
+fn moved(state: &[JointState], to: &[JointState], joints: &[usize]) -> [Key; 2] {
+    let mut slid = state.to_vec();
+    for joint in joints.iter().filter(|joint| **joint < to.len()) {
+        slid[*joint].slide_mm = to[*joint].slide_mm;
     }
+    let mut turned = slid.clone();
+    for joint in joints.iter().filter(|joint| **joint < to.len()) {
+        turned[*joint].turn_rad = to[*joint].turn_rad;
+    }
+    [slid, turned]
 }
 
 impl Move<'_> {

@@ -41,6 +41,21 @@ pub struct NetworkFrames {
 }
 
 impl Network {
+    /// Returns a single telescope on bare ends.
+    pub fn alone(telescope: Telescope, opening: Opening) -> Self {
+        let limb = Limb {
+            id: String::new(),
+            from: 0,
+            to: 1,
+            telescope,
+            opening,
+        };
+        Self {
+            junctures: 2,
+            limbs: vec![limb],
+        }
+    }
+
     /// Returns the state with all shells in.
     pub fn closed(&self) -> Vec<Key> {
         let closed = self.limbs.iter().map(|limb| limb.telescope.closed());

@@ -7,6 +7,7 @@ use crate::mass::moments_of_mesh;
 use crate::mesh::{Csg, MeshDistance, Solid, TriMesh};
 
 mod motion;
+mod pose;
 
 /// The measures of the reference; without a press ring.
 pub(super) fn sizes() -> JointSizes {

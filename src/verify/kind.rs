@@ -149,6 +149,10 @@ pub enum CheckKind {
     ShellBodies,
     /// Clearance of sliding shells.
     Sliding,
+    /// Poses of sliding shells: where they are stated, and free on the way.
+    Poses,
+    /// Tips of sliding shells in the places that were asked for.
+    Reach,
     /// Stops of sliding shells.
     Stops,
     /// Twist stops of sliding shells.
@@ -230,6 +234,8 @@ impl CheckKind {
             Self::PrintedCenters => "printed centres",
             Self::ShellBodies => "shell bodies",
             Self::Sliding => "sliding",
+            Self::Poses => "poses",
+            Self::Reach => "reach",
             Self::Stops => "stops",
             Self::TwistStops => "twist stops",
             Self::WayBack => "way back",
@@ -334,7 +340,7 @@ mod tests {
     use serde_json::json;
 
     /// The keys and names of all kinds without data.
-    const KEYS: [(CheckKind, &str, &str); 88] = [
+    const KEYS: [(CheckKind, &str, &str); 90] = [
         (CheckKind::Held, "held", "held parts"),
         (CheckKind::Stock, "stock", "stock"),
         (CheckKind::Grain, "grain", "grain"),
@@ -432,6 +438,8 @@ mod tests {
         ),
         (CheckKind::ShellBodies, "shell-bodies", "shell bodies"),
         (CheckKind::Sliding, "sliding", "sliding"),
+        (CheckKind::Poses, "poses", "poses"),
+        (CheckKind::Reach, "reach", "reach"),
         (CheckKind::Stops, "stops", "stops"),
         (CheckKind::TwistStops, "twist-stops", "twist stops"),
         (CheckKind::WayBack, "way-back", "way back"),

@@ -189,9 +189,10 @@ pub use core_kit::{
 };
 // Telescopes.
 pub use telescope::{
-    BalancePromise, DeviationPromise, JointMotion, JointPromise, MotionKey, ShellMotion,
-    TelescopeEvidence, TelescopeFacts, TelescopeMotion, TelescopePartPromise, TelescopePromise,
-    TelescopeVerifyError, judge_telescope, telescope_checks, verify_telescope,
+    BalancePromise, DeviationPromise, JointMotion, JointPromise, MotionKey, PoseMotion,
+    PosePromise, PoseState, PoseText, PoseTextJoint, PoseTipPromise, PosesFacts, REACH_LIMIT_MM,
+    ShellMotion, TelescopeEvidence, TelescopeFacts, TelescopeMotion, TelescopePartPromise,
+    TelescopePromise, TelescopeVerifyError, judge_telescope, telescope_checks, verify_telescope,
 };
 pub use telescope::{CURVE_FILE, MOTION_FILE, MOTION_SCENE_FILE, OPENING, asked_points};
 // Several telescopes on junctures.

@@ -213,10 +213,21 @@ const ARROWS: &[(&str, &[&str])] = &[
     ),
     // A quote puts the shop's rates on what was sliced.
     ("quote", &["base", "page", "printer", "sheet", "slice"]),
+    // Sleeves are swept as shells are.
     (
         "coupon",
         &[
-            "cutter", "geom", "io", "kit", "mesh", "page", "panels", "printer", "base",
+            "base",
+            "curve",
+            "cutter",
+            "geom",
+            "io",
+            "kit",
+            "mesh",
+            "page",
+            "panels",
+            "printer",
+            "telescope",
         ],
     ),
     // A job may order a field of densities by its numbers, and names the polyhedron from which the

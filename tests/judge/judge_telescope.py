@@ -6,7 +6,8 @@
 Reads the parts (STL), motion.json (helices, joints, keys), curve.csv (the points asked for), and from checklist.json what was promised. A kit
 of several telescopes on junctures is judged limb by limb, and then as a whole: pairs of all bodies, mass, centres, boxes. Junctures that are
 pieces of a model are held against model.stl: none lies beyond it, nothing of it is lost, every bore has its wall. One that is cut for a small
-printer is put together from its parts: they fit the room, meet without reaching into each other, and pins stand in their sockets. Moves
+printer is put together from its parts: they fit the room, meet without reaching into each other, and pins stand in their sockets. Poses are
+gone to from all in, and their tips measured. Moves
 the shells by matrix exponentials, tries the stops with solid intersections, and prints promise against measurement. Exit code 0: all agree; 1:
 something does not; 2: no kit.
 """
@@ -15,6 +16,7 @@ import csv
 import hashlib
 import json
 import sys
+import tomllib
 from pathlib import Path
 
 import manifold3d
@@ -56,6 +58,9 @@ RIM_MM = 0.5
 # A point beside a bore by less than this is in it, mm: facets.
 BESIDE_MM = 0.02
 ANGLES = 48
+# A tip is in its place within this, mm. Slides (mm) and turns (rad) of keys are rounded to this.
+REACH_MM = 1.0
+STATE_LIMIT = 1e-6
 # Pins and sockets are as promised within this, mm; sockets are cut with this many sides.
 PIN_MM = 0.02
 SIDES = 48
@@ -152,6 +157,10 @@ class Kit:
     def shared(self, a, b, placed):
         moved = self.solids[b].transform(placed[:3, :])
         return (self.solids[a] ^ moved).volume()
+
+    def is_joined(self, a, b):
+        """Neighbours slide in each other; their joints are tried."""
+        return abs(a - b) <= 1
 
     def gap(self, joint, slide):
         placed = self.step(joint, slide, 0.0)
@@ -254,16 +263,19 @@ def judge_balance(kit):
     hull = feet[scipy.spatial.ConvexHull(feet).vertices]
     must_stand = kit.sheet["least_angle_deg"] is not None
     worst_centre, worst_lean, least = 0.0, 0.0, np.inf
-    for key, promise in zip(kit.motion["keys"], kit.sheet["balance"], strict=True):
-        frames = kit.frames(key["states"])
-        placed = [(frame @ np.append(centre, 1))[:3] for frame, centre in zip(frames, centres)]
+
+    def balance(states):
+        placed = [(frame @ np.append(centre, 1))[:3] for frame, centre in zip(kit.frames(states), centres)]
         centre = np.average(placed, axis=0, weights=volumes)
-        worst_centre = max(worst_centre, np.linalg.norm(centre - promise["centre_mm"]))
         x, *foot = (to_ground @ np.append(centre, 1))[:3]
         edges = np.roll(hull, -1, axis=0) - hull
         normals = np.stack([-edges[:, 1], edges[:, 0]], axis=1) / np.linalg.norm(edges, axis=1)[:, None]
         margin = ((np.array(foot) - hull) * normals).sum(axis=1).min()
-        lean = np.degrees(np.arctan2(margin, x - ground))
+        return centre, np.degrees(np.arctan2(margin, x - ground))
+
+    for key, promise in zip(kit.motion["keys"], kit.sheet["balance"], strict=True):
+        centre, lean = balance(key["states"])
+        worst_centre = max(worst_centre, np.linalg.norm(centre - promise["centre_mm"]))
         if must_stand or promise["toppling_deg"] is not None:
             stated = promise["toppling_deg"] if promise["toppling_deg"] is not None else -np.inf
             worst_lean = max(worst_lean, abs(lean - stated))
@@ -273,6 +285,9 @@ def judge_balance(kit):
     if must_stand:
         kit.say("stands", least >= kit.sheet["least_angle_deg"], f"{least:.2f} of {kit.sheet['least_angle_deg']}°")
         judge_ground(kit, to_ground, ground)
+        for pose in kit.motion.get("poses", []):
+            least = min(balance(key[0])[1] for key in pose["keys"])
+            kit.say(f"stands in pose {pose['name']}", least >= kit.sheet["least_angle_deg"], f"{least:.2f} of {kit.sheet['least_angle_deg']}°")
 
 
 def judge_ground(kit, to_ground, ground):
@@ -286,6 +301,92 @@ def judge_ground(kit, to_ground, ground):
                 heights = (to_ground @ frame @ np.c_[vertices, np.ones(len(vertices))].T)[0]
                 depth = max(depth, ground - heights.min())
     kit.say("ground", depth < GROUND_LIMIT_MM, f"{depth:.4f} mm below the foot at worst")
+
+
+def end_of(kit, frames):
+    """Returns the centre of the last shell's visible end."""
+    last = len(kit.motion["shells"]) - 1
+    return (frames[last] @ kit.along(last, kit.motion["shells"][last]["length_mm"]))[:3, 3]
+
+
+def is_possible(motion, states):
+    """Every joint within its range, and turned only where it is all out."""
+    for joint, (slide, turn) in zip(motion["joints"], states, strict=True):
+        low, high = sorted((0.0, joint["turn_rad"]))
+        is_out = abs(slide - joint["open_mm"]) < STATE_LIMIT
+        in_range = joint["closed_mm"] - STATE_LIMIT <= slide <= joint["open_mm"] + STATE_LIMIT and low - STATE_LIMIT <= turn <= high + STATE_LIMIT
+        if not in_range or not (is_out or abs(turn) < STATE_LIMIT):
+            return False
+    return True
+
+
+def judge_poses(kit, limbs, places):
+    """Poses: what moves them, where their tips are, and that nothing touches on the way. `places` gives the motion of all bodies."""
+    promised, written = kit.sheet.get("poses", []), kit.motion.get("poses", [])
+    kit.say("the poses of the list and the motion", [own["name"] for own in promised] == [own["name"] for own in written])
+    for promise, pose in zip(promised, written):
+        name, keys = f"pose {promise['name']}", pose["keys"]
+        closed = [[[joint["closed_mm"], 0.0] for joint in limb.motion["joints"]] for limb in limbs]
+        begins = all(np.allclose(a, b, atol=STATE_LIMIT) for a, b in zip(keys[0], closed, strict=True))
+        kit.say(f"{name} begins with all shells in", begins)
+        possible = all(is_possible(limb.motion, own) for key in keys for limb, own in zip(limbs, key, strict=True))
+        kit.say(f"{name} keeps every joint in its range", possible)
+        judge_pose_file(kit, limbs, promise, keys[-1])
+        frames = places(keys[-1])
+        shells, first = [], 0
+        for limb in limbs:
+            shells.append(frames[first : first + len(limb.shells)])
+            first += len(limb.shells)
+        error = max(np.abs(np.array(a) - b).max() for own, stated in zip(shells, pose["shells"], strict=True) for a, b in zip(stated, own, strict=True))
+        kit.say(f"{name} places the shells", error < 1e-6, f"{error:.1e} mm")
+        for tip in promise["tips"]:
+            limb = tip["limb"] - 1
+            at = end_of(limbs[limb], shells[limb])
+            error = np.linalg.norm(at - tip["reached_mm"])
+            kit.say(f"{name}, tip {tip['id']} is where it is stated", error < 0.01, f"{error:.5f} mm off")
+            if tip["wanted_mm"] is not None:
+                off = np.linalg.norm(at - tip["wanted_mm"])
+                kit.say(f"{name}, tip {tip['id']} reaches its place", off <= REACH_MM, f"{off:.4f} mm off")
+        judge_way(kit, limbs, keys, name, places)
+
+
+def judge_pose_file(kit, limbs, promise, states):
+    """The file that is given back says what the motion does."""
+    told = tomllib.loads((kit.folder / promise["file"]).read_text())
+    kit.say(f"{promise['file']} is of this pose", told["kind"] == "pose" and told["name"] == promise["name"])
+    joints = {joint["id"]: joint for joint in told["joint"]}
+    worst = 0.0
+    for limb, own in zip(limbs, states, strict=True):
+        for joint, (slide, turn) in zip(limb.motion["joints"], own, strict=True):
+            row = joints.pop(joint["id"], None)
+            kit.say(f"{joint['id']} stands in {promise['file']}", row is not None)
+            if row:
+                worst = max(worst, abs(row["stroke_mm"] - slide + joint["closed_mm"]), abs(row.get("turn_deg", 0.0) - np.degrees(turn)))
+    kit.say(f"{promise['file']} names these joints, with their strokes", worst < 1e-3 and not joints, f"{worst:.1e}")
+
+
+def judge_way(kit, limbs, keys, name, places):
+    """No two bodies touch on the way to a pose; shells of one joint keep their clearance in it."""
+    known, worst, looked = {}, 0.0, 0
+    for before, after in zip(keys, keys[1:]):
+        for share in (*BETWEEN, 1.0):
+            states = [np.array(a) + (np.array(b) - np.array(a)) * share for a, b in zip(before, after, strict=True)]
+            frames = places(states)
+            for a in range(len(frames)):
+                for b in range(a + 1, len(frames)):
+                    placed = np.linalg.inv(frames[a]) @ frames[b]
+                    if kit.is_joined(a, b) or (a, b) in known and np.abs(known[a, b] - placed).max() < 1e-9:
+                        continue
+                    known[a, b] = placed
+                    looked += 1
+                    worst = max(worst, kit.shared(a, b, placed))
+    kit.say(f"nothing touches on the way to {name}", worst < SHARED_MM3, f"shared {worst:.6f} mm³ in {looked} pairs")
+    for limb, states in zip(limbs, keys[-1], strict=True):
+        clearance = limb.sheet["clearance_mm"]
+        for joint, (promise, (slide, _)) in enumerate(zip(limb.sheet["joints"], states, strict=True)):
+            if slide <= promise["free_to_mm"]:
+                gap = limb.gap(joint, slide)
+                kit.say(f"{promise['id']} in {name}", gap >= clearance - GAP_LIMIT_MM, f"gap {gap:.4f} of {clearance} mm")
 
 
 def judge_boxes(kit):
@@ -324,6 +425,11 @@ class Network(Kit):
             junctures[own["to"] - 1] = base @ now[-1] @ np.linalg.inv(end[-1])
             frames += [base @ frame for frame in now]
         return frames + junctures
+
+    def is_joined(self, a, b):
+        """Neighbours in a limb, and what is glued together."""
+        (p, i), (q, j) = self.bodies[a], self.bodies[b]
+        return (p == q and p is not None and abs(i - j) <= 1) or (p != q and self.is_one(a, b))
 
     def is_one(self, a, b):
         """Shells of one limb, which were judged, and what is glued together."""
@@ -551,6 +657,7 @@ def judge_all(folder):
             look(limb)
         kit.faults += limb.faults
     judge_network(kit)
+    judge_poses(kit, kit.limbs, kit.places)
     judge_divided(kit)
     if kit.sheet.get("model"):
         judge_model(kit)
@@ -569,6 +676,7 @@ def judge(folder):
     kit = Kit(folder)
     for look in (judge_files, judge_joints, judge_motion, judge_curve, judge_balance, judge_boxes):
         look(kit)
+    judge_poses(kit, [kit], lambda states: kit.frames(states[0]))
     kit.say("the kit's own verdict", kit.sheet["verdict"] == "pass")
     print(f"{folder}: {'agrees' if kit.faults == 0 else f'{kit.faults} faults'}")
     return kit.faults

@@ -12,6 +12,7 @@ mod bundle;
 #[path = "../common/mod.rs"]
 mod common;
 mod grid;
+mod slide;
 
 use std::fs;
 use std::path::Path;

@@ -40,6 +40,7 @@ use equipoise::mesh::{Solid, primitives::cuboid};
 use equipoise::polyhedra::{BasePlan, ConnectorRequest, Ground, Limits, Request};
 use equipoise::printer::Printer;
 use equipoise::skeleton::Skeleton;
+use equipoise::telescope::PoseFile;
 
 /// Damaged files for each reader, if nothing else is asked for.
 const USUAL: u64 = 300;
@@ -309,7 +310,7 @@ fn drawings_of_sheets() {
 }
 
 #[test]
-fn orders_of_cuts_jobs_and_skeletons() {
+fn orders_of_cuts_jobs_skeletons_and_poses() {
     fuzz_files("cuts", "cuts.toml", &[seeds::cuts()], |path| {
         read_plan(path).is_ok()
     });
@@ -329,6 +330,18 @@ fn orders_of_cuts_jobs_and_skeletons() {
         std::str::from_utf8(bytes).is_ok_and(|text| Skeleton::from_toml("s.toml", text).is_ok())
     };
     fuzz("skeleton", &[seeds::skeleton()], reads);
+    fuzz("pose", &[seeds::pose()], |bytes| {
+        let Ok(text) = std::str::from_utf8(bytes) else {
+            return false;
+        };
+        let Ok(pose) = PoseFile::from_toml("pose.toml", text) else {
+            return false;
+        };
+        let joints = pose.joints.iter();
+        let numbers = joints.flat_map(|joint| [joint.stroke_mm, joint.turn_deg]);
+        assert!(numbers.into_iter().all(f64::is_finite));
+        true
+    });
 }
 
 #[test]

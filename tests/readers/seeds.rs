@@ -326,6 +326,13 @@ pub fn telescope_job() -> Vec<u8> {
     job.to_toml().unwrap().into_bytes()
 }
 
+/// Returns a pose of two joints.
+pub fn pose() -> Vec<u8> {
+    b"kind = \"pose\"\nschema = 1\nname = \"bow\"\n\n[[joint]]\nid = \"A-J01\"\nstroke_mm = 38.2\n\
+      turn_deg = -12.5\n\n[[joint]]\nid = \"J02\"\nstroke_mm = 1e1 # of 30\n"
+        .to_vec()
+}
+
 /// Returns a skeleton that branches.
 pub fn skeleton() -> Vec<u8> {
     b"kind = \"skeleton\"\nschema = 1\nroot = 0\nopen = []\n\n[nodes]\n0 = [0.0, 0.0, 0.0, 5.0]\n\

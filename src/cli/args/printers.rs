@@ -119,6 +119,10 @@ pub struct CalibrateArgs {
     /// The clearance per side at which the pin falls out, mm
     #[arg(long, value_name = "MM", allow_hyphen_values = true)]
     pub loose: Option<f64>,
+    /// The clearance per side of the first sleeve of `equipoise coupon --slide` that slides and
+    /// stops, straight and bent, mm
+    #[arg(long, value_name = "MM", allow_hyphen_values = true)]
+    pub slide: Option<f64>,
     /// The thinnest pin that stood, mm
     #[arg(long, value_name = "MM", allow_hyphen_values = true)]
     pub pin: Option<f64>,
@@ -139,6 +143,10 @@ pub struct CouponArgs {
     /// Make blocks of every infill in place of the usual coupons, to weigh what is really laid
     #[arg(long, conflicts_with = "cutter")]
     pub density: bool,
+    /// Make sleeves and a plunger in place of the usual coupons, to find the clearance with which
+    /// the shells of a telescope slide
+    #[arg(long, conflicts_with_all = ["cutter", "density"])]
+    pub slide: bool,
     /// A known laser cutter's id, or a profile file, in place of a printer
     #[arg(long, value_name = "ID|FILE", requires = "sheet", conflicts_with_all = ["printer", "material"])]
     pub cutter: Option<String>,

@@ -12,7 +12,8 @@ use crate::base::units::Length;
 use crate::cli::shop::chosen_printer;
 use crate::cli::wing::Order;
 use crate::job::telescope::{
-    Bends, FootSize, JunctureKind, Lock, Opening, Root, ShellCount, Stance, TelescopeJob, Twists,
+    Bends, FootSize, JunctureKind, Lock, Opening, PoseChoice, Reach, Root, ShellCount, Stance,
+    TelescopeJob, Twists,
 };
 
 /// The arguments of `telescope`.
@@ -40,6 +41,9 @@ pub struct TelescopeArgs {
     /// What the open telescope does.
     #[command(flatten)]
     pub stance: StanceArgs,
+    /// The poses.
+    #[command(flatten)]
+    pub poses: PoseArgs,
     /// The folder of the kit [default: such as hook-telescope]
     #[arg(long, value_name = "DIR", help_heading = "Kit")]
     pub out: Option<PathBuf>,
@@ -127,8 +131,21 @@ pub struct StanceArgs {
     pub foot: Option<FootSize>,
 }
 
+/// The arguments of poses.
+#[derive(Debug, Clone, Args)]
+#[command(next_help_heading = "Poses")]
+pub struct PoseArgs {
+    /// Find the strokes and turns that bring a tip to a place, to within 1mm: `tip` of a curve, or
+    /// the limb of a figure that ends there. May be given once for each tip
+    #[arg(long, value_name = "TIP=X,Y,Z", allow_hyphen_values = true)]
+    pub reach: Vec<Reach>,
+    /// Add the pose in this file, such as one from the kit of an earlier run
+    #[arg(long, value_name = "FILE")]
+    pub pose: Option<PathBuf>,
+}
+
 /// The arguments that a replayed job decides.
-const DECIDED_BY_JOB: [&str; 23] = [
+const DECIDED_BY_JOB: [&str; 25] = [
     "printer",
     "material",
     "size",
@@ -152,6 +169,8 @@ const DECIDED_BY_JOB: [&str; 23] = [
     "goal",
     "least_angle",
     "foot",
+    "reach",
+    "pose",
 ];
 
 impl TelescopeArgs {
@@ -179,6 +198,7 @@ impl TelescopeArgs {
         let Some(printer) = chosen else {
             return Err(ArgsError::NoPrinter { input });
         };
+        let pose = self.poses.pose.as_deref().map(PoseChoice::read);
         let default = TelescopeJob::new(&input, self.scaling.scaling(), printer);
         let (shells, stance) = (self.shells, self.stance);
         Ok(TelescopeJob {
@@ -200,6 +220,8 @@ impl TelescopeArgs {
             goal: stance.goal.unwrap_or(default.goal),
             least_angle_deg: stance.least_angle.unwrap_or(default.least_angle_deg),
             foot: stance.foot.unwrap_or(default.foot),
+            reach: self.poses.reach,
+            pose: pose.transpose()?,
             ..default
         })
     }

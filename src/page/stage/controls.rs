@@ -91,5 +91,15 @@ fn played(stage: &Stage, player: &Player) -> Markup {
                 }
             }
         }
+        @if !player.poses.is_empty() {
+            fieldset {
+                legend { "Poses" }
+                ol class="chips" {
+                    @for name in &player.poses {
+                        li { button type="button" data-pose=(name) { (name) } }
+                    }
+                }
+            }
+        }
     }
 }

@@ -64,12 +64,23 @@ pub struct Film<'a> {
     pub junctures: usize,
     /// Slide (mm) and turn (rad) of every joint of every limb between moves.
     pub keys: Vec<Vec<Vec<[f64; 2]>>>,
+    /// The poses.
+    pub poses: Vec<FilmPose>,
     /// The frames of all bodies in states for which the view has room.
     pub seen: Vec<Vec<Frame>>,
     /// The points that were asked for, of each limb, mm.
     pub curves: &'a [Vec<Point>],
     /// The direction that points up.
     pub up: Vector,
+}
+
+/// A pose to be seen.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct FilmPose {
+    /// Its name.
+    pub name: String,
+    /// Slide (mm) and turn (rad) of every joint of every limb.
+    pub state: Vec<Vec<[f64; 2]>>,
 }
 
 /// The motion that the script reads.
@@ -80,6 +91,7 @@ struct PackedFilm<'a> {
     /// The thing that each body is fixed to: a limb and a shell, or a juncture.
     bodies: Vec<Vec<usize>>,
     keys: &'a [Vec<Vec<[f64; 2]>>],
+    poses: &'a [FilmPose],
 }
 
 #[derive(Serialize)]
@@ -150,6 +162,7 @@ impl Stage {
             player: Some(Player {
                 moves: film.keys.len().saturating_sub(1),
                 steps,
+                poses: film.poses.iter().map(|pose| pose.name.clone()).collect(),
             }),
         })
     }
@@ -188,6 +201,7 @@ impl<'a> Film<'a> {
             limbs: limbs.collect(),
             bodies: self.bodies.iter().map(place).collect(),
             keys: &self.keys,
+            poses: &self.poses,
         }
     }
 
@@ -294,6 +308,7 @@ mod tests {
             shells: ["S01", "S02", "S03"].map(shell).to_vec(),
             joints: ["J01", "J02"].map(joint).to_vec(),
             order: Vec::new(),
+            poses: Vec::new(),
             keys: Vec::new(),
         }
     }
@@ -336,6 +351,10 @@ mod tests {
             }],
             junctures: 2,
             keys: keys.iter().map(|key| vec![key.to_vec()]).collect(),
+            poses: vec![FilmPose {
+                name: "bow".to_owned(),
+                state: vec![vec![slid, closed]],
+            }],
             curves: &[vec![Point::origin(), Point::new(120.0, 0.0, 0.0)]],
             up: Vector::x(),
         };
@@ -351,6 +370,8 @@ mod tests {
         // Upright, the view has room for both places and for the curve.
         assert_eq!(data["box"][0][2], 0.0);
         assert_eq!(data["box"][1][2], 120.0);
+        assert_eq!(data["motion"]["poses"][0]["state"][0][1][0], 5.0);
+        assert_eq!(stage.player.unwrap().poses, ["bow"]);
         assert_eq!(data["motion"]["bodies"][3], serde_json::json!([0, 2]));
         assert_eq!(data["items"][0]["size"], serde_json::json!([4.0, 2.0, 2.0]));
     }

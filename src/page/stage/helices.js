@@ -1,7 +1,7 @@
 // Telescopes: each shell slides along its own helix, then turns about its tangent.
 {
   const data = JSON.parse(byId("view-data").textContent);
-  const { limbs, junctures, bodies, keys } = data.motion;
+  const { limbs, junctures, bodies, keys, poses: named } = data.motion;
 
   // The turn about an axis, as long as the angle (Rodrigues).
   const spin = (axis) => {
@@ -40,6 +40,7 @@
 
   // The states of all joints for a value of the slider: between two keys slides and turns go evenly.
   const mixed = (at) => {
+    if (at < 0) return named[-1 - at].state;
     const from = clamp(Math.floor(at), 0, keys.length - 1);
     const to = Math.min(from + 1, keys.length - 1);
     const share = at - from;
@@ -70,5 +71,5 @@
   };
 
   const stage = makeStage(data, poses, () => 0);
-  if (stage) makePlayer(stage, data, { words: ["All in", "All out"], figures });
+  if (stage) makePlayer(stage, data, { words: ["All in", "All out"], figures, poses: named.map(({ name }) => name) });
 }

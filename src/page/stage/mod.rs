@@ -10,7 +10,7 @@ mod pack;
 mod units;
 
 pub(super) use controls::viewer;
-pub use film::{Film, FilmBody, FilmLimb, FilmPlace};
+pub use film::{Film, FilmBody, FilmLimb, FilmPlace, FilmPose};
 pub(super) use pack::{Body, simplify_all};
 
 use serde::Serialize;
@@ -69,6 +69,8 @@ struct Player {
     /// Its greatest value.
     moves: usize,
     steps: Vec<Step>,
+    /// The names of the poses.
+    poses: Vec<String>,
 }
 
 /// A step: its name, and the value of the slider at its end.

@@ -1,13 +1,14 @@
 // A slider from step to step, with buttons; it plays unless the system asks for less motion.
 
-// `words` are those of the ends, `figures(at)` says more of a state.
-const makePlayer = (stage, data, { words, figures }) => {
+// `words` are those of the ends, `figures(at)` says more of a state. A pose is at -1, -2 and so on.
+const makePlayer = (stage, data, { words, figures, poses = [] }) => {
   const MOVE_MS = 900;
   const slider = byId("view-at");
   const play = byId("view-play");
   const state = byId("view-state");
   const more = byId("view-figures");
   const chips = [...document.querySelectorAll("button[data-to]")];
+  const poseChips = [...document.querySelectorAll("button[data-pose]")];
   const calm = window.matchMedia("(prefers-reduced-motion: reduce)");
   const end = Number(slider.max);
   let at = 0;
@@ -19,13 +20,17 @@ const makePlayer = (stage, data, { words, figures }) => {
     slider.value = at;
     stage.move(at);
     const step = data.steps.findIndex(({ to }) => at <= to);
-    const told = at <= 0 ? words[0] : at >= end ? words[1] : `Step ${step + 1} of ${data.steps.length}: ${data.steps[step].name}`;
+    const told = at < 0 ? `Pose ${poses[-1 - at]}` : at <= 0 ? words[0] : at >= end ? words[1] : `Step ${step + 1} of ${data.steps.length}: ${data.steps[step].name}`;
     const now = figures(at);
     say(state, told);
     say(more, now);
     slider.setAttribute("aria-valuetext", now ? `${told}. ${now}` : told);
     chips.forEach((chip, index) => {
       if (at > 0 && at < end && index === step) chip.setAttribute("aria-current", "step");
+      else chip.removeAttribute("aria-current");
+    });
+    poseChips.forEach((chip, index) => {
+      if (at === -1 - index) chip.setAttribute("aria-current", "step");
       else chip.removeAttribute("aria-current");
     });
     say(play, goals.length > 0 ? "Stop" : "Play");
@@ -44,6 +49,7 @@ const makePlayer = (stage, data, { words, figures }) => {
   // Goes to these values one after the other; at once where less motion is asked for.
   const go = (...to) => {
     const isRunning = goals.length > 0;
+    at = Math.max(at, 0);
     goals = calm.matches ? [] : to;
     if (goals.length === 0 && to.length > 0) at = to[to.length - 1];
     show();
@@ -63,6 +69,7 @@ const makePlayer = (stage, data, { words, figures }) => {
   byId("view-on").addEventListener("click", () => go(ends.find((to) => to > at + EPSILON) ?? end));
   byId("view-back").addEventListener("click", () => go([0, ...ends].filter((to) => to < at - EPSILON).pop() ?? 0));
   for (const chip of chips) chip.addEventListener("click", () => go(Number(chip.dataset.to)));
+  poseChips.forEach((chip, index) => chip.addEventListener("click", () => { goals = []; at = -1 - index; show(); }));
   byId("view-reset").addEventListener("click", () => { goals = []; at = 0; show(); });
   const hush = () => { play.hidden = calm.matches; if (calm.matches) go(); };
   calm.addEventListener("change", hush);

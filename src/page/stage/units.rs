@@ -88,6 +88,7 @@ impl Stage {
             player: Some(Player {
                 moves: steps.len(),
                 steps,
+                poses: Vec::new(),
             }),
         })
     }

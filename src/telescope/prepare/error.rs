@@ -69,6 +69,17 @@ pub enum TelescopeRunError {
     /// A goal that limbs do not have.
     #[error("a telescope of several limbs stands on no foot yet; remedy: leave out `{0}`")]
     NoFoot(Setting),
+    /// A tip that there is not.
+    #[error("there is no tip {tip}; remedy: name one of {}", known.join(", "))]
+    NoTip {
+        /// The name that was given.
+        tip: String,
+        /// The tips that there are.
+        known: Vec<String>,
+    },
+    /// A tip that is to be in two places.
+    #[error("the tip {0} cannot be in two places; remedy: give one place for each tip")]
+    TipTwice(String),
     /// An option of skeletons and models, with a curve.
     #[error("`{0}` is for a skeleton or a model, and a curve has no limbs; remedy: leave it out")]
     OnlyLimbs(Setting),

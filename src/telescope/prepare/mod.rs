@@ -7,6 +7,7 @@ mod asked;
 mod balance;
 mod best;
 mod error;
+mod fallen;
 mod files;
 mod ground;
 mod judge;
@@ -17,9 +18,13 @@ mod motion_file;
 mod moving;
 mod network;
 mod papers;
+mod posed;
 mod poses;
+mod posing;
 mod scene;
 mod sheet;
+mod unposed;
+mod unreached;
 
 pub use advise::Tried;
 pub use error::TelescopeRunError;
@@ -27,6 +32,7 @@ pub use load_skeleton::choose_root;
 
 use self::load::{Input, Loaded};
 use self::load_skeleton::Shop;
+use self::posing::TIP;
 use crate::base::setting::{Key, Setting};
 use crate::base::verdict::Verdict;
 use crate::base::watch::Watch;
@@ -48,6 +54,8 @@ pub fn prepare(
     job: &TelescopeJob,
     watch: &Watch,
 ) -> Result<Outcome<AnyTelescopeSheet, Tried>, TelescopeRunError> {
+    posing::pose_file(job)?;
+    posing::refuse_twice(job)?;
     let shop = load::shop(job, watch)?;
     match load::input(job, &shop, watch)? {
         Input::Curve(curve) => {
@@ -69,8 +77,15 @@ fn refuse_limbs(job: &TelescopeJob) -> Result<(), TelescopeRunError> {
         .keep_solid
         .map(|radius| Setting::new(Key::KeepSolid, radius));
     let root = job.root.map(|root| Setting::new(Key::Root, root));
-    match junctures.or(solid).or(root) {
-        Some(setting) => Err(TelescopeRunError::OnlyLimbs(setting)),
+    if let Some(setting) = junctures.or(solid).or(root) {
+        return Err(TelescopeRunError::OnlyLimbs(setting));
+    }
+    let mut reaches = job.reach.iter();
+    match reaches.find(|reach| reach.tip != TIP) {
+        Some(reach) => Err(TelescopeRunError::NoTip {
+            tip: reach.tip.clone(),
+            known: vec![TIP.to_owned()],
+        }),
         None => Ok(()),
     }
 }
@@ -97,7 +112,14 @@ fn along_curve(
             return Ok(Outcome::Impossible(Box::new(impossible)));
         }
     };
-    let draft = judge::draft(&asked, made, watch)?;
+    let poses = match posing::of_chain(job, &made, watch)? {
+        Verdict::Found(poses) => poses,
+        Verdict::No(unposed) => return Ok(Outcome::Impossible(Box::new(unposed.impossible()))),
+    };
+    if let Some(unposed) = fallen::find_fallen(&asked, &made, &poses) {
+        return Ok(Outcome::Impossible(Box::new(unposed.impossible())));
+    }
+    let draft = judge::draft(&asked, made, poses, watch)?;
     let prepared = papers::finish(&asked, draft, watch)?;
     Ok(Outcome::Prepared(Box::new(prepared)))
 }

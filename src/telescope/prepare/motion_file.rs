@@ -55,6 +55,7 @@ pub fn motion(made: &Made) -> TelescopeMotion {
             .iter()
             .map(|key| written_key(telescope, key))
             .collect(),
+        poses: Vec::new(),
     }
 }
 

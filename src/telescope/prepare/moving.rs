@@ -5,15 +5,16 @@ use rayon::prelude::*;
 use super::balance::ground;
 use super::made::{Made, PartKind};
 use super::motion_file::motion;
+use super::posing::Posed;
 use crate::base::watch::Watch;
 use crate::draw::PictureError;
 use crate::geom::{Frame, Point, Vector};
 use crate::mesh::TriMesh;
-use crate::page::{Film, FilmBody, FilmLimb, FilmPlace, Stage};
+use crate::page::{Film, FilmBody, FilmLimb, FilmPlace, FilmPose, Stage};
 use crate::repair::weld;
 use crate::telescope::motion::{Key, between};
 use crate::telescope::nest::JointState;
-use crate::telescope::network::{Limb, Network};
+use crate::telescope::network::Network;
 use crate::verify::TelescopeMotion;
 
 /// The share of a move at which the view looks for room besides the ends.
@@ -40,30 +41,22 @@ pub struct Moving {
     pub curves: Vec<Vec<Point>>,
     /// The states between moves.
     pub keys: Vec<Vec<Key>>,
+    pub poses: Vec<Posed>,
     /// The direction that points up.
     pub up: Vector,
 }
 
 impl Moving {
     /// Returns a single telescope, upright on its root's tail.
-    pub fn of_chain(made: &Made, asked: Vec<Point>) -> Self {
+    pub fn of_chain(made: &Made, poses: &[Posed], asked: Vec<Point>) -> Self {
         let design = &made.best.design;
-        let limb = Limb {
-            id: String::new(),
-            from: 0,
-            to: 1,
-            telescope: design.telescope.clone(),
-            opening: design.opening.clone(),
-        };
         Self {
             up: ground(&design.telescope).axes.column(0).into(),
-            network: Network {
-                junctures: 2,
-                limbs: vec![limb],
-            },
+            network: Network::alone(design.telescope.clone(), design.opening.clone()),
             motions: vec![motion(made)],
             bodies: limb_bodies(0, made),
             curves: vec![asked],
+            poses: poses.to_vec(),
             keys: design
                 .opening
                 .keys
@@ -103,6 +96,7 @@ impl Moving {
             limbs: limbs.collect(),
             junctures: self.network.junctures,
             keys: self.keys.iter().map(|state| written(state)).collect(),
+            poses: self.film_poses(),
             seen: self.looked_at().map(|state| self.frames(&state)).collect(),
             curves: &self.curves,
             up: self.up,
@@ -110,10 +104,21 @@ impl Moving {
         Stage::of_film(&film, watch)
     }
 
-    /// Returns the keys, and the states half way between two.
+    fn film_poses(&self) -> Vec<FilmPose> {
+        let poses = self.poses.iter().filter_map(|posed| {
+            Some(FilmPose {
+                name: posed.name.clone(),
+                state: written(posed.keys.last()?),
+            })
+        });
+        poses.collect()
+    }
+
+    /// Returns the keys, the states half way between two, and the poses.
     fn looked_at(&self) -> impl Iterator<Item = Vec<Key>> {
         let half = self.keys.windows(2).map(|pair| middle(&pair[0], &pair[1]));
-        self.keys.iter().cloned().chain(half)
+        let poses = self.poses.iter().filter_map(|own| own.keys.last().cloned());
+        self.keys.iter().cloned().chain(half).chain(poses)
     }
 }
 
@@ -123,7 +128,7 @@ fn middle(from: &[Key], to: &[Key]) -> Vec<Key> {
 }
 
 /// Returns a state as it is written.
-fn written(state: &[Key]) -> Vec<Vec<[f64; 2]>> {
+pub fn written(state: &[Key]) -> Vec<Vec<[f64; 2]>> {
     let joint = |own: &JointState| [own.slide_mm, own.turn_rad];
     state
         .iter()

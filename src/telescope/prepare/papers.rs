@@ -31,8 +31,9 @@ pub fn finish(
     watch: &Watch,
 ) -> Result<Prepared<TelescopeSheet>, TelescopeRunError> {
     watch.enter(Phase::Report);
-    let pictures = pictures(&draft.made, watch)?;
-    let moving = Moving::of_chain(&draft.made, wanted_points(asked, &draft.made));
+    let pictures = pictures(&draft.made, &draft.poses.posed, watch)?;
+    let asked_line = wanted_points(asked, &draft.made);
+    let moving = Moving::of_chain(&draft.made, &draft.poses.posed, asked_line);
     let stage = moving.stage(watch)?;
     let mut kit = Kit::default();
     for part in &draft.made.parts {
@@ -44,6 +45,9 @@ pub fn finish(
     kit.add(MOTION_FILE, draft.motion_json.into_bytes());
     kit.add(MOTION_SCENE_FILE, motion_scene(&asked.job.name(), &moving)?);
     kit.add(CURVE_FILE, draft.curve_csv.into_bytes());
+    for (file, text) in draft.poses.written().files() {
+        kit.add(&file, text.into_bytes());
+    }
     kit.add(TELESCOPE, telescope_toml(&draft.sheet)?.into_bytes());
     let mut job = asked.job.in_kit();
     if let Some(file) = &asked.file {

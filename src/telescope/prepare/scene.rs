@@ -3,6 +3,7 @@
 use super::balance::ground;
 use super::error::TelescopeRunError;
 use super::made::{Made, PartKind};
+use super::posing::Posed;
 use crate::base::watch::Watch;
 use crate::geom::{Frame, Plane, Vector};
 use crate::mesh::{ClipError, Csg, TriMesh};
@@ -16,7 +17,11 @@ const BEFORE_STOP_SHARE: f64 = 0.3;
 const SHOWN_OVERLAPS: f64 = 1.6;
 
 /// Draws the pictures of a made telescope.
-pub fn pictures(made: &Made, watch: &Watch) -> Result<Vec<Picture>, TelescopeRunError> {
+pub fn pictures(
+    made: &Made,
+    poses: &[Posed],
+    watch: &Watch,
+) -> Result<Vec<Picture>, TelescopeRunError> {
     let telescope = &made.best.design.telescope;
     let keys = &made.best.design.opening.keys;
     let (closed, open) = (telescope.closed(), telescope.open());
@@ -41,6 +46,13 @@ pub fn pictures(made: &Made, watch: &Watch) -> Result<Vec<Picture>, TelescopeRun
         collapsed: shown(&closed),
         half: shown(&half),
         extended: shown(last),
+        poses: poses
+            .iter()
+            .filter_map(|posed| {
+                let state = posed.keys.last()?.first()?;
+                Some((posed.name.clone(), shown(state)))
+            })
+            .collect(),
         up: ground.axes.column(0).into(),
         joint: cut_joint(telescope, &meshes)?,
     };

@@ -91,6 +91,7 @@ fn ordered(asked: &Asked, made: &Made) -> TelescopeSheet {
         extended_mm: [0.0; 3],
         ratio: 0.0,
         trade: made.best.rows.clone(),
+        poses: Vec::new(),
         warnings: warnings(asked, made),
         checks: Vec::new(),
         files: BTreeMap::new(),
@@ -309,7 +310,7 @@ fn tip_play_mm(telescope: &Telescope) -> f64 {
 }
 
 /// Returns a made telescope on its foot, or on the root's own cap.
-fn standing<'a>(telescope: &'a Telescope, made: &'a Made) -> Standing<'a> {
+pub fn standing<'a>(telescope: &'a Telescope, made: &'a Made) -> Standing<'a> {
     let own = DiscFoot {
         radius_mm: telescope.shells[0].body_mm,
         height_mm: 0.0,
@@ -363,8 +364,8 @@ pub fn untried(asked: &Asked, made: &Made) -> Option<String> {
     let is_untried = asked.slide.sure != Sure::Measured && count > 1;
     is_untried.then(|| {
         format!(
-            "The sliding clearance of {} mm was never tried on this machine. Print {} and {} with \
-             their caps first, and try them before you print the rest.",
+            "The sliding clearance of {} mm was never tried on this machine. Print its slide coupon, \
+             or {} and {} with their caps, and try them before you print the rest.",
             asked.slide.value,
             made.shell_id(count - 2),
             made.shell_id(count - 1)

@@ -1,6 +1,7 @@
 //! The checks of a telescope: facts against promises.
 
-use super::facts::TelescopeFacts;
+use super::facts::{GROUND_LIMIT_MM, TelescopeFacts};
+use super::pose::{PosePromise, PosesFacts, REACH_LIMIT_MM};
 use super::promise::TelescopePromise;
 use super::surfaces::Surfaces;
 use crate::verify::{Check, CheckKind, Limit};
@@ -21,8 +22,6 @@ pub(super) const MASS_LIMIT_RATIO: f64 = 1e-4;
 pub(super) const CENTRE_LIMIT_MM: f64 = 0.01;
 /// By how much a toppling angle may differ, degrees: the corners of a round foot.
 const TOPPLING_LIMIT_DEG: f64 = 0.05;
-/// Parts may reach this far below the foot, mm.
-const GROUND_LIMIT_MM: f64 = 0.01;
 /// By how much a box may differ, mm.
 pub(super) const BOX_LIMIT_MM: f64 = 0.02;
 /// By how much a part may be above or below the plate, mm.
@@ -35,6 +34,7 @@ pub fn telescope_checks(promise: &TelescopePromise, facts: &TelescopeFacts) -> V
     checks.extend(of_joints(promise, facts));
     checks.extend(of_motion(promise, facts));
     checks.extend(of_balance(promise, facts));
+    checks.extend(pose_checks(&promise.poses, &facts.poses));
     checks
 }
 
@@ -254,4 +254,22 @@ fn of_balance(promise: &TelescopePromise, facts: &TelescopeFacts) -> Vec<Check> 
         ));
     }
     checks
+}
+
+/// Holds the facts against the promises; nothing of a kit without poses.
+pub(super) fn pose_checks(promises: &[PosePromise], facts: &PosesFacts) -> Vec<Check> {
+    if promises.is_empty() && facts.faults.is_empty() {
+        return Vec::new();
+    }
+    let clear = none(
+        CheckKind::Poses,
+        "every pose is where it is stated, and reached without a touch",
+        &facts.faults,
+    );
+    let reach = facts.off_mm.map(|off_mm| {
+        let limit = Limit::at_most(REACH_LIMIT_MM, "mm");
+        let promise = "every tip is in the place that was asked for";
+        Check::new(CheckKind::Reach, promise, Some(off_mm), limit).at(facts.farthest.clone())
+    });
+    [clear].into_iter().chain(reach).collect()
 }

@@ -81,6 +81,7 @@ mod tests {
             }],
             joints: Vec::new(),
             order: Vec::new(),
+            poses: Vec::new(),
             keys: vec![MotionKey {
                 states: Vec::new(),
                 placements: Vec::new(),

@@ -16,6 +16,8 @@ pub struct TelescopeEvidence {
     pub parts: Vec<TriMesh>,
     /// The points of the curve that was asked for, mm.
     pub asked: Vec<Point>,
+    /// The texts of the pose files, in the order of the promises.
+    pub pose_files: Vec<String>,
 }
 
 impl TelescopeEvidence {

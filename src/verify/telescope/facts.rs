@@ -3,9 +3,12 @@
 use rayon::prelude::*;
 
 use super::contact::{Body, moved, seen_from};
+use super::course::{APART_SHARE, BETWEEN, Course, mixed};
 use super::deviation::{Deviated, deviation};
 use super::evidence::TelescopeEvidence;
 use super::motion::{TelescopeMotion, frame_of};
+use super::pose::{PoseMotion, PosesFacts};
+use super::poses::PoseTrial;
 use super::shells::{ShellFacts, measure};
 use super::standing::{Stands, stands, upright};
 use super::stops::{JointFacts, Trial};
@@ -16,17 +19,11 @@ use crate::mass::{Moments, moments_of_mesh};
 use crate::mesh::TriMesh;
 use crate::verify::Pose;
 
-/// States looked at in each move besides its ends.
-pub(super) const BETWEEN: [f64; 3] = [0.25, 0.5, 0.75];
+/// Parts may reach this far below the foot, mm.
+pub(super) const GROUND_LIMIT_MM: f64 = 0.01;
 
 /// States of each move at which it is looked at how low parts reach.
 const GROUND_STATES: usize = 20;
-
-/// Share of the clearance that shells must keep that do not slide in each other.
-pub(super) const APART_SHARE: f64 = 0.9;
-
-/// Two placements are the same up to this, mm: rounding.
-pub(super) const SAME_MM: f64 = 1e-9;
 
 /// The facts about a telescope.
 #[derive(Debug, Clone, PartialEq)]
@@ -63,6 +60,8 @@ pub struct TelescopeFacts {
     pub below_foot_mm: f64,
     /// The boxes of all parts when all in and all out, mm.
     pub boxes_mm: [[f64; 3]; 2],
+    /// The facts about its poses.
+    pub poses: PosesFacts,
 }
 
 /// Measures a telescope.
@@ -74,7 +73,42 @@ pub fn judge_telescope(
     watch: &Watch,
 ) -> Result<TelescopeFacts, Cancelled> {
     let bodies = shell_bodies(evidence);
-    judge_bodies(evidence, &bodies, watch)
+    let mut facts = judge_bodies(evidence, &bodies, watch)?;
+    let trial = PoseTrial {
+        promises: &evidence.promise.poses,
+        poses: &evidence.motion.poses,
+        files: &evidence.pose_files,
+        limbs: vec![evidence],
+        bodies: vec![&bodies],
+    };
+    facts.poses = trial.facts(|state| vec![evidence.motion.frames(&state[0])], watch)?;
+    let fallen = trial
+        .sound()
+        .filter_map(|pose| fallen(evidence, &bodies, pose));
+    let fallen: Vec<String> = fallen.collect();
+    facts.poses.faults.extend(fallen);
+    Ok(facts)
+}
+
+/// Returns the fault of a pose in which a telescope falls that is to stand, at a state of its way.
+fn fallen(evidence: &TelescopeEvidence, bodies: &[Body], pose: &PoseMotion) -> Option<String> {
+    let least_deg = evidence.promise.least_angle_deg?;
+    let motion = &evidence.motion;
+    let moments: Vec<Moments> = bodies
+        .iter()
+        .map(|body| moments_of_mesh(&body.mesh))
+        .collect();
+    let falls = |states: &[[f64; 2]]| {
+        let lean_deg = stands(motion, states, &moments, &bodies[0].mesh).toppling_deg;
+        lean_deg < least_deg || depth_mm(motion, states, bodies) > GROUND_LIMIT_MM
+    };
+    let keys = pose.keys.windows(2);
+    let mut ways = keys.flat_map(|pair| {
+        let shares = BETWEEN.into_iter().chain([1.0]);
+        shares.map(|share| mixed(&pair[0][0], &pair[1][0], share))
+    });
+    ways.any(|states| falls(&states))
+        .then(|| format!("pose {}: it does not stand as promised", pose.name))
 }
 
 /// Measures a telescope of which every shell with its cap is prepared, in the shell's frame.
@@ -101,8 +135,13 @@ pub(super) fn judge_bodies(
         Ok(trial.facts(own))
     });
     let joints = joints.collect::<Result<Vec<_>, Cancelled>>()?;
-    let limit_mm = APART_SHARE * promise.clearance_mm;
-    let (too_near, states) = far_pairs(motion, bodies, limit_mm, watch)?;
+    let course = Course {
+        motion,
+        bodies,
+        limit_mm: APART_SHARE * promise.clearance_mm,
+    };
+    let keys: Vec<&[[f64; 2]]> = motion.keys.iter().map(|key| &key.states[..]).collect();
+    let (too_near, states) = course.far_pairs(&keys, watch)?;
     let tube_facts = promise.parts.iter().filter(|part| part.is_tube);
     let shells = tube_facts.zip(&motion.shells).zip(&tubes);
     let shells = shells.map(|((part, shell), tube)| measure(shell, part.body_mm, tube));
@@ -115,13 +154,7 @@ pub(super) fn judge_bodies(
         .keys
         .iter()
         .map(|key| stands(motion, &key.states, &moments, &bodies[0].mesh));
-    let parts = promise.parts.iter().zip(&evidence.parts);
-    let parts = parts.map(|(part, mesh)| LyingPart {
-        id: &part.id,
-        pose: &part.print_from_shell,
-        mesh,
-    });
-    let surfaces = Surfaces::of(parts, promise.printer.build_volume_mm, watch)?;
+    let surfaces = surfaces(evidence, watch)?;
     let ends = [motion.keys.first(), motion.keys.last()];
     Ok(TelescopeFacts {
         broken: surfaces.broken,
@@ -140,7 +173,20 @@ pub(super) fn judge_bodies(
         depths_mm: depths_mm(motion, bodies),
         below_foot_mm: below_foot_mm(motion, bodies),
         boxes_mm: ends.map(|key| key.map_or([0.0; 3], |key| size_mm(motion, &key.states, bodies))),
+        poses: PosesFacts::default(),
     })
+}
+
+/// Looks at the parts as they lie on the plate.
+fn surfaces(evidence: &TelescopeEvidence, watch: &Watch) -> Result<Surfaces, Cancelled> {
+    let promise = &evidence.promise;
+    let parts = promise.parts.iter().zip(&evidence.parts);
+    let parts = parts.map(|(part, mesh)| LyingPart {
+        id: &part.id,
+        pose: &part.print_from_shell,
+        mesh,
+    });
+    Surfaces::of(parts, promise.printer.build_volume_mm, watch)
 }
 
 /// Returns every shell with its cap, in the shell's frame.
@@ -152,82 +198,6 @@ pub(super) fn shell_bodies(evidence: &TelescopeEvidence) -> Vec<Body> {
         Body::new(own.fold(TriMesh::default(), |all, (_, mesh)| all.joined(mesh)))
     };
     shells.map(body).collect()
-}
-
-/// Returns the pairs of shells, not neighbours, that come nearer than a limit, and the number of
-/// states that were looked at.
-fn far_pairs(
-    motion: &TelescopeMotion,
-    bodies: &[Body],
-    limit_mm: f64,
-    watch: &Watch,
-) -> Result<(Vec<String>, usize), Cancelled> {
-    let mut looked = Looked::default();
-    let mut states = 0;
-    for (number, pair) in motion.keys.windows(2).enumerate() {
-        let first = (number == 0).then_some(0.0);
-        for share in first.into_iter().chain(BETWEEN).chain([1.0]) {
-            watch.check()?;
-            states += 1;
-            let state = mixed(&pair[0].states, &pair[1].states, share);
-            let frames = motion.frames(&state);
-            looked.look(bodies, &frames, limit_mm, &format!("move {}", number + 1));
-        }
-    }
-    Ok((looked.too_near, states))
-}
-
-/// Two shells, from 0, and the frame of the second in that of the first.
-struct Pair {
-    shells: [usize; 2],
-    placed: Frame,
-}
-
-/// The pairs that were looked at, each where it was last.
-#[derive(Default)]
-struct Looked {
-    last: Vec<Pair>,
-    too_near: Vec<String>,
-}
-
-impl Looked {
-    fn look(&mut self, bodies: &[Body], frames: &[Frame], limit_mm: f64, state: &str) {
-        let count = bodies.len();
-        let pairs = (0..count).flat_map(|i| (i + 2..count).map(move |j| [i, j]));
-        let placed = pairs.map(|[i, j]| Pair {
-            shells: [i, j],
-            placed: seen_from(&frames[i], &frames[j]),
-        });
-        let placed: Vec<Pair> = placed.filter(|pair| !self.is_known(pair)).collect();
-        let near = placed.par_iter().filter(|pair| {
-            let [i, j] = pair.shells;
-            bodies[i].is_nearer(&bodies[j], &pair.placed, limit_mm)
-        });
-        let words = |pair: &Pair| {
-            let [i, j] = pair.shells;
-            format!("S{:02} and S{:02} in {state}", i + 1, j + 1)
-        };
-        let near: Vec<String> = near.map(words).collect();
-        self.too_near.extend(near);
-        for pair in placed {
-            self.last.retain(|last| last.shells != pair.shells);
-            self.last.push(pair);
-        }
-    }
-
-    fn is_known(&self, pair: &Pair) -> bool {
-        self.last.iter().any(|last| {
-            last.shells == pair.shells
-                && (last.placed.origin - pair.placed.origin).norm() < SAME_MM
-                && (last.placed.axes - pair.placed.axes).amax() < SAME_MM
-        })
-    }
-}
-
-pub(super) fn mixed(from: &[[f64; 2]], to: &[[f64; 2]], share: f64) -> Vec<[f64; 2]> {
-    let ends = from.iter().zip(to);
-    ends.map(|(a, b)| [0, 1].map(|i| a[i] + (b[i] - a[i]) * share))
-        .collect()
 }
 
 /// Returns the greatest difference of the placements of keys from those of the judge's screws.

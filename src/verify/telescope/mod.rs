@@ -6,6 +6,7 @@
 
 mod checks;
 mod contact;
+mod course;
 mod deviation;
 mod divided;
 mod evidence;
@@ -21,6 +22,8 @@ mod network_reading;
 mod network_seats;
 mod packages;
 mod pinned;
+mod pose;
+mod poses;
 mod promise;
 mod reading;
 mod scene;
@@ -42,6 +45,10 @@ pub use network_checks::network_checks;
 pub use network_facts::{NetworkFacts, judge_network};
 pub use network_model::ModelFacts;
 pub use network_reading::{limb_curve_file, verify_telescope};
+pub use pose::{
+    PoseMotion, PosePromise, PoseState, PoseText, PoseTextJoint, PoseTipPromise, PosesFacts,
+    REACH_LIMIT_MM,
+};
 pub use promise::{
     BalancePromise, DeviationPromise, JointPromise, TelescopePartPromise, TelescopePromise,
 };

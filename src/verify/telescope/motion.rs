@@ -3,6 +3,7 @@
 use nalgebra::Rotation3;
 use serde::{Deserialize, Serialize};
 
+use super::pose::PoseMotion;
 use crate::geom::{Frame, Matrix, Point, Vector};
 use crate::verify::Pose;
 
@@ -24,6 +25,9 @@ pub struct TelescopeMotion {
     pub order: Vec<Vec<String>>,
     /// The states between moves, from all in to all out.
     pub keys: Vec<MotionKey>,
+    /// The poses; those of several telescopes stand beside their keys.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub poses: Vec<PoseMotion>,
 }
 
 /// A shell: a tube about a helix from the start of its visible part.
@@ -188,6 +192,7 @@ mod tests {
                 turn_rad: 0.5,
             }],
             order: Vec::new(),
+            poses: Vec::new(),
             keys: Vec::new(),
         };
         let end = motion.shells[0].along(40.0);

@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::evidence::TelescopeEvidence;
 use super::juncture::{JunctureJointPromise, JuncturePromise, Piece, in_model};
 use super::motion::{TelescopeMotion, frame_of};
+use super::pose::{PoseMotion, PosePromise};
 use super::promise::TelescopePromise;
 use crate::geom::Frame;
 use crate::mesh::TriMesh;
@@ -50,6 +51,9 @@ pub struct NetworkPromise {
     pub collapsed_mm: [f64; 3],
     /// The same when all out, mm.
     pub extended_mm: [f64; 3],
+    /// The poses.
+    #[serde(default)]
+    pub poses: Vec<PosePromise>,
     /// The SHA-256 of every other file of the kit.
     #[serde(default)]
     pub files: BTreeMap<String, String>,
@@ -81,6 +85,9 @@ pub struct NetworkMotion {
     pub order: Vec<String>,
     /// The states between moves, from all in to all out.
     pub keys: Vec<NetworkKey>,
+    /// The poses.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub poses: Vec<PoseMotion>,
 }
 
 /// A state of all joints.
@@ -105,6 +112,8 @@ pub struct NetworkEvidence {
     pub junctures: Vec<Vec<PartEvidence>>,
     /// The model whose pieces they are; `None` if they are none.
     pub model: Option<TriMesh>,
+    /// The texts of the pose files, in the order of the promises.
+    pub pose_files: Vec<String>,
 }
 
 /// The places of all bodies in a state.

@@ -2,7 +2,7 @@
 
 use super::checks::{
     BOX_LIMIT_MM, CENTRE_LIMIT_MM, MASS_LIMIT_RATIO, PLACEMENT_LIMIT_MM, WALL_LIMIT_MM, none,
-    surface_checks, telescope_checks,
+    pose_checks, surface_checks, telescope_checks,
 };
 use super::divided::DividedFacts;
 use super::network::NetworkPromise;
@@ -43,7 +43,8 @@ pub fn network_checks(promise: &NetworkPromise, facts: &NetworkFacts) -> Vec<Che
     let divided = facts.divided.iter();
     let divided = divided.flat_map(|own| of_divided(own, least_mm));
     let model = facts.model.iter().flat_map(|own| of_model(promise, own));
-    let all = limbs.chain(junctures).chain(whole);
+    let poses = pose_checks(&promise.poses, &facts.poses);
+    let all = limbs.chain(junctures).chain(whole).chain(poses);
     worst(all.chain(divided).chain(model))
 }
 

@@ -3,15 +3,16 @@
 use rayon::prelude::*;
 
 use super::contact::{Body, moved};
+use super::course::{APART_SHARE, BETWEEN, SAME_MM, mixed};
 use super::divided::{DividedFacts, Joints};
-use super::facts::{
-    APART_SHARE, BETWEEN, SAME_MM, TelescopeFacts, judge_bodies, mixed, shell_bodies,
-};
+use super::facts::{TelescopeFacts, judge_bodies, shell_bodies};
 use super::motion::frame_of;
 use super::network::{NetworkEvidence, Places};
 use super::network_ends::Ends;
 use super::network_model::{Made, ModelFacts, measure_model};
 use super::network_seats::Seats;
+use super::pose::{PoseState, PosesFacts};
+use super::poses::PoseTrial;
 use super::surfaces::{LyingPart, Surfaces};
 use crate::base::units::MM3_PER_CM3;
 use crate::base::watch::{Cancelled, Watch};
@@ -49,6 +50,8 @@ pub struct NetworkFacts {
     pub centres: Vec<Point>,
     /// The boxes of all parts when all in and all out, mm.
     pub boxes_mm: [[f64; 3]; 2],
+    /// The facts about its poses.
+    pub poses: PosesFacts,
 }
 
 /// A body with its name, and what it is fixed to.
@@ -98,22 +101,17 @@ pub fn judge_network(evidence: &NetworkEvidence, watch: &Watch) -> Result<Networ
     let joints = made.joints.iter().flatten();
     let divided = joints.map(|joints| joints.facts(evidence, &made.ends, watch));
     let divided = divided.collect::<Result<Vec<_>, Cancelled>>()?;
+    let mut poses =
+        pose_trial(evidence, &shells).facts(|key| evidence.places(key).shells, watch)?;
     let bodies = named(evidence, shells, junctures);
+    poses.faults.extend(touched(evidence, &bodies, watch)?);
     let moments: Vec<Moments> = bodies
         .iter()
         .map(|b| moments_of_mesh(&b.body.mesh))
         .collect();
     let volume: f64 = moments.iter().map(Moments::volume).sum();
-    let keys = evidence.motion.keys.iter();
-    let centres = keys.map(|key| {
-        let places = evidence.places(&key.states);
-        let weighed = bodies.iter().zip(&moments).map(|(body, moments)| {
-            let frame = places.of(body.place);
-            frame.to_model(&moments.centroid()).coords * moments.volume()
-        });
-        Point::from(weighed.sum::<Vector>() / volume)
-    });
     let keys = &evidence.motion.keys;
+    let opening: Vec<&PoseState> = keys.iter().map(|key| &key.states).collect();
     let ends = [keys.first(), keys.last()];
     let size = |states: &[Vec<[f64; 2]>]| size_mm(&bodies, &evidence.places(states));
     Ok(NetworkFacts {
@@ -126,12 +124,53 @@ pub fn judge_network(evidence: &NetworkEvidence, watch: &Watch) -> Result<Networ
         seat_faults,
         divided,
         model: measure_model(evidence, &made, watch)?,
-        too_near: too_near(evidence, &bodies, watch)?,
+        too_near: too_near(evidence, &bodies, &opening, watch)?,
+        poses,
         placement_error_mm: placement_error_mm(evidence),
         mass_g: volume * promise.material.density_g_cm3 / MM3_PER_CM3,
-        centres: centres.collect(),
+        centres: centres(evidence, &bodies, &moments),
         boxes_mm: ends.map(|key| key.map_or([0.0; 3], |key| size(&key.states))),
     })
+}
+
+/// Returns the centre of mass at every key.
+fn centres(evidence: &NetworkEvidence, bodies: &[Named], moments: &[Moments]) -> Vec<Point> {
+    let volume: f64 = moments.iter().map(Moments::volume).sum();
+    let keys = evidence.motion.keys.iter();
+    let centre = keys.map(|key| {
+        let places = evidence.places(&key.states);
+        let weighed = bodies.iter().zip(moments).map(|(body, moments)| {
+            let frame = places.of(body.place);
+            frame.to_model(&moments.centroid()).coords * moments.volume()
+        });
+        Point::from(weighed.sum::<Vector>() / volume)
+    });
+    centre.collect()
+}
+
+fn pose_trial<'a>(evidence: &'a NetworkEvidence, shells: &'a [Vec<Body>]) -> PoseTrial<'a> {
+    PoseTrial {
+        promises: &evidence.promise.poses,
+        poses: &evidence.motion.poses,
+        files: &evidence.pose_files,
+        limbs: evidence.limbs.iter().collect(),
+        bodies: shells.iter().map(Vec::as_slice).collect(),
+    }
+}
+
+/// Returns the bodies of different telescopes and junctures that touch on the way to a pose.
+fn touched(
+    evidence: &NetworkEvidence,
+    bodies: &[Named],
+    watch: &Watch,
+) -> Result<Vec<String>, Cancelled> {
+    let mut faults = Vec::new();
+    for pose in pose_trial(evidence, &[]).sound() {
+        let keys: Vec<&PoseState> = pose.keys.iter().collect();
+        let near = too_near(evidence, bodies, &keys, watch)?.into_iter();
+        faults.extend(near.map(|why| format!("pose {}: {why}", pose.name)));
+    }
+    Ok(faults)
 }
 
 fn seats(evidence: &NetworkEvidence, shells: &[Vec<Body>], junctures: &[Body]) -> Vec<String> {
@@ -216,6 +255,7 @@ fn placement_error_mm(evidence: &NetworkEvidence) -> f64 {
 fn too_near(
     evidence: &NetworkEvidence,
     bodies: &[Named],
+    keys: &[&PoseState],
     watch: &Watch,
 ) -> Result<Vec<String>, Cancelled> {
     let clearance = evidence.limbs.iter().map(|limb| limb.promise.clearance_mm);
@@ -225,11 +265,11 @@ fn too_near(
     let pairs = pairs.filter(|pair| !evidence.is_one(pair.map(|body| bodies[body].place)));
     let mut pairs: Vec<Looked> = pairs.map(Looked::new).collect();
     let mut found = Vec::new();
-    for (number, pair) in evidence.motion.keys.windows(2).enumerate() {
+    for (number, pair) in keys.windows(2).enumerate() {
         let first = (number == 0).then_some(0.0);
         for share in first.into_iter().chain(BETWEEN).chain([1.0]) {
             watch.check()?;
-            let limbs = pair[0].states.iter().zip(&pair[1].states);
+            let limbs = pair[0].iter().zip(pair[1]);
             let states: Vec<_> = limbs.map(|(a, b)| mixed(a, b, share)).collect();
             let places = evidence.places(&states);
             let near = pairs.par_iter_mut().filter_map(|pair| {

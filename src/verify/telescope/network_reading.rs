@@ -11,8 +11,8 @@ use super::network_checks::network_checks;
 use super::network_facts::judge_network;
 use super::packages::network_packages_check;
 use super::reading::{
-    MOTION_FILE, TelescopeVerifyError, asked_points, mismatch, read_nominal, read_parts,
-    verify_curve,
+    MOTION_FILE, TelescopeVerifyError, asked_points, mismatch, pose_files, read_nominal,
+    read_parts, verify_curve,
 };
 use super::scene::network_scene_check;
 use crate::base::watch::Watch;
@@ -73,18 +73,12 @@ fn read(folder: &KitFolder) -> Result<NetworkEvidence, TelescopeVerifyError> {
     if let Some(why) = junctures_mismatch(&promise.junctures) {
         return Err(folder.mismatch(CHECKLIST_FILE, why).into());
     }
-    let of_limbs = promise.limbs.iter().flat_map(|limb| &limb.sheet.parts);
-    let parts = of_limbs.map(|part| &part.file);
-    let pieces = promise.junctures.iter().flat_map(|own| &own.parts);
-    let limbs = promise.limbs.iter();
-    let curves: Vec<String> = limbs.map(|limb| limb_curve_file(&limb.id)).collect();
-    all_inside_kit(
-        parts
-            .chain(pieces.map(|part| &part.file))
-            .chain(promise.files.keys())
-            .chain(&promise.model)
-            .chain(&curves),
-    )?;
+    let curves: Vec<String> = promise
+        .limbs
+        .iter()
+        .map(|limb| limb_curve_file(&limb.id))
+        .collect();
+    refuse_outside(&promise, &curves)?;
     if !curves.iter().all(|curve| promise.files.contains_key(curve)) {
         let why = "it does not list the curve of every limb";
         return Err(folder.mismatch(CHECKLIST_FILE, why).into());
@@ -100,6 +94,7 @@ fn read(folder: &KitFolder) -> Result<NetworkEvidence, TelescopeVerifyError> {
             promise: limb.sheet.clone(),
             motion: motion.clone(),
             parts: read_parts(folder, &limb.sheet)?,
+            pose_files: Vec::new(),
             asked,
         })
     });
@@ -122,9 +117,25 @@ fn read(folder: &KitFolder) -> Result<NetworkEvidence, TelescopeVerifyError> {
         model: model.transpose().map_err(KitFolderError::from)?,
         junctures: junctures?,
         limbs,
+        pose_files: pose_files(folder, &promise.poses)?,
         promise,
         motion,
     })
+}
+
+/// Refuses files that lie outside of the kit.
+fn refuse_outside(promise: &NetworkPromise, curves: &[String]) -> Result<(), KitFolderError> {
+    let of_limbs = promise.limbs.iter().flat_map(|limb| &limb.sheet.parts);
+    let parts = of_limbs.map(|part| &part.file);
+    let pieces = promise.junctures.iter().flat_map(|own| &own.parts);
+    all_inside_kit(
+        parts
+            .chain(pieces.map(|part| &part.file))
+            .chain(promise.files.keys())
+            .chain(&promise.model)
+            .chain(curves)
+            .chain(promise.poses.iter().map(|pose| &pose.file)),
+    )
 }
 
 /// Returns the reason why a motion is not that of the promises.

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
+use super::pose::PosePromise;
 use crate::verify::{Density, Pose, PrinterLimits};
 
 /// The promises of a telescope's kit, and the data needed to judge its files by them.
@@ -35,6 +36,9 @@ pub struct TelescopePromise {
     pub collapsed_mm: [f64; 3],
     /// The same when all out, mm.
     pub extended_mm: [f64; 3],
+    /// The poses.
+    #[serde(default)]
+    pub poses: Vec<PosePromise>,
     /// The SHA-256 of every other file of the kit.
     #[serde(default)]
     pub files: BTreeMap<String, String>,

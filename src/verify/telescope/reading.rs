@@ -7,6 +7,7 @@ use super::evidence::TelescopeEvidence;
 use super::facts::judge_telescope;
 use super::motion::{MotionKey, TelescopeMotion};
 use super::packages::packages_check;
+use super::pose::PosePromise;
 use super::promise::{TelescopePartPromise, TelescopePromise};
 use super::scene::scene_check;
 use crate::base::watch::{Cancelled, Watch};
@@ -66,7 +67,8 @@ fn read(folder: &KitFolder) -> Result<TelescopeEvidence, TelescopeVerifyError> {
         return Err(folder.mismatch(MOTION_FILE, why).into());
     }
     let named = promise.parts.iter().map(|part| &part.file);
-    all_inside_kit(named.chain(promise.files.keys()))?;
+    let poses = promise.poses.iter().map(|pose| &pose.file);
+    all_inside_kit(named.chain(promise.files.keys()).chain(poses))?;
     let parts = read_parts(folder, &promise);
     let asked = asked_points(&folder.bytes(CURVE_FILE)?);
     let asked = asked.map_err(|fault| TelescopeVerifyError::Points {
@@ -75,10 +77,23 @@ fn read(folder: &KitFolder) -> Result<TelescopeEvidence, TelescopeVerifyError> {
     })?;
     Ok(TelescopeEvidence {
         parts: parts?,
+        pose_files: pose_files(folder, &promise.poses)?,
         promise,
         motion,
         asked,
     })
+}
+
+/// Reads the files of poses.
+pub(super) fn pose_files(
+    folder: &KitFolder,
+    poses: &[PosePromise],
+) -> Result<Vec<String>, KitFolderError> {
+    let text = |pose: &PosePromise| {
+        let bytes = folder.bytes(&pose.file)?;
+        Ok(String::from_utf8_lossy(&bytes).into_owned())
+    };
+    poses.iter().map(text).collect()
 }
 
 /// Reads the parts of a telescope, each in its shell's frame and its own size.

@@ -1,8 +1,8 @@
 //! `motion.glb`: whether it holds the parts as they are judged, and moves them as the keys do.
 
 use super::checks::none;
+use super::course::{BETWEEN, mixed};
 use super::evidence::TelescopeEvidence;
-use super::facts::{BETWEEN, mixed};
 use super::juncture::Piece;
 use super::motion::TelescopeMotion;
 use super::network::NetworkEvidence;

@@ -4,10 +4,14 @@ use std::collections::BTreeMap;
 
 use super::super::error::TelescopeRunError;
 use super::super::files::curve_csv;
+use super::super::judge::texts;
 use super::super::made::Made;
 use super::super::motion_file::{MOTION_SCHEMA, motion, pose_of};
+use super::super::posed::Poses;
+use super::super::posing::Posed;
 use super::super::sheet::{checklist, leaning, material, printer, untried};
 use super::made::{Workshop, prefix};
+use super::posing::joints;
 use super::rows;
 use super::tree::Tree;
 use super::written::WrittenJuncture;
@@ -38,6 +42,8 @@ pub struct MadeNetwork<'a> {
     pub sequence: Vec<usize>,
     /// The limbs that stay solid, in words.
     pub solid: Vec<String>,
+    /// The poses of the job.
+    pub poses: Vec<Posed>,
 }
 
 /// A network that was judged.
@@ -76,6 +82,15 @@ impl MadeNetwork<'_> {
         parts
     }
 
+    /// Returns the poses as they are written. `joints` are the ids of every limb's joints.
+    pub fn written_poses<'a>(&'a self, joints: &'a [Vec<String>]) -> Poses<'a> {
+        Poses {
+            network: &self.tree.network,
+            joints,
+            posed: &self.poses,
+        }
+    }
+
     fn motion(&self, up: &Vector) -> NetworkMotion {
         let limbs = &self.tree.network.limbs;
         let key = |state: &Vec<Key>| NetworkKey {
@@ -99,6 +114,7 @@ impl MadeNetwork<'_> {
                 .map(|limb| limbs[*limb].id.clone())
                 .collect(),
             keys: self.keys().iter().map(key).collect(),
+            poses: self.written_poses(&joints(&self.limbs)).motions(),
         }
     }
 }
@@ -149,6 +165,7 @@ pub fn draft(workshop: &Workshop, made: &MadeNetwork) -> Result<NetworkDraft, Te
             .iter()
             .map(WrittenJuncture::evidence)
             .collect(),
+        pose_files: texts(made.written_poses(&joints(&made.limbs)).files()),
         model: model_stl.as_deref().map(stl::decode).transpose()?,
         promise,
     };
@@ -182,6 +199,7 @@ fn evidence(
             promise: limb.sheet.clone(),
             motion: read_back("motion.json", &motion_json)?,
             parts: made.parts.iter().map(|part| part.in_shell()).collect(),
+            pose_files: Vec::new(),
             asked: points.map_err(fault)?,
         })
     });
@@ -236,6 +254,7 @@ fn sheet(
         centres_mm: whole.centres_mm,
         collapsed_mm,
         extended_mm,
+        poses: made.written_poses(&joints(&made.limbs)).rows(),
         warnings: Vec::new(),
         limbs,
         checks: Vec::new(),

@@ -41,6 +41,7 @@ pub fn moving(workshop: &Workshop, made: &MadeNetwork) -> Result<Moving, Telesco
         bodies: shells.chain(junctures).collect(),
         curves,
         keys: made.keys(),
+        poses: made.poses.clone(),
         up: workshop.loaded.up,
     })
 }

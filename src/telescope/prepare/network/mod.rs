@@ -16,6 +16,7 @@ mod made;
 mod papers;
 mod pieces;
 mod plan;
+mod posing;
 mod rows;
 mod skin;
 mod sweep;
@@ -27,13 +28,14 @@ use self::limb::Studio;
 use self::made::{Form, Workshop};
 use self::plan::Measures;
 use self::skin::Skin;
-use self::sweep::{Bodies, Hit, Item};
+use self::sweep::{Bodies, Item};
 use self::tree::{Kept, Search, Tree};
 use self::written::{divide, junctures};
 use super::advise::Tried;
 use super::asked::basics;
 use super::error::TelescopeRunError;
 use super::load_skeleton::{LoadedSkeleton, Shop};
+use super::unposed::Unposed;
 use crate::base::setting::{Key, Setting};
 use crate::base::units::Length;
 use crate::base::verdict::Verdict;
@@ -89,7 +91,10 @@ pub fn prepare(
                 let prepared = papers::finish(&workshop, &made, draft)?;
                 return Ok(Outcome::Prepared(Box::new(prepared)));
             }
-            Verdict::No(barred) => {
+            Verdict::No(Failed::Pose(unposed)) => {
+                return Ok(Outcome::Impossible(Box::new(unposed.impossible())));
+            }
+            Verdict::No(Failed::Limb(barred)) => {
                 let is_shorter = barred.by_end && search.shorten_limb(&round, barred.limb);
                 if !is_shorter {
                     search.keep(Search::nodes_of(&round, barred.limb), barred.why);
@@ -122,17 +127,27 @@ struct Barred {
     by_end: bool,
 }
 
-/// Makes the parts of a network and finds a sequence that is free; else names the limb to keep
-/// solid, and why.
+/// A network that is not made.
+enum Failed {
+    /// For a limb cannot be.
+    Limb(Barred),
+    /// For a pose cannot be.
+    Pose(Box<Unposed>),
+}
+
+/// Makes the parts of a network, finds a sequence that is free, and takes the poses. Else names the
+/// limb to keep solid and why, or the pose that cannot be.
 fn attempt<'a>(
     workshop: &Workshop,
     tree: Tree<'a>,
     kept: &[Kept],
-) -> Result<Verdict<MadeNetwork<'a>, Barred>, TelescopeRunError> {
-    let barred = |limb: usize, why: String| Barred {
-        limb,
-        why,
-        by_end: false,
+) -> Result<Verdict<MadeNetwork<'a>, Failed>, TelescopeRunError> {
+    let barred = |limb: usize, why: String| {
+        Failed::Limb(Barred {
+            limb,
+            why,
+            by_end: false,
+        })
     };
     let pieces = match workshop.pieces(&tree)? {
         Ok(pieces) => pieces,
@@ -146,8 +161,18 @@ fn attempt<'a>(
     let meshes: Vec<TriMesh> = junctures.iter().map(|own| own.in_model()).collect();
     let refs: Vec<_> = limbs.iter().collect();
     let bodies = Bodies::new(&tree.network, &refs, meshes);
-    let found = bodies.sequence(workshop.watch)?;
+    let openings = tree.network.limbs.iter();
+    let openings: Vec<&[_]> = openings.map(|limb| &limb.opening.keys[..]).collect();
+    let found = bodies.sequence(&openings, workshop.watch)?;
+    let poses = match &found {
+        Ok(_) => workshop.poses(&tree, &limbs, &bodies)?,
+        Err(_) => Verdict::Found(Vec::new()),
+    };
     drop(bodies);
+    let poses = match poses {
+        Verdict::Found(poses) => poses,
+        Verdict::No(unposed) => return Ok(Verdict::No(Failed::Pose(Box::new(unposed)))),
+    };
     match found {
         Ok(sequence) => Ok(Verdict::Found(MadeNetwork {
             solid: kept.iter().map(words).collect(),
@@ -156,15 +181,16 @@ fn attempt<'a>(
             junctures: divide(workshop, &tree, junctures)?,
             tree,
             sequence,
+            poses,
         })),
         Err(hit) => {
             let end = Item::Juncture(tree.network.limbs[hit.limb].to);
             let by_end = workshop.form.skin().is_some() && hit.items.contains(&end);
-            let why = hit_words(&tree, &hit);
-            Ok(Verdict::No(Barred {
+            Ok(Verdict::No(Failed::Limb(Barred {
+                limb: hit.limb,
+                why: hit.words(&tree),
                 by_end,
-                ..barred(hit.limb, why)
-            }))
+            })))
         }
     }
 }
@@ -172,19 +198,6 @@ fn attempt<'a>(
 fn words(kept: &Kept) -> String {
     let [from, to] = kept.ends;
     format!("nodes {from} to {to}: {}", kept.why)
-}
-
-fn hit_words(tree: &Tree, hit: &Hit) -> String {
-    let limb = |limb: usize| &tree.network.limbs[limb].id;
-    let word = |item: &Item| match item {
-        Item::Shell { limb: own, shell } => format!("{}-S{:02}", limb(*own), shell + 1),
-        Item::Juncture(index) => format!("N{:02}", index + 1),
-    };
-    let [a, b] = [word(&hit.items[0]), word(&hit.items[1])];
-    format!(
-        "{a} and {b} run into each other when limb {} opens",
-        limb(hit.limb)
-    )
 }
 
 /// Returns the measures for the limbs of a skeleton.

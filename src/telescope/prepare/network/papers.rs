@@ -9,6 +9,7 @@ use super::super::error::TelescopeRunError;
 use super::draft::{MadeNetwork, NetworkDraft};
 use super::film::moving;
 use super::made::Workshop;
+use super::posing::joints;
 use crate::base::watch::Phase;
 use crate::draw::part_color;
 use crate::geom::{Frame, Matrix, Vector};
@@ -64,6 +65,9 @@ pub fn finish(
     }
     for (limb, curve) in draft.sheet.limbs.iter().zip(draft.curves) {
         kit.add(&limb_curve_file(&limb.id), curve.into_bytes());
+    }
+    for (file, text) in made.written_poses(&joints(&made.limbs)).files() {
+        kit.add(&file, text.into_bytes());
     }
     kit.add(TELESCOPE, telescope_toml(&draft.sheet)?.into_bytes());
     let skeleton = made.tree.skeleton.to_toml(&workshop.job.name());
@@ -259,6 +263,11 @@ fn view(workshop: &Workshop, made: &MadeNetwork) -> NetworkView {
         collapsed: state(keys.first()),
         half: state(keys.get(keys.len() / 2)),
         extended: state(keys.last()),
+        poses: made
+            .poses
+            .iter()
+            .map(|posed| (posed.name.clone(), state(posed.keys.last())))
+            .collect(),
         up: workshop.loaded.up,
         junctures: made.junctures.iter().map(|own| own.parts.len()).collect(),
     }

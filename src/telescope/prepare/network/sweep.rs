@@ -39,6 +39,12 @@ pub struct Hit {
     pub items: [Item; 2],
 }
 
+/// The states between the moves of a limb.
+struct Way<'a> {
+    limb: usize,
+    keys: &'a [Key],
+}
+
 struct Body {
     item: Item,
     mesh: TriMesh,
@@ -90,7 +96,13 @@ impl<'a> Bodies<'a> {
 
     /// Finds a sequence of limbs that is free: as they are listed, from the root on, or another.
     /// The error is what the first one that is barred runs into.
-    pub fn sequence(&self, watch: &Watch) -> Result<Result<Vec<usize>, Hit>, Cancelled> {
+    ///
+    /// `ways` are the states between the moves of every limb.
+    pub fn sequence(
+        &self,
+        ways: &[&[Key]],
+        watch: &Watch,
+    ) -> Result<Result<Vec<usize>, Hit>, Cancelled> {
         let mut state = self.network.closed();
         if let Some(hit) = self.at_rest(&state) {
             return Ok(Err(hit));
@@ -101,7 +113,11 @@ impl<'a> Bodies<'a> {
             let mut first_hit = None;
             let mut free = None;
             for (place, limb) in left.iter().enumerate() {
-                match self.opens(&state, *limb, watch)? {
+                let way = Way {
+                    limb: *limb,
+                    keys: ways[*limb],
+                };
+                match self.opens(&state, &way, watch)? {
                     None => {
                         free = Some(place);
                         break;
@@ -112,9 +128,8 @@ impl<'a> Bodies<'a> {
             match (free, first_hit) {
                 (Some(place), _) => {
                     let limb = left.remove(place);
-                    let keys = &self.network.limbs[limb].opening.keys;
-                    if let Some(open) = keys.last() {
-                        state[limb].clone_from(open);
+                    if let Some(last) = ways[limb].last() {
+                        state[limb].clone_from(last);
                     }
                     sequence.push(limb);
                 }
@@ -150,9 +165,10 @@ impl<'a> Bodies<'a> {
         }
     }
 
-    /// Returns what a limb runs into if it opens in a state.
-    fn opens(&self, state: &[Key], limb: usize, watch: &Watch) -> Result<Option<Hit>, Cancelled> {
-        for pair in self.network.limbs[limb].opening.keys.windows(2) {
+    /// Returns what a limb runs into if it goes its way in a state.
+    fn opens(&self, state: &[Key], way: &Way, watch: &Watch) -> Result<Option<Hit>, Cancelled> {
+        let limb = way.limb;
+        for pair in way.keys.windows(2) {
             let step = Step {
                 bodies: self,
                 state,
