@@ -317,7 +317,7 @@ fn explain_instability(least_ratio: f64, proved: bool) -> String {
 
 fn compare_moments(least_ratio: f64) -> String {
     format!(
-        "Whatever its interior, the moment of inertia across the axis is at least {least_ratio:.3} \
+        "The moment of inertia across the axis is at least {least_ratio:.3} \
          times the one about it"
     )
 }
@@ -415,7 +415,7 @@ mod tests {
                     least_miss: 0.0169,
                     separator: Quadric([0.0; 10]),
                 },
-                "1.7 %",
+                "1.7\u{a0}%",
             ),
         ]
     }
@@ -442,7 +442,7 @@ mod tests {
         let said = Status::NotDominant { least_ratio: 1.2 }.explain(&goal);
         assert!(
             said.starts_with(
-                "Impossible: it would wobble about this axis, whatever its interior. (With"
+                "Impossible: it would wobble about this axis, whatever its interior. (The"
             ),
             "{said}"
         );

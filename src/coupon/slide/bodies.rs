@@ -206,10 +206,7 @@ mod tests {
                 let gap = |by_mm: f64| distance.min_distance_to(&slid(&form, &plunger, i, by_mm));
                 // Flange and lip meet by their cones: the straight parts of both are left.
                 let rise = |mm: f64| 0.5 * (mm - set.body_mm);
-                let stop = set.length_mm
-                    - 2.0 * set.flange_length_mm
-                    - rise(set.flange_mm)
-                    - sleeve.clearance_mm
+                let stop = set.length_mm - 2.0 * set.flange_length_mm - rise(set.flange_mm)
                     + rise(sleeve.lip_mm);
                 for share in [0.1, 0.4, 0.7] {
                     let found = gap(share * stop);

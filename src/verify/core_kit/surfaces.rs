@@ -145,16 +145,14 @@ mod tests {
     }
 
     #[test]
-    fn slivers_that_cross_only_when_turned_into_the_model_are_no_crossings() {
+    fn slivers_are_no_crossings_however_a_part_is_turned_into_the_model() {
         let file = pyramid_with_a_sliver();
         assert_eq!(Crossings::of(&file).pairs, 0);
-        let mut turned_cross = 0;
         for step in 1..200 {
             let turn = Vector::new(0.017, 0.029, 0.011) * f64::from(step);
             let turn = Rotation3::from_scaled_axis(turn);
             let pose = Pose::new(turn.matrix(), &Vector::new(100.0, -50.0, 0.0));
             let mesh = file.map_vertices(|p| pose.to_model(p));
-            turned_cross += usize::from(Crossings::of(&mesh).pairs > 0);
             let promise = part_in(pose);
             let seen = Seen {
                 promise: &promise,
@@ -164,7 +162,5 @@ mod tests {
             let facts = seen.measure(None, &Watch::silent()).unwrap();
             assert_eq!(facts.crossings, 0, "{step}");
         }
-        // A judge that looked at the turned part would have refused it.
-        assert!(turned_cross > 10, "{turned_cross}");
     }
 }
