@@ -5,6 +5,9 @@ use crate::goal::GoalKind;
 use crate::sheet::Checklist;
 use crate::verify::FigureName;
 
+/// Changes of infill below this are rounding.
+const SAME_RATIO: f64 = 1e-6;
+
 /// Returns the best that is possible and what this kit reaches.
 pub fn bound_words(checklist: &Checklist) -> String {
     let proof = &checklist.certificate;
@@ -12,7 +15,7 @@ pub fn bound_words(checklist: &Checklist) -> String {
     let best = measured(proof.bound, unit);
     let infill = checklist.infill.as_ref();
     if let Some(field) = infill.and_then(|infill| infill.field.as_ref()) {
-        let least = match proof.bound <= 0.0 {
+        let least = match proof.bound < SAME_RATIO {
             true => "the wished infill alone does what was asked".to_owned(),
             false => format!("no densities that do what was asked differ by less than {best}"),
         };
@@ -22,7 +25,7 @@ pub fn bound_words(checklist: &Checklist) -> String {
             measured(proof.value, unit)
         );
     }
-    if proof.figure == FigureName::InfillChangeRatio && proof.value <= 0.0 {
+    if proof.figure == FigureName::InfillChangeRatio && proof.value < SAME_RATIO {
         return format!(
             "the infill is the wished one: it does what was asked{}",
             kept_words(checklist)
