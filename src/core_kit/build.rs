@@ -50,7 +50,7 @@ pub enum Refused {
 
 /// Draws the object that is asked for.
 ///
-/// Where rods find no places and nobody asked for them, it looks for a base without them.
+/// It looks for a base without rods if they find no places and nobody asked for them.
 pub fn build(asked: &Asked, watch: &Watch) -> Result<Verdict<Built, Refused>, CoreRunError> {
     let drawn = build_once(asked, watch)?;
     let lacks_rods = matches!(

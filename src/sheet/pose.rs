@@ -27,7 +27,7 @@ pub struct PoseRow {
 pub struct PoseJointRow {
     /// Its id.
     pub id: String,
-    /// How far its shell is out, mm.
+    /// The stroke by which its shell is out, mm.
     pub stroke_mm: f64,
     /// The stroke when all out, mm.
     pub whole_mm: f64,

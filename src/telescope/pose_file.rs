@@ -51,7 +51,7 @@ pub struct PoseFile {
 pub struct PoseJoint {
     /// Its id on the sheet.
     pub id: String,
-    /// How far its shell is out, mm: 0 if all in.
+    /// The stroke by which its shell is out, mm: 0 if all in.
     pub stroke_mm: f64,
     /// Its turn, degrees.
     pub turn_deg: f64,
@@ -310,7 +310,7 @@ pub fn pose_text(name: &str, joints: &[PoseLine]) -> String {
 pub struct PoseLine {
     /// Its id.
     pub id: String,
-    /// How far its shell is out, mm.
+    /// The stroke by which its shell is out, mm.
     pub stroke_mm: f64,
     /// The stroke when all out, mm.
     pub whole_mm: f64,

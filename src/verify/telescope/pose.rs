@@ -49,7 +49,7 @@ pub struct PoseText {
 pub struct PoseTextJoint {
     /// Its id.
     pub id: String,
-    /// How far its shell is out, mm.
+    /// The stroke by which its shell is out, mm.
     pub stroke_mm: f64,
     /// Its turn, degrees.
     #[serde(default)]
