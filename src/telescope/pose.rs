@@ -15,7 +15,7 @@ use crate::geom::{Point, Vector};
 const TURN_MM: f64 = 20.0;
 /// Starts of the search; the first are all out, half out and all in.
 const STARTS: usize = 48;
-/// Most steps from one start. Most end within some ten.
+/// Most steps from one start.
 const MAX_STEPS: usize = 200;
 /// Steps tried with more and more damping before a place counts as the nearest.
 const MAX_TRIES: usize = 14;
