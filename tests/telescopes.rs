@@ -64,6 +64,15 @@ fn an_arc_becomes_a_kit_that_stands_and_passes_both_judges() {
     lie_about_a_stop(&kit);
 }
 
+#[test]
+fn a_shell_that_bends_more_than_its_parent_stays_clear_of_the_parent_s_cap() {
+    let folder = tempfile::tempdir().unwrap();
+    let kit = folder.path().join("kit");
+    let hook = "telescope examples/models/hook.csv --printer prusa-mk4 --shells 4";
+    make(&kit, &format!("{hook} --deviation 20mm"));
+    judge_telescope(&kit);
+}
+
 /// Makes the kit again from its job: the bytes are the same, but for nothing.
 fn replay(folder: &Path, kit: &Path) {
     let again = folder.join("again");

@@ -19,6 +19,10 @@ const ROOT_SHARE: f64 = 0.5;
 /// not coincide.
 const SKIN_SHARE: f64 = 0.01;
 
+/// How far the way of a child stays clear of the spigot's face, as a share of the clearance, so
+/// that the two faces do not coincide.
+const SPIGOT_STEP_SHARE: f64 = 0.5;
+
 /// What lies in a shell: the helix and the frame of its cavity, and the radii of its bore and lip.
 pub(super) struct Inside {
     /// The helix of the shell itself.
@@ -75,7 +79,9 @@ impl Telescope {
                 None => body(disc)?,
             };
             let inside = self.inside(shell);
-            let mut whole = disc.union(&self.spigot(&inside)?)?;
+            let mut whole = self
+                .clear_way(disc, &inside)?
+                .union(&self.spigot(&inside)?)?;
             if let Some(foot) = foot {
                 whole = whole.union(&self.foot(foot)?)?;
             }
@@ -244,6 +250,21 @@ impl Telescope {
         let root = inside.outer.frame_at(root_mm);
         let plane = Plane::through(&root.origin, &root.axes.column(0).into());
         Ok(slotted.split_by_plane(&plane)?.0)
+    }
+
+    /// Returns a disc less the way of the child that slides towards it.
+    ///
+    /// A child that bends otherwise than its parent lies at an angle to the disc's face. So an
+    /// edge of the disc can reach beyond the spigot, into the child's tail.
+    fn clear_way(&self, disc: Csg, inside: &Inside) -> Result<Csg, ClipError> {
+        if inside.joint.is_none() || inside.outer == inside.helix {
+            return Ok(disc);
+        }
+        let tail = self.face_mm() - self.visible_mm;
+        let from = tail + self.sizes.spigot_mm + SPIGOT_STEP_SHARE * self.sizes.slide_mm;
+        let to = from + 2.0 * inside.bore_mm + BEYOND_MM;
+        let way = Profile::new([[from, inside.bore_mm], [to, inside.bore_mm]]);
+        disc.subtract(&body(sweep_profile(&inside.pivot, &inside.helix, &way))?)
     }
 
     /// Returns a foot, which reaches into the disc of the root's cap so that no faces coincide.
