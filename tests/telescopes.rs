@@ -7,6 +7,8 @@
 )]
 
 mod common;
+#[path = "telescopes/in_place.rs"]
+mod in_place;
 #[path = "telescopes/reach.rs"]
 mod reach;
 #[path = "telescopes/scene.rs"]
@@ -132,6 +134,36 @@ fn a_curve_that_comes_down_below_its_start_is_not_said_to_stand() {
     let (code, said) = verify(&kit);
     assert_eq!(code, Some(1), "{said}");
     assert!(said.contains("nothing reaches below its foot"), "{said}");
+}
+
+#[test]
+fn what_falls_on_its_foot_is_told_the_ballast_that_holds_it() {
+    let falls = "telescope arc:80,90 --printer prusa-mk4 --shells 3 --goal stand --foot 15mm";
+    let output = equipoise(&words(&format!("{falls} --least-angle 20 --json")));
+    assert_exit(&output, 1);
+    let answer = json(&output);
+    let reason = answer["reason"].as_str().unwrap();
+    assert!(reason.contains("on a foot of 15 mm in radius"), "{reason}");
+    let hint = answer["hints"][0].as_str().unwrap();
+    assert!(
+        hint.contains("g of ballast, flat and in the middle"),
+        "{hint}"
+    );
+    // A wider foot is a setting that was tried.
+    assert_eq!(answer["remedies"][0]["settings"][0]["key"], "foot");
+}
+
+#[test]
+fn of_two_free_orders_the_one_that_stands_on_the_lesser_foot_is_taken() {
+    let folder = tempfile::tempdir().unwrap();
+    let foot = |order: &str| {
+        let kit = folder.path().join(order);
+        let stands = "telescope arc:80,100 --printer prusa-mk4 --shells 3 --goal stand";
+        make(&kit, &format!("{stands} --least-angle 8 --order {order}"));
+        number(&checklist(&kit), "/foot/radius_mm")
+    };
+    let [root, tip, free] = ["root", "tip", "auto"].map(foot);
+    assert_eq!(free, root.min(tip), "{root} {tip}");
 }
 
 #[test]
@@ -277,6 +309,46 @@ fn a_skeleton_becomes_limbs_on_junctures_that_both_judges_pass_and_none_that_can
     replay(folder.path(), &kit);
     lie_about_the_motion(&kit);
     move_a_juncture(&kit);
+}
+
+#[test]
+fn a_figure_stands_on_a_foot_under_its_first_juncture_while_it_opens() {
+    let folder = tempfile::tempdir().unwrap();
+    let kit = folder.path().join("kit");
+    let stands = format!("telescope {FIGURE} --printer formlabs-form4 --shells 2 --goal stand");
+    make(&kit, &format!("{stands} --least-angle 12"));
+    let mut sheet = checklist(&kit);
+    assert!(number(&sheet, "/worst_toppling_deg") >= 12.0);
+    assert!(number(&sheet, "/foot/radius_mm") > 10.0);
+    let (code, said) = verify(&kit);
+    assert_eq!(code, Some(0), "{said}");
+    assert!(
+        said.contains("it stands on its foot at every state"),
+        "{said}"
+    );
+    judge_telescope(&kit);
+    // The same kit, said to stand at more.
+    sheet["least_angle_deg"] = 60.0.into();
+    fs::write(kit.join("checklist.json"), sheet.to_string()).unwrap();
+    let (code, said) = verify(&kit);
+    assert_eq!(code, Some(1), "{said}");
+}
+
+#[test]
+fn a_figure_that_cannot_stand_is_told_why() {
+    let order = |more: &str| {
+        let order = format!("telescope {FIGURE} --printer formlabs-form4 --shells 3 --goal stand");
+        let output = equipoise(&[&words(&order)[..], &words(more), &["--json"]].concat());
+        assert_exit(&output, 1);
+        json(&output)
+    };
+    let reason = |answer: &serde_json::Value| answer["reason"].as_str().unwrap().to_owned();
+    let topples = order("--foot 15mm --least-angle 60");
+    assert!(reason(&topples).contains("topples at"), "{topples}");
+    // From the cross-piece, the trunk hangs.
+    let hangs = order("--root 5");
+    assert!(reason(&hangs).contains("below the foot"), "{hangs}");
+    assert_eq!(hangs["remedies"][0]["settings"][0]["value"], "none");
 }
 
 /// Moves the cross-piece aside in its pose: the judge must find that it does not fit.

@@ -20,7 +20,9 @@ use equipoise::kit::Existing;
 use equipoise::mesh::{Solid, scaled};
 use equipoise::repair::repair;
 use equipoise::skeleton::Skeleton;
-use equipoise::telescope::{Design, JointSizes, Network, Order, Target, Wish, design, prepare};
+use equipoise::telescope::{
+    Design, JointSizes, Network, Order, Tails, Target, Wish, design, prepare,
+};
 use equipoise::verify::verify_telescope;
 use equipoise::wing::Outcome;
 
@@ -46,6 +48,7 @@ const SIZES: JointSizes = JointSizes {
     vent_mm: 2.0,
     chamfer_mm: 0.3,
     feature_mm: 0.9,
+    tails: Tails::Capped,
 };
 
 /// A curve, and what the later stages start from, made when first asked for.

@@ -125,12 +125,18 @@ choice! {
         ShellLength = "shell_length",
         /// The deviation of a telescope from its curve that is near enough.
         Deviation = "deviation",
+        /// The values that the curvature of shells takes.
+        Curvature = "curvature",
+        /// The values that the torsion of shells takes.
+        Torsion = "torsion",
         /// The sliding clearance of shells.
         Clearance = "clearance",
         /// The overlap of shells that are all out.
         Overlap = "overlap",
         /// The order in which shells come out.
         Order = "order",
+        /// The order to print the shells of a telescope in each other.
+        InPlace = "in_place",
         /// The radius of a telescope's foot.
         Foot = "foot",
         /// A place that a telescope's tip is to reach.

@@ -52,11 +52,7 @@ fn lines(sheet: &TelescopeSheet) -> String {
         .filter(|_| sheet.least_angle_deg.is_some());
     let stands = stands.map_or_else(String::new, |worst| {
         let foot = sheet.foot.as_ref().map_or(0.0, |foot| foot.radius_mm);
-        format!(
-            "stands     on a foot of {} in radius, until leaned by {}\n",
-            measured(foot, "mm"),
-            measured(worst, "°")
-        )
+        stands_line(foot, worst)
     });
     let poses = pose_lines(&sheet.poses);
     format!(
@@ -79,6 +75,14 @@ fn lines(sheet: &TelescopeSheet) -> String {
     )
 }
 
+fn stands_line(foot_mm: f64, worst_deg: f64) -> String {
+    format!(
+        "stands     on a foot of {} in radius, until leaned by {}\n",
+        measured(foot_mm, "mm"),
+        measured(worst_deg, "°")
+    )
+}
+
 /// Returns what came of a skeleton.
 fn network_lines(sheet: &NetworkSheet) -> String {
     let limbs = sheet.limbs.iter().map(|limb| {
@@ -93,6 +97,10 @@ fn network_lines(sheet: &NetworkSheet) -> String {
             measured(own.deviation.max_mm, "mm")
         )
     });
+    let stands = sheet.worst_toppling_deg.zip(sheet.foot.as_ref());
+    let stands = stands.map_or_else(String::new, |(worst, foot)| {
+        stands_line(foot.radius_mm, worst)
+    });
     let solid = sheet
         .solid
         .iter()
@@ -101,7 +109,7 @@ fn network_lines(sheet: &NetworkSheet) -> String {
         "limbs      {}, {} in all, for {}\n{}{}\
          all in     {}\n\
          all out    {}\n\
-         opens      limb {}\n{}",
+         opens      limb {}\n{stands}{}",
         sheet.limbs.len(),
         measured(sheet.mass_g, "g"),
         sheet.printer.name,

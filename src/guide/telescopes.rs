@@ -29,7 +29,9 @@
 //! # 5. Balance
 //! Mass is constant along the opening, the centre is not. A foot is chosen so that the telescope
 //! stands at every state. All play is taken up: every joint tilts by 2 g/o of its seat, the same
-//! way, and moves the centre by the sum.
+//! way, and moves the centre by the sum. Of the orders that are free, the one that stands on the
+//! least foot is taken, unless one was ordered. Where no foot holds it, the answer tells the least
+//! ballast in the middle of the foot that would.
 //!
 //! # 6. Figures
 //! A figure is a tree of junctures and limbs ([`crate::telescope::Network`]). Each limb is a
@@ -61,6 +63,11 @@
 //! their sockets with the gap, and no point in two parts. Their volumes add up to the uncut
 //! juncture, but for the joints. No part shares the socket or the peg of a limb with another.
 //!
+//! A figure that is to stand gets a foot under its first juncture, which stands still. Its disc
+//! lies about the juncture's lowest point. The least radius is taken on which the figure comes
+//! back at every state from the promised lean, with all play taken up. A figure of which a part
+//! comes below that foot is refused. So are pieces of a model: they get no foot.
+//!
 //! # 7. The motion on a screen
 //! Between two keys, slides and turns go evenly ([`crate::telescope::JointState`]). The page moves
 //! a shell by the screw of its helix (Chasles), so it shows the true path. In `motion.glb` every
@@ -80,7 +87,22 @@
 //! place beyond the sum of all is proved too far ([`crate::telescope::Network::too_far`]). The way
 //! there goes joint after joint from all in, and is swept as in section 4.
 //!
-//! # 9. Limits
+//! # 9. In place
+//! Shells of one curvature and one torsion can be printed in each other
+//! ([`crate::telescope::Tails`]). All in, their helices are one, and all tails lie in one
+//! plane. A ring closes every bore behind. It leaves the lip's radius b + g open, and its inner
+//! side is a cone of 45°. The flange of the shell in it begins with a cone of 45° too, at b + g
+//! − c − √2 g for a chamfer c. So the two are apart by g square to the cones. In a bend of
+//! curvature κ a cone on the inside is steeper, and √2 becomes √(1 + q²)/q with q = 1 − κ B.
+//! The ring holds the flange by the engagement, and both cones print without support. The last
+//! shell is closed by a disc. Two holes through every shell that holds another let powder out.
+//!
+//! Filament hangs over by no more than the profile allows, so shells may bend by no more than
+//! that. Powder may bend up to 90°, for the mouth must stay above the plane of the tails. Resin
+//! and jetted support would stay in the gaps. A slicer shows in all layers as many islands as
+//! there are shells (`tests/telescopes/in_place.rs`, PrusaSlicer).
+//!
+//! # 10. Limits
 //! Three theorems refuse curves ([`crate::telescope::Limit`]). Walls may not fit into the root,
 //! strands may be nearer than the tubes are thick, arcs too long for the ball that holds them. A
 //! poor deviation alone is no proof, and is told as the best that was found.

@@ -159,6 +159,9 @@ pub struct TelescopeJob {
     pub least_angle_deg: f64,
     /// The radius of its foot if it stands.
     pub foot: FootSize,
+    /// True to print all shells in each other, in one go.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub in_place: bool,
     /// The bodies of junctures; pieces of a model or else balls if `None`. A curve has none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub junctures: Option<JunctureKind>,
@@ -217,6 +220,7 @@ impl TelescopeJob {
             goal: Stance::None,
             least_angle_deg: USUAL_LEAST_ANGLE_DEG,
             foot: FootSize::Auto,
+            in_place: false,
             junctures: None,
             keep_solid: None,
             root: None,

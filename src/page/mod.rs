@@ -28,6 +28,7 @@ mod gluing;
 mod grid;
 mod hand_over;
 mod hardware;
+mod in_place;
 mod inertia;
 mod infill;
 mod inputs;

@@ -5,6 +5,7 @@ use maud::{Markup, html};
 use super::document::styled_document;
 use super::fields::{blank, file_name};
 use super::figure::{Picture, Role, figures};
+use super::in_place;
 use super::job_id::JobId;
 use super::poses::poses;
 use super::running::style;
@@ -49,13 +50,14 @@ impl TelescopePage<'_> {
 /// Returns the job sheet as a self-contained HTML page with its pictures.
 pub fn telescope_job(page: &TelescopePage) -> String {
     let job = page.job_id();
-    let steps = [print, clean, dry_fit, assemble, open, test];
+    let steps = steps(page);
+    let names: Vec<&str> = steps.iter().map(|(name, _)| *name).collect();
     let body = html! {
         (cover(page, &job))
         main {
             @if let Some(view) = page.view { (viewer(view)) }
-            (frame::steps(STEPS.into_iter().zip(steps.map(|step| step(page)))))
-            (sign_off())
+            (frame::steps(steps))
+            (sign_off(&names))
             (card(page.sheet))
         }
     };
@@ -64,6 +66,25 @@ pub fn telescope_job(page: &TelescopePage) -> String {
         &body,
         &style(&job),
     )
+}
+
+/// Returns the steps with their names.
+fn steps(page: &TelescopePage) -> Vec<(&'static str, Markup)> {
+    if page.sheet.in_place {
+        let steps = [
+            in_place::print(page.sheet),
+            in_place::clean(page.sheet),
+            in_place::free(page.sheet, page.pictures),
+            open(page),
+            test(page),
+        ];
+        return in_place::STEPS.into_iter().zip(steps).collect();
+    }
+    let steps = [print, clean, dry_fit, assemble, open, test];
+    STEPS
+        .into_iter()
+        .zip(steps.map(|step| step(page)))
+        .collect()
 }
 
 fn cover(page: &TelescopePage, job: &JobId) -> Markup {
@@ -106,11 +127,17 @@ fn facts(sheet: &TelescopeSheet) -> Markup {
         ("Mass", measured(sheet.mass_g, "g")),
         (
             "Kit",
-            format!(
-                "{}, {}",
-                format_count(sheet.shells.len(), "shell"),
-                format_count(sheet.shells.len(), "cap")
-            ),
+            match sheet.in_place {
+                true => format!(
+                    "{}, printed in each other",
+                    format_count(sheet.shells.len(), "shell")
+                ),
+                false => format!(
+                    "{}, {}",
+                    format_count(sheet.shells.len(), "shell"),
+                    format_count(sheet.shells.len(), "cap")
+                ),
+            },
         ),
         ("Opens", sheet.order_words.clone()),
     ];
@@ -302,14 +329,14 @@ fn test(page: &TelescopePage) -> Markup {
     }
 }
 
-pub(super) fn sign_off() -> Markup {
+pub(super) fn sign_off(steps: &[&str]) -> Markup {
     html! {
         section class="together" {
             h2 id="sign-off" { "Sign-off" }
             table class="stack" {
                 thead { tr { th scope="col" { "Step" } th scope="col" { "Name" } th scope="col" { "Date" } th scope="col" { "Remarks" } } }
                 tbody {
-                    @for (index, step) in STEPS.into_iter().chain(["Release"]).enumerate() {
+                    @for (index, step) in steps.iter().chain(&["Release"]).enumerate() {
                         tr {
                             th scope="row" { (index + 1) ". " (step) }
                             @for head in ["Name", "Date", "Remarks"] { td data-head=(head) { (blank()) } }

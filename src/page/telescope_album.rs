@@ -40,8 +40,8 @@ pub struct CutJoint {
     pub outer: TriMesh,
     /// The inner shell.
     pub inner: TriMesh,
-    /// The inner shell's cap.
-    pub cap: TriMesh,
+    /// The inner shell's cap; `None` if it is printed in place.
+    pub cap: Option<TriMesh>,
     /// The pivot: tangent, normal and binormal as axes.
     pub pivot: Frame,
     /// Wall, mm.
@@ -102,6 +102,7 @@ pub fn draw_telescope(view: &TelescopeView) -> Result<Vec<Picture>, PictureError
         .map(|(state, meshes)| of_state(view, state, meshes, &toward))
         .collect();
     drafts.push(exploded(view, &apart));
+    drafts.extend(placed.first().and_then(|meshes| nested(view, meshes)));
     drafts.extend(view.joint.as_ref().map(joint));
     drafts.par_iter().map(Draft::draw).collect()
 }
@@ -181,6 +182,34 @@ fn of_state<'a>(
     }
 }
 
+/// Draws shells that are printed in each other, cut open along the root's bend; `None` for shells
+/// with caps.
+fn nested<'a>(view: &TelescopeView, meshes: &'a [TriMesh]) -> Option<Draft<'a>> {
+    let root = view.collapsed.first()?;
+    let is_nested = view.parts.len() > 1 && view.parts.iter().all(|part| part.is_tube);
+    let axis = |column: usize| root.axes.column(column).into_owned();
+    let parts = view.parts.iter().zip(meshes);
+    let items = parts.map(|(part, mesh)| Item::new(mesh, part_color(part.shell)));
+    is_nested.then(|| Draft {
+        file: "pictures/nested.png".to_owned(),
+        role: Role::CutJoint,
+        caption: "All shells in each other, as they are printed, cut open.".to_owned(),
+        alt: "The telescope all in, cut along its axis: every shell is a wall of its own, with a \
+              gap to the next."
+            .to_owned(),
+        shot: Shot {
+            scene: Scene {
+                items: items.collect(),
+                cut: Some(Plane::through(&root.origin, &axis(2))),
+            },
+            camera: Camera::new(axis(2), axis(0)),
+            text_px: JOINT_TEXT_PX,
+            labels: Vec::new(),
+            keys: Vec::new(),
+        },
+    })
+}
+
 /// Returns the parts upright beside each other, every cap below its shell.
 fn stand_apart(view: &TelescopeView) -> Vec<TriMesh> {
     let turn = Frame::with_axis(Point::origin(), &Vector::x());
@@ -218,11 +247,15 @@ fn stand_apart(view: &TelescopeView) -> Vec<TriMesh> {
 fn exploded<'a>(view: &TelescopeView, apart: &'a [TriMesh]) -> Draft<'a> {
     let items = view.parts.iter().zip(apart);
     let names = view.parts.iter().enumerate();
+    let has_caps = view.parts.iter().any(|part| !part.is_tube);
     Draft {
         file: "pictures/exploded.svg".to_owned(),
         role: Role::Exploded,
-        caption: "The shells from the root on, every cap below its shell.".to_owned(),
-        alt: "The shells upright beside each other, each with its cap below it.".to_owned(),
+        caption: match has_caps {
+            true => "The shells from the root on, every cap below its shell.".to_owned(),
+            false => "The shells from the root on.".to_owned(),
+        },
+        alt: "The parts upright beside each other.".to_owned(),
         shot: Shot {
             scene: Scene {
                 items: items
@@ -263,12 +296,18 @@ fn joint(joint: &CutJoint) -> Draft<'_> {
             "lip".to_owned(),
         ),
         Label::At(at(-back + 1.0, joint.body_mm + 0.3), "flange".to_owned()),
-        Label::At(
-            at(-back + 0.5, 0.5 * joint.body_mm),
-            "cap, glued in".to_owned(),
-        ),
         Label::At(at(half, -joint.body_mm), word("overlap", joint.overlap_mm)),
     ];
+    let glued = joint.cap.as_ref().map(|_| {
+        let place = at(-back + 0.5, 0.5 * joint.body_mm);
+        Label::At(place, "cap, glued in".to_owned())
+    });
+    let cap = joint.cap.as_ref().map(|cap| Item {
+        hatch: Hatch::RODS,
+        ..Item::new(cap, HARDWARE)
+    });
+    let tubes = [&joint.outer, &joint.inner].into_iter().enumerate();
+    let tubes = tubes.map(|(shell, mesh)| Item::new(mesh, part_color(shell)));
     Draft {
         file: "pictures/joint.svg".to_owned(),
         role: Role::CutJoint,
@@ -276,24 +315,17 @@ fn joint(joint: &CutJoint) -> Draft<'_> {
             "J01 cut open, {} before its stop.",
             measured(joint.before_stop_mm, "mm")
         ),
-        alt: "The first joint cut along its axis: the inner shell with its flange and cap in the \
-              outer shell with its lip."
+        alt: "The first joint cut along its axis: the inner shell with its flange in the outer \
+              shell with its lip."
             .to_owned(),
         shot: Shot {
             scene: Scene {
-                items: vec![
-                    Item::new(&joint.outer, part_color(0)),
-                    Item::new(&joint.inner, part_color(1)),
-                    Item {
-                        hatch: Hatch::RODS,
-                        ..Item::new(&joint.cap, HARDWARE)
-                    },
-                ],
+                items: tubes.chain(cap).collect(),
                 cut: Some(cut),
             },
             camera: Camera::new(axis(2), axis(1)).with_label_margins(),
             text_px: JOINT_TEXT_PX,
-            labels,
+            labels: labels.into_iter().chain(glued).collect(),
             keys: Vec::new(),
         },
     }

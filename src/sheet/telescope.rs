@@ -45,6 +45,9 @@ pub struct TelescopeSheet {
     pub is_clearance_proved: bool,
     /// True if a ring holds the open telescope.
     pub is_pressed: bool,
+    /// True if all shells are printed in each other.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub in_place: bool,
     /// The shells, the root first.
     pub shells: Vec<ShellRow>,
     /// The parts in the order in which they are printed.

@@ -10,7 +10,8 @@ use crate::mass::moments_of_mesh;
 /// States of each move at which the balance is taken.
 const STATES: usize = 20;
 
-/// A round foot under the root: a disc about the root's axis, below its start.
+/// A round foot under the root: a disc about the root's axis, below its start. A root that is
+/// printed in place has it around its tail.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DiscFoot {
     /// The radius, mm.
@@ -35,11 +36,16 @@ impl Telescope {
     /// Returns the volume and centre of every shell with its cap, in the shell's frame.
     ///
     /// Exact integrals over the meshes of [`Self::shell_solid`] and [`Self::cap_solid`], with lips,
-    /// ribs and vents.
+    /// ribs and vents; in place, of [`Self::nested_solid`].
     pub fn weigh(&self) -> Result<Vec<TubeMass>, TelescopeError> {
         let weigh = |shell: usize| {
-            let tube = moments_of_mesh(self.shell_solid(shell)?.mesh());
-            let whole = tube + moments_of_mesh(self.cap_solid(shell)?.mesh());
+            let whole = match self.sizes.is_in_place() {
+                true => moments_of_mesh(self.nested_solid(shell, None)?.mesh()),
+                false => {
+                    let tube = moments_of_mesh(self.shell_solid(shell)?.mesh());
+                    tube + moments_of_mesh(self.cap_solid(shell)?.mesh())
+                }
+            };
             Ok(TubeMass {
                 volume_mm3: whole.volume(),
                 centre: Point::from(whole.first() / whole.volume()),

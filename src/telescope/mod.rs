@@ -8,7 +8,8 @@
 //! # The line
 //! [`prepare()`] goes it from a job to a kit: load, measure, design, make, judge, kit. Its middle
 //! is [`design()`]. [`Telescope::nest`] finds the radii of a chain of helices.
-//! [`Telescope::shell_solid`] and [`Telescope::cap_solid`] make its parts.
+//! [`Telescope::shell_solid`] and [`Telescope::cap_solid`] make its parts;
+//! [`Telescope::nested_solid`] those that are printed in each other.
 //! [`Telescope::find_opening`] opens it without a collision.
 //!
 //! [`Network`] joins telescopes to a tree of junctures. [`Network::reach`] finds states whose tips
@@ -28,6 +29,7 @@ mod design;
 mod error;
 mod fastened;
 mod fits;
+mod in_place;
 mod limits;
 mod motion;
 mod mount;
@@ -53,6 +55,7 @@ pub use design::{
 pub use error::TelescopeError;
 pub use fastened::Fastened;
 pub use fits::{axis_excess_mm, lock_slack_mm, turning_offset_mm};
+pub use in_place::Vent;
 pub use limits::{Limit, ball_limit, budget_limit, strands_limit};
 pub use motion::{Collision, Key, Opening, Order};
 pub use nest::{Joint, JointState, Shell, Telescope};
@@ -61,6 +64,6 @@ pub use pose::{Reached, Target, TooFar};
 pub use pose_file::{PoseFile, PoseJoint, PoseLine, pose_text};
 pub use prepare::{TelescopeRunError, Tried, prepare};
 pub use profile::Profile;
-pub use sizes::{JointSizes, Radii};
+pub use sizes::{JointSizes, Radii, Tails};
 pub use sweep::{Sector, sweep_profile, sweep_sector};
 pub use tube::TubeMass;

@@ -209,6 +209,14 @@ fn joint(
     let radii = sizes.radii(body_mm);
     let (parent, child) = (&chain.pieces[inner - 1], &chain.pieces[inner]);
     check_bend(inner + 1, child, radii.bore_mm)?;
+    let short = sizes.short_flange(child.curvature * radii.bore_mm);
+    if let Some((measure, value_mm, range)) = short {
+        return Err(TelescopeError::Size {
+            measure,
+            value_mm,
+            range,
+        });
+    }
     let half = 0.5 * sizes.overlap_mm();
     let arcs_mm = [-chain.piece_mm - half, half];
     let turn_rad = chain.turns_rad[inner - 1];

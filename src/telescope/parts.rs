@@ -10,7 +10,7 @@ use crate::geom::{Frame, Plane};
 use crate::mesh::{ClipError, Csg, MeshError, Solid, TriMesh};
 
 /// By how much tools reach beyond what they cut, mm.
-const BEYOND_MM: f64 = 1.0;
+pub(super) const BEYOND_MM: f64 = 1.0;
 
 /// By how much a spigot begins within its disc, as a share of the disc.
 const ROOT_SHARE: f64 = 0.5;
@@ -19,8 +19,8 @@ const ROOT_SHARE: f64 = 0.5;
 /// not coincide.
 const SKIN_SHARE: f64 = 0.01;
 
-/// How far the way of a child stays clear of the spigot's face, as a share of the clearance, so
-/// that the two faces do not coincide.
+/// How far the way of a child stays clear of the spigot's face, as a share of the clearance.
+/// The two faces must not coincide.
 const SPIGOT_STEP_SHARE: f64 = 0.5;
 
 /// What lies in a shell: the helix and the frame of its cavity, and the radii of its bore and lip.
@@ -160,7 +160,7 @@ impl Telescope {
     }
 
     /// Returns the joint in which a shell slides; `None` for the root.
-    fn outer_joint(&self, shell: usize) -> Option<&Joint> {
+    pub(super) fn outer_joint(&self, shell: usize) -> Option<&Joint> {
         self.joints.get(shell.checked_sub(1)?)
     }
 
@@ -198,26 +198,31 @@ impl Telescope {
     /// Returns the cavity: the bore without the twist rib and the key of the cap, which stay.
     fn cavity(&self, shell: usize) -> Result<Csg, ClipError> {
         let inside = self.inside(shell);
-        let (sizes, half) = (&self.sizes, 0.5 * self.sizes.overlap_mm());
+        let sizes = &self.sizes;
         let bore = sweep_profile(&inside.pivot, &inside.helix, &self.cavity_profile(shell));
         let tail = self.face_mm() - self.visible_mm;
         let key = inside.rib([inside.back_mm(tail) - BEYOND_MM, tail + sizes.spigot_mm]);
         let cavity = body(bore)?.subtract(&body(key)?)?;
-        let Some(joint) = inside.joint else {
+        if inside.joint.is_none() {
             return match self.fastened.tip {
                 true => cavity.subtract(&self.mouth_key(&inside)?),
                 false => Ok(cavity),
             };
-        };
-        // From the lip's cone back over the length of the flange.
-        let lip_start = half - sizes.lip_mm + joint.stop_room_mm;
+        }
+        cavity.subtract(&self.stop_rib(&inside)?)
+    }
+
+    /// Returns the twist rib: from the lip's cone back over the length of the flange.
+    pub(super) fn stop_rib(&self, inside: &Inside) -> Result<Csg, ClipError> {
+        let sizes = &self.sizes;
+        let room_mm = inside.joint.map_or(0.0, |joint| joint.stop_room_mm);
+        let lip_start = 0.5 * sizes.overlap_mm() - sizes.lip_mm + room_mm;
         let cone = lip_start - sizes.rise_mm();
-        let stop = inside.rib([cone - sizes.flange_mm, lip_start]);
-        cavity.subtract(&body(stop)?)
+        body(inside.rib([cone - sizes.flange_mm, lip_start]))
     }
 
     /// Returns the gap in a flange, through which the twist rib passes and in which it turns.
-    fn flange_gap(&self, helix: &Helix, joint: &Joint) -> Result<Csg, ClipError> {
+    pub(super) fn flange_gap(&self, helix: &Helix, joint: &Joint) -> Result<Csg, ClipError> {
         let [tail, _] = self.ends_mm();
         let skin = SKIN_SHARE * self.sizes.slide_mm;
         let sector = Sector {
@@ -292,7 +297,7 @@ impl Telescope {
         body(sweep_profile(&inside.pivot, &inside.helix, &hole))
     }
 
-    fn fault(&self, shell: usize, error: ClipError) -> TelescopeError {
+    pub(super) fn fault(&self, shell: usize, error: ClipError) -> TelescopeError {
         TelescopeError::Solid {
             shell: shell + 1,
             error,

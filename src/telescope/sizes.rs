@@ -34,6 +34,20 @@ pub struct JointSizes {
     pub chamfer_mm: f64,
     /// Least width of a feature: the twist rib has this width or more.
     pub feature_mm: f64,
+    /// What closes the shells behind.
+    pub tails: Tails,
+}
+
+/// What holds shells in each other from behind.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Tails {
+    /// Caps, which are glued in when all that lies in a shell is in it.
+    Capped,
+    /// Rings: all shells are printed in each other.
+    InPlace {
+        /// Diameter of the holes through which powder leaves, mm; `None` without powder.
+        vent_mm: Option<f64>,
+    },
 }
 
 /// The radii of a shell in its parent, mm, all about the shell's own helix.
@@ -74,9 +88,18 @@ impl JointSizes {
 
     /// Returns by how much a shell still stands out when it is all in, mm.
     ///
-    /// It is the cap of its parent with its spigot, and a gap on the inside of a bend too.
+    /// It is the cap of its parent with its spigot, and a gap on the inside of a bend too. What is
+    /// printed in place has no caps.
     pub fn closed_mm(&self) -> f64 {
-        self.flange_mm + self.spigot_mm + 2.0 * self.slide_mm
+        match self.tails {
+            Tails::Capped => self.flange_mm + self.spigot_mm + 2.0 * self.slide_mm,
+            Tails::InPlace { .. } => 0.0,
+        }
+    }
+
+    /// Returns true if all shells are printed in each other.
+    pub fn is_in_place(&self) -> bool {
+        self.tails != Tails::Capped
     }
 
     /// Returns the bound of turns: what the seat leaves of the sliding clearance.
@@ -95,6 +118,18 @@ impl JointSizes {
             lip_mm: body_mm + self.slide_mm,
             bore_mm: body_mm + self.slide_mm + self.rise_mm(),
         }
+    }
+
+    /// Returns the fault that a flange is too short for the cone at its tail, if it is: the
+    /// measure, its value and its range. `bend_ratio` is curvature times the bore's radius.
+    pub(super) fn short_flange(
+        &self,
+        bend_ratio: f64,
+    ) -> Option<(&'static str, f64, &'static str)> {
+        let cone_mm = self.tail_cone_mm(bend_ratio);
+        let is_short = self.is_in_place() && cone_mm > self.flange_mm;
+        let range = "at most the length of the flange; remedy: a longer overlap";
+        is_short.then_some(("cone at the tail", cone_mm, range))
     }
 
     /// Refuses measures with which no joint can be made.
@@ -138,7 +173,7 @@ impl JointSizes {
         ];
         let above = bounded.into_iter().find(|(_, value, most, _)| value > most);
         let above = above.map(|(measure, value, _, range)| (measure, value, range));
-        match bad.or(above) {
+        match bad.or(above).or(self.short_flange(0.0)) {
             Some((measure, value_mm, range)) => Err(TelescopeError::Size {
                 measure,
                 value_mm,

@@ -6,6 +6,7 @@ use crate::geom::{Frame, Point};
 use crate::mass::moments_of_mesh;
 use crate::mesh::{Csg, MeshDistance, Solid, TriMesh};
 
+mod in_place;
 mod motion;
 mod pose;
 
@@ -23,6 +24,7 @@ pub(super) fn sizes() -> JointSizes {
         vent_mm: 2.0,
         chamfer_mm: 0.3,
         feature_mm: 1.0,
+        tails: Tails::Capped,
     }
 }
 

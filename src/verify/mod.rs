@@ -194,10 +194,12 @@ pub use telescope::{
     ShellMotion, TelescopeEvidence, TelescopeFacts, TelescopeMotion, TelescopePartPromise,
     TelescopePromise, TelescopeVerifyError, judge_telescope, telescope_checks, verify_telescope,
 };
-pub use telescope::{CURVE_FILE, MOTION_FILE, MOTION_SCENE_FILE, OPENING, asked_points};
+pub use telescope::{
+    CURVE_FILE, MOTION_FILE, MOTION_SCENE_FILE, NESTED_FILE, NESTED_NAME, OPENING, asked_points,
+};
 // Several telescopes on junctures.
 pub use telescope::{
     DividedFacts, DividedPromise, JunctureJointPromise, JuncturePartPromise, JuncturePromise,
     LimbPromise, ModelFacts, NETWORK_SCHEMA, NetworkEvidence, NetworkFacts, NetworkKey,
-    NetworkMotion, NetworkPromise, judge_network, limb_curve_file, network_checks,
+    NetworkMotion, NetworkPromise, NetworkStanding, judge_network, limb_curve_file, network_checks,
 };

@@ -490,10 +490,48 @@ def judge_network(kit):
         centres = [(place @ np.append(mesh.center_mass, 1))[:3] for place, mesh in zip(kit.places(key["states"]), kit.meshes)]
         worst = max(worst, np.linalg.norm(np.average(centres, axis=0, weights=volumes) - promised))
     kit.say("centres", worst < CENTRE_LIMIT_MM, f"{worst:.5f} mm off at worst")
+    if kit.sheet.get("least_angle_deg") is not None:
+        judge_figure_stands(kit, volumes)
     for key, name in ((keys[0], "collapsed_mm"), (keys[-1], "extended_mm")):
         points = np.concatenate([trimesh.transform_points(mesh.vertices, place) for place, mesh in zip(kit.places(key["states"]), kit.meshes)])
         error = np.abs(np.ptp(points, axis=0) - kit.sheet[name]).max()
         kit.say(name, error < BOX_LIMIT_MM, f"{error:.5f} mm off")
+
+
+def judge_figure_stands(kit, volumes):
+    """A figure on the foot of its first juncture, at the keys and ten states of each move."""
+    up = np.array(kit.motion["up"]) / np.linalg.norm(kit.motion["up"])
+    side = np.cross(up, np.eye(3)[np.argmin(np.abs(up))])
+    side /= np.linalg.norm(side)
+    axes = np.stack([side, np.cross(up, side), up])
+    first = len(kit.bodies) - len(kit.junctures)
+    base = kit.meshes[first].vertices @ axes.T
+    ground = base[:, 2].min()
+    feet = base[base[:, 2] < ground + 1e-2][:, :2]
+    hull = feet[scipy.spatial.ConvexHull(feet).vertices]
+    edges = np.roll(hull, -1, axis=0) - hull
+    normals = np.stack([-edges[:, 1], edges[:, 0]], axis=1) / np.linalg.norm(edges, axis=1)[:, None]
+
+    def lean(states):
+        places = kit.places(states)
+        centres = [(place @ np.append(mesh.center_mass, 1))[:3] for place, mesh in zip(places, kit.meshes)]
+        *foot, height = axes @ np.average(centres, axis=0, weights=volumes)
+        margin = ((np.array(foot) - hull) * normals).sum(axis=1).min()
+        low = min((trimesh.transform_points(mesh.vertices, place) @ up).min() for place, mesh in zip(places, kit.meshes))
+        return np.degrees(np.arctan2(margin, height - ground)), ground - low
+
+    keys = kit.motion["keys"]
+    found = [lean(key["states"])[0] for key in keys]
+    off = max(abs(a - b) for a, b in zip(found, kit.sheet["toppling_deg"], strict=True))
+    least, depth = np.inf, 0.0
+    for before, after in zip(keys, keys[1:]):
+        for share in np.linspace(0, 1, 10):
+            states = [(1 - share) * np.array(a) + share * np.array(b) for a, b in zip(before["states"], after["states"])]
+            angle, below = lean(states)
+            least, depth = min(least, angle), max(depth, below)
+    kit.say("toppling", off < TOPPLING_LIMIT_DEG, f"{off:.4f}° off at worst, least {least:.2f}°")
+    kit.say("stands", least >= kit.sheet["least_angle_deg"], f"{least:.2f} of {kit.sheet['least_angle_deg']}°")
+    kit.say("ground", depth < GROUND_LIMIT_MM, f"{depth:.4f} mm below the foot at worst")
 
 
 def rod(peg, radius, low, high):

@@ -85,10 +85,10 @@ pub struct ShellArgs {
     /// radius, less if shells turn]
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
     pub overlap: Option<Length>,
-    /// One curvature for all shells, or its own for each [default: each]
+    /// One curvature for all shells, or its own for each [default: each, or one in place]
     #[arg(long, value_parser = words::<Bends>(Bends::WORDS))]
     pub curvature: Option<Bends>,
-    /// One torsion for all shells, its own for each, or none [default: each]
+    /// One torsion for all shells, its own for each, or none [default: each, or one in place]
     #[arg(long, value_parser = words::<Twists>(Twists::WORDS))]
     pub torsion: Option<Twists>,
     /// Hold open shells by a ring that is pressed in, or not [default: press]
@@ -97,6 +97,15 @@ pub struct ShellArgs {
     /// The order in which the joints open [default: auto]
     #[arg(long, value_parser = words::<Opening>(Opening::WORDS))]
     pub order: Option<Opening>,
+    /// Print all shells in each other, in one go: one curvature and one torsion for all
+    #[arg(
+        long,
+        value_name = "true|false",
+        num_args = 0..=1,
+        require_equals = true,
+        default_missing_value = "true"
+    )]
+    pub in_place: Option<bool>,
 }
 
 /// The arguments of skeletons and models.
@@ -145,7 +154,7 @@ pub struct PoseArgs {
 }
 
 /// The arguments that a replayed job decides.
-const DECIDED_BY_JOB: [&str; 25] = [
+const DECIDED_BY_JOB: [&str; 26] = [
     "printer",
     "material",
     "size",
@@ -163,6 +172,7 @@ const DECIDED_BY_JOB: [&str; 25] = [
     "torsion",
     "lock",
     "order",
+    "in_place",
     "junctures",
     "keep_solid",
     "root",
@@ -201,6 +211,7 @@ impl TelescopeArgs {
         let pose = self.poses.pose.as_deref().map(PoseChoice::read);
         let default = TelescopeJob::new(&input, self.scaling.scaling(), printer);
         let (shells, stance) = (self.shells, self.stance);
+        let in_place = shells.in_place.unwrap_or(default.in_place);
         Ok(TelescopeJob {
             shells: shells.shells.unwrap_or(default.shells),
             tip_radius: shells.tip_radius,
@@ -210,8 +221,15 @@ impl TelescopeArgs {
             wall: shells.wall,
             clearance: shells.clearance,
             overlap: shells.overlap,
-            curvature: shells.curvature.unwrap_or(default.curvature),
-            torsion: shells.torsion.unwrap_or(default.torsion),
+            curvature: shells.curvature.unwrap_or(match in_place {
+                true => Bends::One,
+                false => default.curvature,
+            }),
+            torsion: shells.torsion.unwrap_or(match in_place {
+                true => Twists::One,
+                false => default.torsion,
+            }),
+            in_place,
             lock: shells.lock.unwrap_or(default.lock),
             order: shells.order.unwrap_or(default.order),
             junctures: self.limbs.junctures,

@@ -3,15 +3,16 @@
 use serde::Serialize;
 
 use super::asked::{Asked, measure};
-use super::balance::choose_foot;
 use super::best::{Best, Reason, Refused, design};
 use super::error::TelescopeRunError;
+use super::footing::choose_order;
 use super::load::Loaded;
+use crate::base::numbers::measured;
 use crate::base::setting::{Key, Setting};
 use crate::base::units::Length;
 use crate::base::verdict::Verdict;
 use crate::base::watch::{Phase, Watch};
-use crate::job::telescope::{FootSize, ShellCount, Stance, TelescopeJob};
+use crate::job::telescope::{FootSize, Opening, ShellCount, Stance, TelescopeJob};
 use crate::sheet::telescope::TradeRow;
 use crate::telescope::limits::Limit;
 use crate::wing::{Impossible, Remedy};
@@ -68,13 +69,32 @@ pub fn remedies(
             None => tried.extend(words.map(|word| format!("another value of `{word} = …`"))),
         }
     }
+    let hints = hints(&refused.reason);
     Ok(Impossible {
+        hints,
         is_proved: refused.reason.is_proved(),
         remedies,
         tried,
         more: Tried { rows: refused.rows },
         ..Impossible::new(refused.reason.to_string())
     })
+}
+
+/// Returns what helps and is no setting.
+fn hints(reason: &Reason) -> Vec<String> {
+    match reason {
+        Reason::Falls {
+            foot_mm,
+            ballast_g: Some(ballast_g),
+            ..
+        } => vec![format!(
+            "glue {} of ballast, flat and in the middle, under a foot of {} in radius: by \
+             calculation it then stands as asked",
+            measured(ballast_g.ceil(), "g"),
+            measured(*foot_mm, "mm")
+        )],
+        _ => Vec::new(),
+    }
 }
 
 /// Returns the changes to try, in groups: of each, the first that helps is told.
@@ -117,13 +137,7 @@ fn changes(asked: &Asked, reason: &Reason) -> Vec<Vec<Change>> {
             });
             vec![farther.into_iter().collect(), vec![auto()], larger()]
         }
-        Reason::Falls { .. } => {
-            let is_given = matches!(asked.job.foot, FootSize::Given(_));
-            let auto = change(asked, Key::Foot, FootSize::Auto, |job| {
-                job.foot = FootSize::Auto;
-            });
-            vec![is_given.then_some(auto).into_iter().collect()]
-        }
+        Reason::Falls { .. } => standing_changes(asked),
         Reason::UnderGround { .. } => {
             let held = change(asked, Key::Goal, Stance::None, |job| {
                 job.goal = Stance::None;
@@ -131,11 +145,30 @@ fn changes(asked: &Asked, reason: &Reason) -> Vec<Vec<Change>> {
             vec![vec![held]]
         }
         Reason::TooLarge { .. } => Vec::new(),
+        Reason::HangsInPlace { .. } => {
+            let parts = change(asked, Key::InPlace, false, |job| job.in_place = false);
+            vec![vec![auto()], vec![parts]]
+        }
         Reason::Fit(_) => vec![vec![auto()]],
         Reason::Limit(_) | Reason::Collision(_) | Reason::Nest(_) => {
             vec![vec![auto()], larger()]
         }
     }
+}
+
+/// Returns the changes to try for what falls: a free foot, a free order.
+fn standing_changes(asked: &Asked) -> Vec<Vec<Change>> {
+    let foot = matches!(asked.job.foot, FootSize::Given(_)).then(|| {
+        change(asked, Key::Foot, FootSize::Auto, |job| {
+            job.foot = FootSize::Auto;
+        })
+    });
+    let order = (asked.job.order != Opening::Auto).then(|| {
+        change(asked, Key::Order, Opening::Auto, |job| {
+            job.order = Opening::Auto;
+        })
+    });
+    [foot, order].map(|one| one.into_iter().collect()).into()
 }
 
 fn length(mm: f64) -> Option<Length> {
@@ -210,8 +243,8 @@ fn stands(asked: &Asked, best: &Best) -> Result<bool, TelescopeRunError> {
     }
     let design = &best.design;
     let masses = design.telescope.weigh()?;
-    let foot = choose_foot(asked, &design.telescope, &design.opening, &masses);
-    Ok(foot.found().is_some())
+    let standing = choose_order(asked, &design.telescope, &design.opening, &masses);
+    Ok(standing.found().is_some())
 }
 
 fn words(best: &Best) -> String {

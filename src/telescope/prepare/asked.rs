@@ -1,6 +1,7 @@
 //! What is asked of a telescope, in the printer's measures.
 
 use super::error::TelescopeRunError;
+use super::in_place;
 use super::load::Loaded;
 use super::load_skeleton::{CurveFile, Shop};
 use crate::base::units::Length;
@@ -8,7 +9,7 @@ use crate::curve::{Curve, Freedom};
 use crate::job::telescope::{Bends, Lock, Opening, ShellCount, Stance, TelescopeJob, Twists};
 use crate::printer::{Quantity, Sourced, Sure};
 use crate::telescope::design::{OrderWish, Wish};
-use crate::telescope::sizes::JointSizes;
+use crate::telescope::sizes::{JointSizes, Tails};
 
 /// Share of the length of a curve within which a telescope is near enough if nothing else is said.
 const WITHIN_RATIO: f64 = 0.01;
@@ -44,6 +45,9 @@ const CHAMFER_WALL_RATIO: f64 = 0.5;
 
 /// Room of the build volume that is left free above a shell, mm.
 const HEADROOM_MM: f64 = 2.0;
+
+/// A right angle, degrees.
+const UPRIGHT_DEG: f64 = 90.0;
 
 /// What is asked of a telescope.
 pub struct Asked<'a> {
@@ -87,7 +91,10 @@ pub fn basics(
     length_mm: f64,
 ) -> Result<Basics, TelescopeRunError> {
     let mut warnings = Vec::new();
-    let slide = slide(job, shop, &mut warnings);
+    let slide = match job.in_place {
+        true => in_place::clearance(job, shop)?,
+        false => slide(job, shop, &mut warnings),
+    };
     let least = least_sizes(job, shop, slide.value, length_mm)?;
     least.check()?;
     if let Some(overlap_mm) = mm(job.overlap) {
@@ -214,6 +221,13 @@ impl Asked<'_> {
         }
     }
 
+    /// Returns the lean from the vertical that prints without support, rad; infinite if all do.
+    pub fn steepest_rad(&self) -> f64 {
+        let overhang = self.number(Quantity::OverhangDeg);
+        let steepest_deg = overhang.map_or(f64::INFINITY, |overhang| UPRIGHT_DEG - overhang);
+        steepest_deg.to_radians()
+    }
+
     /// Returns true if it is to stand.
     pub fn stands(&self) -> bool {
         self.job.goal == Stance::Stand
@@ -273,7 +287,7 @@ fn least_sizes(
     let flange_mm = LEAST_FLANGE_MM.max(2.0 * feature_mm);
     let foot_mm = number(Quantity::ElephantFootMm).unwrap_or(0.0);
     let lead_mm = number(Quantity::ChamferFirstLayerMm).unwrap_or(printer.chamfer_mm.value);
-    Ok(JointSizes {
+    let capped = JointSizes {
         wall_mm,
         slide_mm,
         engagement_mm,
@@ -285,6 +299,11 @@ fn least_sizes(
         vent_mm: number(Quantity::MinHoleMm).unwrap_or(printer.min_opening_mm.value),
         chamfer_mm: lead_mm.max(foot_mm).min(CHAMFER_WALL_RATIO * wall_mm),
         feature_mm,
+        tails: Tails::Capped,
+    };
+    Ok(match job.in_place {
+        true => in_place::with_rings(capped, shop),
+        false => capped,
     })
 }
 

@@ -1,10 +1,6 @@
-//! Whether a telescope stands: mass and centre in every state, and the least foot.
+//! Mass and centre of a telescope in every state, and the lean at which it topples.
 
-use super::asked::Asked;
-use super::best::Reason;
-use crate::base::verdict::Verdict;
 use crate::geom::{Frame, Point, Vector};
-use crate::job::telescope::FootSize;
 use crate::telescope::balance::DiscFoot;
 use crate::telescope::motion::{Opening, between};
 use crate::telescope::nest::{JointState, Telescope};
@@ -13,18 +9,6 @@ use crate::telescope::tube::TubeMass;
 
 /// States of each move at which the balance is taken.
 pub(super) const STATES: usize = 20;
-
-/// Step in which the radius of a foot grows, mm.
-const FOOT_STEP_MM: f64 = 1.0;
-
-/// Height of a foot over the flange's length, and the least, mm: thinner discs curl.
-const FOOT_HEIGHT_MM: f64 = 3.0;
-
-/// Room of the plate that is left free around a foot, mm.
-const PLATE_ROOM_MM: f64 = 2.0;
-
-/// Angle beyond what is promised for which a foot is chosen, degrees: rounding of files.
-const SPARE_DEG: f64 = 0.1;
 
 /// The balance in a state.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -65,7 +49,7 @@ impl Standing<'_> {
         // The edge on which it rests is chamfered.
         let edge_mm = self.foot.radius_mm - self.telescope.sizes.chamfer_mm;
         let margin_mm = edge_mm - local.y.hypot(local.z);
-        let height_mm = local.x + self.foot.height_mm;
+        let height_mm = local.x + drop_mm(self.telescope, &self.foot);
         let sagged_mm = margin_mm - self.sag_mm(&placed, &frames);
         Balanced {
             centre,
@@ -110,7 +94,7 @@ pub fn tilt_rad(seat_mm: f64, sizes: &JointSizes) -> f64 {
     2.0 * seat_mm / sizes.overlap_mm()
 }
 
-fn centre(placed: &[TubeMass]) -> Point {
+pub(super) fn centre(placed: &[TubeMass]) -> Point {
     let volume: f64 = placed.iter().map(|mass| mass.volume_mm3).sum();
     let weighed = placed
         .iter()
@@ -124,90 +108,15 @@ pub fn ground(telescope: &Telescope) -> Frame {
 }
 
 /// Returns the frame of the root's tail in that of the root.
-fn tail(telescope: &Telescope) -> Frame {
+pub(super) fn tail(telescope: &Telescope) -> Frame {
     let helix = &telescope.shells[0].helix;
     helix.frame_at(telescope.ends_mm()[0])
 }
 
-/// Returns the volume of a foot with the root's mass, in the root's frame.
-fn with_foot(root: &TubeMass, telescope: &Telescope, foot: &DiscFoot) -> TubeMass {
-    let disc = TubeMass {
-        volume_mm3: std::f64::consts::PI * foot.radius_mm.powi(2) * foot.height_mm,
-        centre: tail(telescope).to_model(&Point::new(-0.5 * foot.height_mm, 0.0, 0.0)),
-    };
-    let both = [*root, disc];
-    TubeMass {
-        volume_mm3: both.iter().map(|mass| mass.volume_mm3).sum(),
-        centre: centre(&both),
+/// Returns how far a foot reaches below the root's tail, mm. In place it lies around the root.
+pub(super) fn drop_mm(telescope: &Telescope, foot: &DiscFoot) -> f64 {
+    match telescope.sizes.is_in_place() {
+        true => 0.0,
+        false => foot.height_mm,
     }
 }
-
-/// Chooses the foot: as ordered, or the least on which it stands as promised; `None` if it need not
-/// stand.
-pub fn choose_foot(
-    asked: &Asked,
-    telescope: &Telescope,
-    opening: &Opening,
-    masses: &[TubeMass],
-) -> Verdict<Option<DiscFoot>, Reason> {
-    if !asked.stands() {
-        return Verdict::Found(None);
-    }
-    let height_mm = FOOT_HEIGHT_MM.max(2.0 * telescope.sizes.wall_mm);
-    let foot = |radius_mm: f64| DiscFoot {
-        radius_mm,
-        height_mm,
-    };
-    let least = Standing {
-        telescope,
-        masses,
-        foot: foot(telescope.shells[0].body_mm),
-    };
-    let lowest = least.lowest_over(opening);
-    if let Some(lowest) = lowest.filter(|lowest| !least.is_clear(lowest)) {
-        return Verdict::No(Reason::UnderGround {
-            shell: lowest.shell + 1,
-            below_mm: -lowest.height_mm - height_mm,
-        });
-    }
-    let angle_deg = |radius_mm: f64| {
-        let foot = foot(radius_mm);
-        let mut masses = masses.to_vec();
-        masses[0] = with_foot(&masses[0], telescope, &foot);
-        let standing = Standing {
-            telescope,
-            masses: &masses,
-            foot,
-        };
-        standing.worst(opening).1.sagged_rad.to_degrees()
-    };
-    let least_deg = asked.job.least_angle_deg;
-    let room = asked.shop.printer.usable_volume_mm();
-    let most_mm = room.map_or(MOST_FOOT_MM, |[x, y, _]| 0.5 * x.min(y) - PLATE_ROOM_MM);
-    let falls = |radius_mm: f64| {
-        Verdict::No(Reason::Falls {
-            angle_deg: angle_deg(radius_mm),
-            least_deg,
-            foot_mm: radius_mm,
-        })
-    };
-    match asked.job.foot {
-        FootSize::Given(radius) if angle_deg(radius.mm()) >= least_deg => {
-            Verdict::Found(Some(foot(radius.mm())))
-        }
-        FootSize::Given(radius) => falls(radius.mm()),
-        FootSize::Auto => {
-            let first_mm = (telescope.shells[0].body_mm + FOOT_STEP_MM).ceil();
-            let steps = ((most_mm - first_mm) / FOOT_STEP_MM).max(0.0) as usize;
-            let radii = (0..=steps).map(|i| first_mm + FOOT_STEP_MM * i as f64);
-            let mut holds = radii.filter(|mm| angle_deg(*mm) >= least_deg + SPARE_DEG);
-            match holds.next() {
-                Some(radius_mm) => Verdict::Found(Some(foot(radius_mm))),
-                None => falls(most_mm),
-            }
-        }
-    }
-}
-
-/// The greatest foot for a printer whose plate is not known, mm.
-const MOST_FOOT_MM: f64 = 100.0;

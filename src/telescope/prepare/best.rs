@@ -1,6 +1,7 @@
 //! The best telescope for a curve: the fewest shells that come near enough.
 
 use super::asked::Asked;
+use super::nested::find_overhang;
 use crate::base::verdict::Verdict;
 use crate::base::watch::{Cancelled, Phase, Watch};
 use crate::curve::{Deviation, first_guess};
@@ -65,9 +66,13 @@ pub enum Reason {
         angle_deg: f64,
         least_deg: f64,
         foot_mm: f64,
+        /// The least mass in the middle of the foot with which it would stand, g.
+        ballast_g: Option<f64>,
     },
     /// It reaches below the foot on which it should stand.
     UnderGround { shell: usize, below_mm: f64 },
+    /// Shells bend by more than can be printed in place.
+    HangsInPlace { bend_deg: f64, most_deg: f64 },
     /// Parts are larger than the printer.
     TooLarge { part: String, size_mm: [f64; 3] },
 }
@@ -137,7 +142,12 @@ impl Search<'_> {
             let wish = self.asked.wish(shells, &sizes);
             match design_shells(self.asked.curve, &wish, shells) {
                 Ok(design) => {
-                    self.take(shells, design);
+                    match find_overhang(self.asked, &design.telescope) {
+                        Some([bend_deg, most_deg]) => {
+                            self.refuse(shells, Reason::HangsInPlace { bend_deg, most_deg });
+                        }
+                        None => self.take(shells, design),
+                    }
                     return Ok(());
                 }
                 Err(error) => last = Some(error),
@@ -284,15 +294,21 @@ impl std::fmt::Display for Reason {
                 angle_deg,
                 least_deg,
                 foot_mm,
+                ballast_g: _,
             } => write!(
                 f,
-                "it topples at {angle_deg:.1}° on a foot of {foot_mm:.0} mm in radius, the greatest \
-                 that can be printed, where {least_deg:.1}° is asked"
+                "it topples at {angle_deg:.1}° on a foot of {foot_mm:.0} mm in radius, where \
+                 {least_deg:.1}° is asked"
             ),
             Self::UnderGround { shell, below_mm } => write!(
                 f,
                 "as it opens, shell S{shell:02} reaches {below_mm:.1} mm below the table: the root \
                  stands where the curve begins, and points up along it"
+            ),
+            Self::HangsInPlace { bend_deg, most_deg } => write!(
+                f,
+                "printed in place, its shells would bend by {bend_deg:.0}°, where {most_deg:.0}° is the \
+                 most that stays free of support between them"
             ),
             Self::TooLarge {
                 part,

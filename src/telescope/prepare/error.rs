@@ -14,7 +14,7 @@ use crate::io::{ContentError, LinesError, ReadError, StlError};
 use crate::job::JobError;
 use crate::job::telescope::JunctureKind;
 use crate::mesh::{ClipError, Defects};
-use crate::printer::{MaterialError, ProfileError, WallError};
+use crate::printer::{MaterialError, ProfileError, Quantity, WallError};
 use crate::repair::NotOneBody;
 use crate::skeleton::SkeletonError;
 use crate::telescope::error::TelescopeError;
@@ -66,8 +66,12 @@ pub enum TelescopeRunError {
     /// There is no such skeleton.
     #[error(transparent)]
     Skeleton(#[from] SkeletonError),
-    /// A goal that limbs do not have.
-    #[error("a telescope of several limbs stands on no foot yet; remedy: leave out `{0}`")]
+    /// A foot that pieces of a model do not have.
+    #[error(
+        "junctures that are pieces of a model get no foot, so `{0}` cannot be promised; remedy: \
+         `{ball}`, or leave it out",
+        ball = Setting::new(Key::Junctures, JunctureKind::Ball)
+    )]
     NoFoot(Setting),
     /// A tip that there is not.
     #[error("there is no tip {tip}; remedy: name one of {}", known.join(", "))]
@@ -80,6 +84,36 @@ pub enum TelescopeRunError {
     /// A tip that is to be in two places.
     #[error("the tip {0} cannot be in two places; remedy: give one place for each tip")]
     TipTwice(String),
+    /// Limbs that are to be printed in place.
+    #[error(
+        "limbs are glued to junctures, so `{own}` is for a curve alone; remedy: leave it out",
+        own = Setting::new(Key::InPlace, true)
+    )]
+    LimbsInPlace,
+    /// Shells of unlike shapes that are to be printed in place.
+    #[error(
+        "`{given}` gives shells of unlike shapes, whose tails lie in no one plane, so they cannot be \
+         printed in each other; remedy: `{remedy}`"
+    )]
+    UnlikeInPlace {
+        /// What was asked.
+        given: Setting,
+        /// What can be printed.
+        remedy: Setting,
+    },
+    /// A printer that cannot print shells in each other.
+    #[error(
+        "{printer} cannot print shells in each other: resin or support would stay between them, and \
+         its profile has no `{quantity}`; remedy: leave out `{own}`, or choose a printer that lays \
+         filament or melts powder",
+        own = Setting::new(Key::InPlace, true)
+    )]
+    NotInPlace {
+        /// The printer's id.
+        printer: String,
+        /// The quantity that its profile lacks.
+        quantity: Quantity,
+    },
     /// An option of skeletons and models, with a curve.
     #[error("`{0}` is for a skeleton or a model, and a curve has no limbs; remedy: leave it out")]
     OnlyLimbs(Setting),

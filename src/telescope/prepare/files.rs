@@ -7,11 +7,12 @@ use super::error::TelescopeRunError;
 use super::made::{Made, WrittenPart, from_print};
 use crate::draw::part_color;
 use crate::geom::{Frame, Matrix, Point, Vector};
-use crate::io::threemf::{Build, Object, Package, Transform};
+use crate::io::threemf::{Build, Object, Package, PrintSettings, Transform};
 use crate::make::{Arrangement, File, plates, print_settings};
 use crate::mesh::TriMesh;
 use crate::sheet::telescope::{ShellRow, TelescopeSheet};
 use crate::telescope::motion::Key;
+use crate::verify::{NESTED_FILE, NESTED_NAME};
 use crate::wing::Unwritable;
 
 /// Points of the curve that are written for each shell.
@@ -96,7 +97,17 @@ pub fn packages(asked: &Asked, made: &Made) -> Result<Vec<File>, TelescopeRunErr
     let together = ends.into_iter().filter_map(|(file, words, key)| {
         Some((file.to_owned(), together(asked, made, key?, words)))
     });
-    let jobs = together.chain(plates(&asked.shop.printer, &printed));
+    let in_place = asked.job.in_place;
+    let apart = match in_place {
+        true => Vec::new(),
+        false => plates(&asked.shop.printer, &printed),
+    };
+    let jobs = together.chain(apart);
+    let settings = print_settings(&asked.shop.printer).map(|usual| PrintSettings {
+        // Support between shells could never be taken out.
+        overhang_deg: usual.overhang_deg.filter(|_| !in_place),
+        ..usual
+    });
     let name = asked.job.name();
     let jobs = jobs.map(|(file, (description, build))| {
         let title = file.trim_end_matches(".3mf");
@@ -106,11 +117,39 @@ pub fn packages(asked: &Asked, made: &Made) -> Result<Vec<File>, TelescopeRunErr
             job: name.clone(),
             objects: &objects,
             build,
-            settings: print_settings(&asked.shop.printer),
+            settings: settings.clone(),
         };
         Ok((file, package.encode()?))
     });
-    jobs.collect()
+    let mut files: Vec<File> = jobs.collect::<Result<_, TelescopeRunError>>()?;
+    if in_place {
+        files.push(nested(name, &printed, settings)?);
+    }
+    Ok(files)
+}
+
+/// Returns the package of all shells in each other as they are printed, as one body of one object.
+/// Slicers take several bodies apart and arrange them anew.
+fn nested(
+    name: String,
+    printed: &[TriMesh],
+    settings: Option<PrintSettings>,
+) -> Result<File, TelescopeRunError> {
+    let parts = printed.iter();
+    let whole = parts.fold(TriMesh::default(), |all, part| all.joined(part));
+    let here = Transform {
+        linear: Matrix::identity(),
+        shift: Vector::zeros(),
+    };
+    let package = Package {
+        title: format!("{name} in place"),
+        description: "All shells in each other, in print pose.".to_owned(),
+        job: name,
+        objects: &[Object::new(NESTED_NAME, part_color(0), &whole)],
+        build: Build::Items(vec![(0, here)]),
+        settings,
+    };
+    Ok((NESTED_FILE.to_owned(), package.encode()?))
 }
 
 /// Returns the parts where they are in a state: what was done to print them is undone.

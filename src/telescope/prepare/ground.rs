@@ -1,6 +1,6 @@
 //! The lowest place of a telescope along its opening, against the ground under its root.
 
-use super::balance::{STATES, Standing, ground};
+use super::balance::{STATES, Standing, drop_mm, ground};
 use crate::telescope::motion::{Opening, between};
 use crate::telescope::nest::JointState;
 
@@ -67,6 +67,6 @@ impl Standing<'_> {
 
     /// Returns true if nothing reaches below the ground in a state: it may stand on its root.
     pub fn is_clear(&self, lowest: &Lowest) -> bool {
-        lowest.height_mm >= -self.foot.height_mm - ROUNDING_MM
+        lowest.height_mm >= -drop_mm(self.telescope, &self.foot) - ROUNDING_MM
     }
 }

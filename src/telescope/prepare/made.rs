@@ -3,10 +3,11 @@
 use rayon::prelude::*;
 
 use super::asked::Asked;
-use super::balance::choose_foot;
 use super::best::{Best, Reason, Refused};
 use super::error::TelescopeRunError;
+use super::footing::choose_order;
 use super::load_skeleton::Shop;
+use super::nested::lay_nested;
 use super::poses::{Laid, Lies, lay_cap, lay_shell};
 use crate::base::verdict::Verdict;
 use crate::base::watch::{Phase, Watch};
@@ -15,15 +16,11 @@ use crate::io::stl;
 use crate::make::write_free_of_folds;
 use crate::mass::{Moments, moments_of_mesh};
 use crate::mesh::{Solid, TriMesh};
-use crate::printer::Quantity;
 use crate::telescope::balance::DiscFoot;
 use crate::telescope::error::TelescopeError;
 use crate::telescope::nest::Telescope;
 use crate::telescope::tube::TubeMass;
 use crate::verify::Pose;
-
-/// A right angle, degrees.
-const UPRIGHT_DEG: f64 = 90.0;
 
 /// The kind of a part.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -62,7 +59,8 @@ pub struct Made {
     pub prefix: String,
     pub best: Best,
     pub foot: Option<DiscFoot>,
-    /// The shells and caps, a shell before its cap, the root first.
+    /// The shells and caps, a shell before its cap, the root first. What is printed in place has
+    /// no caps.
     pub parts: Vec<WrittenPart>,
     /// Volume and centre of every shell with its cap as written, in the shell's frame.
     pub masses: Vec<TubeMass>,
@@ -71,41 +69,47 @@ pub struct Made {
 /// Makes and writes every part.
 pub fn make(
     asked: &Asked,
-    best: Best,
+    mut best: Best,
     watch: &Watch,
 ) -> Result<Verdict<Made, Refused>, TelescopeRunError> {
     watch.enter(Phase::Parts);
     let telescope = &best.design.telescope;
     let shells = 0..telescope.shells.len();
-    let solids: Vec<[Solid; 2]> = shells
+    let solids: Vec<ShellSolids> = shells
         .into_par_iter()
-        .map(|shell| Ok([telescope.shell_solid(shell)?, telescope.cap_solid(shell)?]))
+        .map(|shell| ShellSolids::make(telescope, shell))
         .collect::<Result<_, TelescopeError>>()?;
     watch.check()?;
-    let drawn: Vec<TubeMass> = solids.iter().map(|pair| weigh(pair.each_ref())).collect();
-    let foot = match choose_foot(asked, telescope, &best.design.opening, &drawn) {
-        Verdict::Found(foot) => foot,
+    let drawn: Vec<TubeMass> = solids.iter().map(ShellSolids::weigh).collect();
+    let foot = match choose_order(asked, telescope, &best.design.opening, &drawn) {
+        Verdict::Found((opening, foot)) => {
+            best.design.opening = opening;
+            foot
+        }
         Verdict::No(reason) => return Ok(refused(best, reason)),
     };
+    let telescope = &best.design.telescope;
     let solids = with_foot(telescope, solids, foot.as_ref())?;
+    let nested = telescope.sizes.is_in_place();
     let writer = Writer {
         asked,
         telescope,
+        nested: nested.then(|| lay_nested(telescope, solids[0].tube.mesh())),
         watch,
     };
     let parts: Vec<WrittenPart> = solids
         .into_par_iter()
         .enumerate()
         .map(|(shell, solids)| writer.write(shell, &solids))
-        .collect::<Result<Vec<[WrittenPart; 2]>, _>>()?
+        .collect::<Result<Vec<Vec<WrittenPart>>, _>>()?
         .into_iter()
         .flatten()
         .collect();
     if let Some(reason) = too_large(asked, &parts) {
         return Ok(refused(best, reason));
     }
-    let masses = parts.chunks(2).map(|pair| {
-        let moments = pair.iter().map(|part| moments_of_mesh(&part.in_shell()));
+    let masses = parts.chunk_by(|a, b| a.shell == b.shell).map(|own| {
+        let moments = own.iter().map(|part| moments_of_mesh(&part.in_shell()));
         let whole = moments.fold(Moments::default(), |sum, one| sum + one);
         mass_of(&whole)
     });
@@ -125,11 +129,6 @@ fn refused(best: Best, reason: Reason) -> Verdict<Made, Refused> {
     })
 }
 
-fn weigh(solids: [&Solid; 2]) -> TubeMass {
-    let [shell, cap] = solids.map(|solid| moments_of_mesh(solid.mesh()));
-    mass_of(&(shell + cap))
-}
-
 fn mass_of(moments: &Moments) -> TubeMass {
     TubeMass {
         volume_mm3: moments.volume(),
@@ -137,14 +136,42 @@ fn mass_of(moments: &Moments) -> TubeMass {
     }
 }
 
-/// Returns the solids with the foot on the root's cap.
+/// A shell as it is made: its tube, and its cap unless it is printed in place.
+struct ShellSolids {
+    tube: Solid,
+    cap: Option<Solid>,
+}
+
+impl ShellSolids {
+    fn make(telescope: &Telescope, shell: usize) -> Result<Self, TelescopeError> {
+        let (tube, cap) = match telescope.sizes.is_in_place() {
+            true => (telescope.nested_solid(shell, None)?, None),
+            false => {
+                let cap = telescope.cap_solid(shell)?;
+                (telescope.shell_solid(shell)?, Some(cap))
+            }
+        };
+        Ok(Self { tube, cap })
+    }
+
+    fn weigh(&self) -> TubeMass {
+        let solids = [&self.tube].into_iter().chain(&self.cap);
+        let moments = solids.map(|solid| moments_of_mesh(solid.mesh()));
+        mass_of(&moments.fold(Moments::default(), |sum, one| sum + one))
+    }
+}
+
+/// Returns the solids with the foot on the root's cap, or around a root that is printed in place.
 fn with_foot(
     telescope: &Telescope,
-    mut solids: Vec<[Solid; 2]>,
+    mut solids: Vec<ShellSolids>,
     foot: Option<&DiscFoot>,
-) -> Result<Vec<[Solid; 2]>, TelescopeError> {
-    if let (Some(foot), Some([_, cap])) = (foot, solids.first_mut()) {
-        *cap = telescope.foot_solid(foot)?;
+) -> Result<Vec<ShellSolids>, TelescopeError> {
+    if let (Some(foot), Some(root)) = (foot, solids.first_mut()) {
+        match &mut root.cap {
+            Some(cap) => *cap = telescope.foot_solid(foot)?,
+            None => root.tube = telescope.nested_solid(0, Some(foot))?,
+        }
     }
     Ok(solids)
 }
@@ -152,23 +179,28 @@ fn with_foot(
 struct Writer<'a> {
     asked: &'a Asked<'a>,
     telescope: &'a Telescope,
+    /// How all shells lie that are printed in place.
+    nested: Option<Laid>,
     watch: &'a Watch,
 }
 
 impl Writer<'_> {
-    /// Writes a shell and its cap.
+    /// Writes a shell and its cap, if it has one.
     fn write(
         &self,
         shell: usize,
-        [tube, cap]: &[Solid; 2],
-    ) -> Result<[WrittenPart; 2], TelescopeRunError> {
-        let overhang = self.asked.number(Quantity::OverhangDeg);
-        let steepest_deg = overhang.map_or(f64::INFINITY, |overhang| UPRIGHT_DEG - overhang);
-        let steepest_rad = steepest_deg.to_radians();
-        let laid = lay_shell(self.telescope, shell, tube.mesh(), steepest_rad);
-        let tube = self.part(PartKind::Shell, shell, laid, tube)?;
-        let laid = lay_cap(self.telescope, shell, cap.mesh());
-        Ok([tube, self.part(PartKind::Cap, shell, laid, cap)?])
+        solids: &ShellSolids,
+    ) -> Result<Vec<WrittenPart>, TelescopeRunError> {
+        let mesh = solids.tube.mesh();
+        let steepest_rad = self.asked.steepest_rad();
+        let alone = || lay_shell(self.telescope, shell, mesh, steepest_rad);
+        let laid = self.nested.unwrap_or_else(alone);
+        let mut written = vec![self.part(PartKind::Shell, shell, laid, &solids.tube)?];
+        if let Some(cap) = &solids.cap {
+            let laid = lay_cap(self.telescope, shell, cap.mesh());
+            written.push(self.part(PartKind::Cap, shell, laid, cap)?);
+        }
+        Ok(written)
     }
 
     fn part(

@@ -9,13 +9,16 @@ mod best;
 mod error;
 mod fallen;
 mod files;
+mod footing;
 mod ground;
+mod in_place;
 mod judge;
 mod load;
 mod load_skeleton;
 mod made;
 mod motion_file;
 mod moving;
+mod nested;
 mod network;
 mod papers;
 mod posed;
@@ -56,6 +59,7 @@ pub fn prepare(
 ) -> Result<Outcome<AnyTelescopeSheet, Tried>, TelescopeRunError> {
     posing::pose_file(job)?;
     posing::refuse_twice(job)?;
+    in_place::refuse_unlike(job)?;
     let shop = load::shop(job, watch)?;
     match load::input(job, &shop, watch)? {
         Input::Curve(curve) => {
@@ -64,6 +68,7 @@ pub fn prepare(
             Ok(outcome.map(|sheet| AnyTelescopeSheet::Curve(Box::new(sheet))))
         }
         Input::Skeleton(loaded) => {
+            in_place::refuse_limbs(job)?;
             let outcome = network::prepare(job, &shop, &loaded, watch)?;
             Ok(outcome.map(|sheet| AnyTelescopeSheet::Network(Box::new(sheet))))
         }

@@ -14,6 +14,8 @@ pub enum Lies {
     OnTail,
     /// Leaning by half of its bend, with support outside only.
     Leaning,
+    /// On its tail, with all other shells in it or around it.
+    InPlace,
     /// On its own surface, round or a model's, with support below.
     Round,
 }
@@ -25,12 +27,14 @@ impl Lies {
             Self::OnMouth => "mouth down",
             Self::OnTail => "tail down",
             Self::Leaning => "leaning by half of its bend, support outside only",
+            Self::InPlace => "in place, tail down",
             Self::Round => "on its own surface, support below and in its sockets",
         }
     }
 }
 
 /// A part that lies on the plate.
+#[derive(Clone, Copy)]
 pub struct Laid {
     pub pose: Pose,
     pub lies: Lies,
@@ -52,7 +56,7 @@ pub fn lay_shell(telescope: &Telescope, shell: usize, mesh: &TriMesh, steepest_r
     };
     let down: Vector = helix.frame_at(at_mm).axes.column(0).into();
     Laid {
-        pose: lay(mesh, &down),
+        pose: lay_down(mesh, &down),
         lies: if is_steep {
             Lies::Leaning
         } else {
@@ -67,7 +71,7 @@ pub fn lay_cap(telescope: &Telescope, shell: usize, mesh: &TriMesh) -> Laid {
     let tail = telescope.shells[shell].helix.frame_at(tail_mm);
     let ahead: Vector = tail.axes.column(0).into();
     Laid {
-        pose: lay(mesh, &-ahead),
+        pose: lay_down(mesh, &-ahead),
         lies: Lies::OnTail,
     }
 }
@@ -75,14 +79,14 @@ pub fn lay_cap(telescope: &Telescope, shell: usize, mesh: &TriMesh) -> Laid {
 /// Lays a juncture down, with this direction down.
 pub fn lay_juncture(mesh: &TriMesh, down: &Vector) -> Laid {
     Laid {
-        pose: lay(mesh, down),
+        pose: lay_down(mesh, down),
         lies: Lies::Round,
     }
 }
 
 /// Returns the pose in which a direction points down and the mesh stands on the plate, its corner
 /// at the origin.
-fn lay(mesh: &TriMesh, down: &Vector) -> Pose {
+pub fn lay_down(mesh: &TriMesh, down: &Vector) -> Pose {
     let frame = Frame::with_axis(Point::origin(), &-down);
     let rotation: Matrix = frame.axes.transpose();
     let turned = mesh.map_vertices(|p| Point::from(rotation * p.coords));

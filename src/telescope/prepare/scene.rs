@@ -54,7 +54,7 @@ pub fn pictures(
             })
             .collect(),
         up: ground.axes.column(0).into(),
-        joint: cut_joint(telescope, &meshes)?,
+        joint: cut_joint(telescope, &parts)?,
     };
     watch.check()?;
     Ok(draw_telescope(&view)?)
@@ -74,8 +74,13 @@ fn half_open(
 
 /// Returns the first joint, a little before its stop, with what lies near its pivot; `None` for a
 /// single shell.
-fn cut_joint(telescope: &Telescope, meshes: &[TriMesh]) -> Result<Option<CutJoint>, ClipError> {
-    let (Some(joint), [outer, _, inner, cap, ..]) = (telescope.joints.first(), meshes) else {
+fn cut_joint(telescope: &Telescope, parts: &[ShownPart]) -> Result<Option<CutJoint>, ClipError> {
+    let find = |shell: usize, is_tube: bool| {
+        let own = |part: &&ShownPart| part.shell == shell && part.is_tube == is_tube;
+        parts.iter().find(own).map(|part| part.mesh)
+    };
+    let tubes = find(0, true).zip(find(1, true));
+    let (Some(joint), Some((outer, inner))) = (telescope.joints.first(), tubes) else {
         return Ok(None);
     };
     let sizes = &telescope.sizes;
@@ -100,7 +105,7 @@ fn cut_joint(telescope: &Telescope, meshes: &[TriMesh]) -> Result<Option<CutJoin
     Ok(Some(CutJoint {
         outer: near(outer, &Frame::identity())?,
         inner: near(inner, &placed)?,
-        cap: near(cap, &placed)?,
+        cap: find(1, false).map(|cap| near(cap, &placed)).transpose()?,
         pivot,
         wall_mm: sizes.wall_mm,
         clearance_mm: sizes.slide_mm,

@@ -6,6 +6,7 @@ use super::asked::Asked;
 use super::balance::{Standing, tilt_rad};
 use super::made::{Made, PartKind, WrittenPart};
 use super::motion_file::motion;
+use super::nested;
 use super::poses::Lies;
 use crate::base::digest::sha256_hex;
 use crate::base::units::MM3_PER_CM3;
@@ -65,6 +66,7 @@ fn ordered(asked: &Asked, made: &Made) -> TelescopeSheet {
         clearance_source: asked.slide.provenance(),
         is_clearance_proved: asked.slide.sure == Sure::Measured,
         is_pressed: asked.job.lock == Lock::Press,
+        in_place: sizes.is_in_place(),
         shells: Vec::new(),
         parts: Vec::new(),
         part_rows: Vec::new(),
@@ -179,7 +181,7 @@ fn joint_sizes(sizes: &JointSizes) -> JointSizesRow {
     }
 }
 
-fn foot_row(foot: DiscFoot) -> FootRow {
+pub fn foot_row(foot: DiscFoot) -> FootRow {
     FootRow {
         radius_mm: foot.radius_mm,
         height_mm: foot.height_mm,
@@ -228,6 +230,7 @@ fn shells(made: &Made) -> Vec<ShellRow> {
 }
 
 fn promised_part(telescope: &Telescope, part: &WrittenPart) -> TelescopePartPromise {
+    let vent = telescope.vent_of(part.shell);
     TelescopePartPromise {
         id: part.id.clone(),
         shell: part.shell + 1,
@@ -236,6 +239,7 @@ fn promised_part(telescope: &Telescope, part: &WrittenPart) -> TelescopePartProm
         file: part.file.clone(),
         sha256: sha256_hex(&[&part.bytes]),
         print_from_shell: part.pose,
+        vent_mm: vent.map(|vent| [vent.arc_mm, vent.radius_mm]),
     }
 }
 
@@ -354,6 +358,7 @@ fn warnings(asked: &Asked, made: &Made) -> Vec<String> {
         ));
     }
     warnings.extend(untried(asked, made));
+    warnings.extend(nested::warnings(asked, &made.best.design.telescope));
     warnings.extend(leaning(asked, made));
     warnings
 }
@@ -361,7 +366,7 @@ fn warnings(asked: &Asked, made: &Made) -> Vec<String> {
 /// Returns the warning that the clearance was never tried on this machine.
 pub fn untried(asked: &Asked, made: &Made) -> Option<String> {
     let count = made.best.design.telescope.shells.len();
-    let is_untried = asked.slide.sure != Sure::Measured && count > 1;
+    let is_untried = asked.slide.sure != Sure::Measured && count > 1 && !asked.job.in_place;
     is_untried.then(|| {
         format!(
             "The sliding clearance of {} mm was never tried on this machine. Print its slide coupon, \

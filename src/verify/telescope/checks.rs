@@ -21,7 +21,7 @@ pub(super) const MASS_LIMIT_RATIO: f64 = 1e-4;
 /// By how much a centre may be off, mm.
 pub(super) const CENTRE_LIMIT_MM: f64 = 0.01;
 /// By how much a toppling angle may differ, degrees: the corners of a round foot.
-const TOPPLING_LIMIT_DEG: f64 = 0.05;
+pub(super) const TOPPLING_LIMIT_DEG: f64 = 0.05;
 /// By how much a box may differ, mm.
 pub(super) const BOX_LIMIT_MM: f64 = 0.02;
 /// By how much a part may be above or below the plate, mm.
@@ -101,7 +101,7 @@ fn of_shells(promise: &TelescopePromise, facts: &TelescopeFacts) -> Vec<Check> {
         .shells
         .iter()
         .max_by(|a, b| a.body_error_mm.total_cmp(&b.body_error_mm));
-    vec![
+    let mut checks = vec![
         Check::new(
             CheckKind::Wall,
             "the walls of the shells are as thick as ordered",
@@ -116,7 +116,14 @@ fn of_shells(promise: &TelescopePromise, facts: &TelescopeFacts) -> Vec<Check> {
             Limit::at_most(BODY_LIMIT_MM, "mm"),
         )
         .at(worst.map(|shell| shell.id.clone())),
-    ]
+    ];
+    if promise.parts.iter().any(|part| part.vent_mm.is_some()) {
+        let closed = facts.shells.iter().filter(|shell| shell.is_vent_closed);
+        let closed: Vec<String> = closed.map(|shell| shell.id.clone()).collect();
+        let words = "powder leaves every shell that holds another through its holes";
+        checks.push(none(CheckKind::DrainHoles, words, &closed));
+    }
+    checks
 }
 
 fn of_joints(promise: &TelescopePromise, facts: &TelescopeFacts) -> Vec<Check> {
@@ -137,6 +144,7 @@ fn of_joints(promise: &TelescopePromise, facts: &TelescopeFacts) -> Vec<Check> {
         .collect();
     let behind = facts.joints.iter().filter(|joint| joint.is_open_behind);
     let behind: Vec<String> = behind.map(|joint| joint.id.clone()).collect();
+    let has_caps = promise.parts.iter().any(|part| !part.is_tube);
     let mut checks = vec![
         none(
             CheckKind::Stops,
@@ -150,7 +158,10 @@ fn of_joints(promise: &TelescopePromise, facts: &TelescopeFacts) -> Vec<Check> {
         ),
         none(
             CheckKind::WayBack,
-            "no shell can leave backwards once its caps are in",
+            match has_caps {
+                true => "no shell can leave backwards once its caps are in",
+                false => "no shell can leave backwards",
+            },
             &behind,
         ),
     ];

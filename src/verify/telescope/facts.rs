@@ -144,7 +144,7 @@ pub(super) fn judge_bodies(
     let (too_near, states) = course.far_pairs(&keys, watch)?;
     let tube_facts = promise.parts.iter().filter(|part| part.is_tube);
     let shells = tube_facts.zip(&motion.shells).zip(&tubes);
-    let shells = shells.map(|((part, shell), tube)| measure(shell, part.body_mm, tube));
+    let shells = shells.map(|((part, shell), tube)| measure(shell, part, tube));
     let moments: Vec<Moments> = bodies
         .iter()
         .map(|body| moments_of_mesh(&body.mesh))

@@ -20,6 +20,7 @@ mod network_facts;
 mod network_model;
 mod network_reading;
 mod network_seats;
+mod network_standing;
 mod packages;
 mod pinned;
 mod pose;
@@ -45,6 +46,9 @@ pub use network_checks::network_checks;
 pub use network_facts::{NetworkFacts, judge_network};
 pub use network_model::ModelFacts;
 pub use network_reading::{limb_curve_file, verify_telescope};
+
+pub use network_standing::NetworkStanding;
+pub use packages::{NESTED_FILE, NESTED_NAME};
 pub use pose::{
     PoseMotion, PosePromise, PoseState, PoseText, PoseTextJoint, PoseTipPromise, PosesFacts,
     REACH_LIMIT_MM,

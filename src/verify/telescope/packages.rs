@@ -5,9 +5,15 @@ use super::juncture::Piece;
 use super::motion::MotionKey;
 use super::network::{NetworkEvidence, NetworkKey};
 use crate::geom::Vector;
+use crate::mesh::TriMesh;
 use crate::verify::Check;
 use crate::verify::kind_packages::{Named, Packages};
 use crate::verify::kit_folder::KitFolder;
+
+/// The file of shells that are printed in each other.
+pub const NESTED_FILE: &str = "in-place.3mf";
+/// The name of their one object.
+pub const NESTED_NAME: &str = "in-place";
 
 /// Checks all packages that a kit lists.
 pub fn packages_check(folder: &KitFolder, evidence: &TelescopeEvidence) -> Check {
@@ -29,11 +35,21 @@ pub fn packages_check(folder: &KitFolder, evidence: &TelescopeEvidence) -> Check
     let placed = ends
         .into_iter()
         .filter_map(|(file, key)| Some((file, together(evidence, key?))));
-    let packages = Packages {
+    let mut packages = Packages {
         folder: folder.path,
         placed: placed.collect(),
         printed: printed.collect(),
     };
+    if promise.in_place {
+        // One package holds all shells as they are printed, in each other, as one object.
+        let printed = std::mem::take(&mut packages.printed);
+        let bodies = printed.iter().map(|part| &part.body);
+        let nested = Named {
+            name: NESTED_NAME.to_owned(),
+            body: bodies.fold(TriMesh::default(), |all, part| all.joined(part)),
+        };
+        packages.placed.push((NESTED_FILE, vec![nested]));
+    }
     packages.check(promise.files.keys())
 }
 

@@ -20,6 +20,9 @@ pub struct TelescopePromise {
     pub wall_mm: f64,
     /// The clearance with which shells slide, mm.
     pub clearance_mm: f64,
+    /// True if all shells are printed in each other.
+    #[serde(default)]
+    pub in_place: bool,
     /// The parts.
     pub parts: Vec<TelescopePartPromise>,
     /// The joints.
@@ -61,6 +64,9 @@ pub struct TelescopePartPromise {
     pub sha256: String,
     /// Coordinates of the shell's frame to print coordinates.
     pub print_from_shell: Pose,
+    /// The hole along the binormal through which powder leaves a tube: its arc and radius, mm.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub vent_mm: Option<[f64; 2]>,
 }
 
 /// A joint as the kit promises it.
