@@ -61,7 +61,7 @@ pub fn network_job(page: &NetworkPage) -> String {
         main {
             @if let Some(view) = page.view { (viewer(view)) }
             (frame::steps(STEPS.into_iter().zip(steps.map(|step| step(page)))))
-            (sign_off())
+            (sign_off(&STEPS))
         }
     };
     let title = format!("Job sheet: {}", page.sheet.job);
@@ -71,8 +71,12 @@ pub fn network_job(page: &NetworkPage) -> String {
 /// Words what the figure does, in one sentence.
 pub(super) fn promise(sheet: &NetworkSheet) -> String {
     let shells: usize = sheet.limbs.iter().map(|limb| limb.sheet.shells.len()).sum();
+    let stands = sheet.least_angle_deg.map_or(String::new(), |least| {
+        let least = measured(least, "°");
+        format!(" It stands on its foot at every state until leaned by {least}.")
+    });
     format!(
-        "{} of {} on {}, which open from {} to {}.",
+        "{} of {} on {}, which open from {} to {}.{stands}",
         format_count(sheet.limbs.len(), "limb"),
         format_count(shells, "shell"),
         format_count(sheet.junctures.len(), "juncture"),
@@ -306,6 +310,15 @@ fn test(page: &NetworkPage) -> Markup {
                 li {
                     "All out, the tip of limb " (limb.id) " may be moved by "
                     (measured(limb.sheet.tip_play_mm, "mm")) " at most, by hand and without force."
+                }
+            }
+            @if let Some(least) = page.sheet.least_angle_deg {
+                li {
+                    "Set it on a level table, all in, with each limb out in turn, and all out. Lean its foot by "
+                    (measured(least, "°")) ": it must come back."
+                    @if let Some(worst) = page.sheet.worst_toppling_deg {
+                        " By calculation it topples at " (measured(worst, "°")) " where it is worst."
+                    }
                 }
             }
         }

@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use super::kind::kind_sheet;
 use super::pose::PoseRow;
-use super::telescope::{CurveRow, TelescopeMaterial, TelescopePrinter, TelescopeSheet};
+use super::telescope::{CurveRow, FootRow, TelescopeMaterial, TelescopePrinter, TelescopeSheet};
 use super::{KindSheet, Verdict};
 use crate::verify::{Check, JuncturePromise, NETWORK_SCHEMA};
 
@@ -54,6 +54,18 @@ pub struct NetworkSheet {
     pub solid: Vec<String>,
     /// The mass of all parts, g.
     pub mass_g: f64,
+    /// The lean at which it topples at every key of the motion, degrees; none if it need not stand.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub toppling_deg: Vec<f64>,
+    /// The least lean at which it topples over the whole motion, with all play taken up, degrees.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub worst_toppling_deg: Option<f64>,
+    /// The toppling angle that is promised, degrees; `None` if it need not stand.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub least_angle_deg: Option<f64>,
+    /// The foot under the first juncture; `None` without one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub foot: Option<FootRow>,
     /// The centre of mass at every key of the motion, mm, in the model's frame.
     pub centres_mm: Vec<[f64; 3]>,
     /// The box when all in, along the model's axes, mm.

@@ -45,6 +45,12 @@ pub struct NetworkPromise {
     pub order: Vec<String>,
     /// The mass of all parts, g.
     pub mass_g: f64,
+    /// The lean at which it topples at every key of the motion, degrees; none if it need not stand.
+    #[serde(default)]
+    pub toppling_deg: Vec<f64>,
+    /// The toppling angle that is promised, degrees; `None` if it need not stand.
+    #[serde(default)]
+    pub least_angle_deg: Option<f64>,
     /// The centre of mass at every key of the motion, mm.
     pub centres_mm: Vec<[f64; 3]>,
     /// The box of all parts when all in, along the model's axes, mm.

@@ -1,10 +1,11 @@
 //! The checks of several telescopes on junctures: of every kind the worst of all telescopes.
 
 use super::checks::{
-    BOX_LIMIT_MM, CENTRE_LIMIT_MM, MASS_LIMIT_RATIO, PLACEMENT_LIMIT_MM, WALL_LIMIT_MM, none,
-    pose_checks, surface_checks, telescope_checks,
+    BOX_LIMIT_MM, CENTRE_LIMIT_MM, MASS_LIMIT_RATIO, PLACEMENT_LIMIT_MM, TOPPLING_LIMIT_DEG,
+    WALL_LIMIT_MM, none, pose_checks, surface_checks, telescope_checks,
 };
 use super::divided::DividedFacts;
+use super::facts::GROUND_LIMIT_MM;
 use super::network::NetworkPromise;
 use super::network_facts::NetworkFacts;
 use super::network_model::ModelFacts;
@@ -15,11 +16,12 @@ use crate::verify::peg_checks::peg_checks;
 use crate::verify::{Check, CheckKind, Limit, VOLUME_SUM_LIMIT_RATIO};
 
 /// The checks that are made of the whole, and not of each telescope.
-const OF_THE_WHOLE: [CheckKind; 5] = [
+const OF_THE_WHOLE: [CheckKind; 6] = [
     CheckKind::Mass,
     CheckKind::Centres,
     CheckKind::Toppling,
     CheckKind::Standing,
+    CheckKind::Ground,
     CheckKind::Sizes,
 ];
 
@@ -39,12 +41,17 @@ pub fn network_checks(promise: &NetworkPromise, facts: &NetworkFacts) -> Vec<Che
         too_large: facts.too_large.clone(),
     });
     let whole = whole(promise, facts);
+    let standing = of_standing(promise, facts);
     let least_mm = promise.printer.minimum_wall_mm;
     let divided = facts.divided.iter();
     let divided = divided.flat_map(|own| of_divided(own, least_mm));
     let model = facts.model.iter().flat_map(|own| of_model(promise, own));
     let poses = pose_checks(&promise.poses, &facts.poses);
-    let all = limbs.chain(junctures).chain(whole).chain(poses);
+    let all = limbs
+        .chain(junctures)
+        .chain(whole)
+        .chain(standing)
+        .chain(poses);
     worst(all.chain(divided).chain(model))
 }
 
@@ -136,6 +143,36 @@ fn of_model(promise: &NetworkPromise, facts: &ModelFacts) -> Vec<Check> {
             Limit::at_least(least_mm - WALL_LIMIT_MM, "mm"),
         )
         .at(wall.map(|(_, limb)| format!("root of limb {limb}"))),
+    ]
+}
+
+/// Returns the checks of a figure that is to stand.
+fn of_standing(promise: &NetworkPromise, facts: &NetworkFacts) -> Vec<Check> {
+    let (Some(least_deg), Some(found)) = (promise.least_angle_deg, &facts.standing) else {
+        return Vec::new();
+    };
+    let pairs = promise.toppling_deg.iter().zip(&found.toppling_deg);
+    let off_deg = pairs.map(|(stated, found)| (stated - found).abs());
+    let is_whole = promise.toppling_deg.len() == found.toppling_deg.len();
+    vec![
+        Check::new(
+            CheckKind::Toppling,
+            "it topples as stated at every key",
+            is_whole.then_some(off_deg.fold(0.0, f64::max)),
+            Limit::at_most(TOPPLING_LIMIT_DEG, "°"),
+        ),
+        Check::new(
+            CheckKind::Standing,
+            "it stands on its foot at every state, until leaned by",
+            Some(found.least_deg),
+            Limit::at_least(least_deg, "°"),
+        ),
+        Check::new(
+            CheckKind::Ground,
+            "nothing reaches below its foot as it opens",
+            Some(found.below_mm),
+            Limit::at_most(GROUND_LIMIT_MM, "mm"),
+        ),
     ]
 }
 

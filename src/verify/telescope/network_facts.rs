@@ -11,6 +11,7 @@ use super::network::{NetworkEvidence, Places};
 use super::network_ends::Ends;
 use super::network_model::{Made, ModelFacts, measure_model};
 use super::network_seats::Seats;
+use super::network_standing::{Balanced, NetworkStanding, measure_standing};
 use super::pose::{PoseState, PosesFacts};
 use super::poses::PoseTrial;
 use super::surfaces::{LyingPart, Surfaces};
@@ -48,6 +49,8 @@ pub struct NetworkFacts {
     pub mass_g: f64,
     /// The centre of mass at every key, mm.
     pub centres: Vec<Point>,
+    /// How it stands on its first juncture; `None` if it need not.
+    pub standing: Option<NetworkStanding>,
     /// The boxes of all parts when all in and all out, mm.
     pub boxes_mm: [[f64; 3]; 2],
     /// The facts about its poses.
@@ -128,6 +131,7 @@ pub fn judge_network(evidence: &NetworkEvidence, watch: &Watch) -> Result<Networ
         poses,
         placement_error_mm: placement_error_mm(evidence),
         mass_g: volume * promise.material.density_g_cm3 / MM3_PER_CM3,
+        standing: standing(evidence, &bodies, &moments),
         centres: centres(evidence, &bodies, &moments),
         boxes_mm: ends.map(|key| key.map_or([0.0; 3], |key| size(&key.states))),
     })
@@ -135,17 +139,43 @@ pub fn judge_network(evidence: &NetworkEvidence, watch: &Watch) -> Result<Networ
 
 /// Returns the centre of mass at every key.
 fn centres(evidence: &NetworkEvidence, bodies: &[Named], moments: &[Moments]) -> Vec<Point> {
-    let volume: f64 = moments.iter().map(Moments::volume).sum();
     let keys = evidence.motion.keys.iter();
-    let centre = keys.map(|key| {
-        let places = evidence.places(&key.states);
-        let weighed = bodies.iter().zip(moments).map(|(body, moments)| {
-            let frame = places.of(body.place);
-            frame.to_model(&moments.centroid()).coords * moments.volume()
-        });
-        Point::from(weighed.sum::<Vector>() / volume)
+    let places = keys.map(|key| evidence.places(&key.states));
+    places
+        .map(|places| centre(&places, bodies, moments))
+        .collect()
+}
+
+fn centre(places: &Places, bodies: &[Named], moments: &[Moments]) -> Point {
+    let volume: f64 = moments.iter().map(Moments::volume).sum();
+    let weighed = bodies.iter().zip(moments).map(|(body, moments)| {
+        let frame = places.of(body.place);
+        frame.to_model(&moments.centroid()).coords * moments.volume()
     });
-    centre.collect()
+    Point::from(weighed.sum::<Vector>() / volume)
+}
+
+/// Returns how it stands on its first juncture; `None` if it need not.
+fn standing(
+    evidence: &NetworkEvidence,
+    bodies: &[Named],
+    moments: &[Moments],
+) -> Option<NetworkStanding> {
+    evidence.promise.least_angle_deg?;
+    let mut junctures = bodies.iter();
+    let base = junctures.find(|body| body.place == Place::Juncture(0))?;
+    let state = |places: &Places, to_ground: &Frame| {
+        let lowest = bodies.par_iter().map(|body| {
+            let placed = to_ground.frame_to_model(places.of(body.place));
+            let heights = body.body.mesh.vertices().iter();
+            heights.fold(f64::INFINITY, |low, p| low.min(placed.to_model(p).z))
+        });
+        Balanced {
+            centre: centre(places, bodies, moments),
+            lowest_mm: lowest.reduce(|| f64::INFINITY, f64::min),
+        }
+    };
+    Some(measure_standing(evidence, &base.body.mesh, state))
 }
 
 fn pose_trial<'a>(evidence: &'a NetworkEvidence, shells: &'a [Vec<Body>]) -> PoseTrial<'a> {

@@ -5,6 +5,7 @@
 use std::collections::BTreeSet;
 
 use super::ends::{last, on_root};
+use super::foot::Foot;
 use super::tree::Tree;
 use crate::geom::{Frame, Plane, Point, Vector};
 use crate::mesh::primitives::ball;
@@ -33,8 +34,14 @@ struct Ball {
     radius_mm: f64,
 }
 
-/// Returns the solid of a juncture where it lies when all is out: balls, or a hull.
-pub fn body(tree: &Tree, juncture: usize, is_hull: bool) -> Result<Solid, ClipError> {
+/// Returns the solid of a juncture where it lies when all is out: balls, or a hull, on its foot if
+/// it has one.
+pub fn body(
+    tree: &Tree,
+    juncture: usize,
+    is_hull: bool,
+    foot: Option<&Foot>,
+) -> Result<Solid, ClipError> {
     let shape = Shape { tree, juncture };
     let mut whole = joined(&shape.links())?;
     if !shape.outgoing().is_empty() {
@@ -43,6 +50,9 @@ pub fn body(tree: &Tree, juncture: usize, is_hull: bool) -> Result<Solid, ClipEr
             true => Csg::convex_hull(&shape.hull())?,
         };
         whole = whole.union(&holder)?;
+    }
+    if let Some(foot) = foot {
+        whole = whole.union(&foot.body()?)?;
     }
     let whole = shape.bored(whole, |root_mm| CLEAR_RADII * root_mm)?;
     let Some(parent) = shape.incoming() else {

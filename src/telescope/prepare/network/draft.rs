@@ -9,7 +9,8 @@ use super::super::made::Made;
 use super::super::motion_file::{MOTION_SCHEMA, motion, pose_of};
 use super::super::posed::Poses;
 use super::super::posing::Posed;
-use super::super::sheet::{checklist, leaning, material, printer, untried};
+use super::super::sheet::{checklist, foot_row, leaning, material, printer, untried};
+use super::foot::StoodFoot;
 use super::made::{Workshop, prefix};
 use super::posing::joints;
 use super::rows;
@@ -42,6 +43,8 @@ pub struct MadeNetwork<'a> {
     pub sequence: Vec<usize>,
     /// The limbs that stay solid, in words.
     pub solid: Vec<String>,
+    /// The foot under the first juncture; `None` if it need not stand.
+    pub foot: Option<StoodFoot>,
     /// The poses of the job.
     pub poses: Vec<Posed>,
 }
@@ -251,6 +254,10 @@ fn sheet(
             .collect(),
         solid: made.solid.clone(),
         mass_g: whole.mass_g,
+        toppling_deg: topplings(made, &whole.centres_mm),
+        worst_toppling_deg: made.foot.map(|own| own.worst_deg),
+        least_angle_deg: made.foot.map(|_| workshop.job.least_angle_deg),
+        foot: made.foot.map(|own| foot_row(own.foot.disc)),
         centres_mm: whole.centres_mm,
         collapsed_mm,
         extended_mm,
@@ -260,6 +267,15 @@ fn sheet(
         checks: Vec::new(),
         files: BTreeMap::new(),
     })
+}
+
+/// Returns the lean at which a figure topples at every key, degrees; none without a foot.
+fn topplings(made: &MadeNetwork, centres_mm: &[[f64; 3]]) -> Vec<f64> {
+    let Some(StoodFoot { foot, .. }) = &made.foot else {
+        return Vec::new();
+    };
+    let lean = |centre: &[f64; 3]| foot.lean_rad(&Point::from(*centre), 0.0).to_degrees();
+    centres_mm.iter().map(lean).collect()
 }
 
 /// Mass and centre of all parts.

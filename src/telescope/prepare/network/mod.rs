@@ -10,6 +10,8 @@ mod divide;
 mod draft;
 mod ends;
 mod film;
+mod foot;
+mod footing;
 mod held;
 mod limb;
 mod made;
@@ -24,17 +26,20 @@ mod tree;
 mod written;
 
 use self::draft::{MadeNetwork, draft};
+use self::foot::{Falls, Foot, StoodFoot};
+use self::footing::{Footing, masses};
 use self::limb::Studio;
 use self::made::{Form, Workshop};
 use self::plan::Measures;
 use self::skin::Skin;
-use self::sweep::{Bodies, Item};
+use self::sweep::{Bodies, Hit, Item};
 use self::tree::{Kept, Search, Tree};
-use self::written::{divide, junctures};
+use self::written::{WrittenJuncture, divide, junctures};
 use super::advise::Tried;
 use super::asked::basics;
 use super::error::TelescopeRunError;
 use super::load_skeleton::{LoadedSkeleton, Shop};
+use super::made::Made;
 use super::unposed::Unposed;
 use crate::base::setting::{Key, Setting};
 use crate::base::units::Length;
@@ -46,6 +51,9 @@ use crate::sheet::network::NetworkSheet;
 use crate::skeleton::ShellSizes;
 use crate::wing::{Impossible, Outcome};
 
+/// Feet that are tried if the one by calculation is a little too small.
+const FOOT_TRIES: usize = 4;
+
 /// Prepares the telescopes of a skeleton to their end: a kit, or the reason why there is none.
 pub fn prepare(
     job: &TelescopeJob,
@@ -53,10 +61,6 @@ pub fn prepare(
     loaded: &LoadedSkeleton,
     watch: &Watch,
 ) -> Result<Outcome<NetworkSheet, Tried>, TelescopeRunError> {
-    if job.goal == Stance::Stand {
-        let setting = Setting::new(Key::Goal, Stance::Stand);
-        return Err(TelescopeRunError::NoFoot(setting));
-    }
     if job.shells == ShellCount::Given(1) {
         return Err(TelescopeRunError::OneShell);
     }
@@ -66,6 +70,10 @@ pub fn prepare(
         (None, Some(JunctureKind::Hull)) => Form::Hulls,
         (None, _) => Form::Balls,
     };
+    if let (Some(_), Stance::Stand) = (form.skin(), job.goal) {
+        let setting = Setting::new(Key::Goal, Stance::Stand);
+        return Err(TelescopeRunError::NoFoot(setting));
+    }
     let workshop = Workshop {
         job,
         shop,
@@ -93,6 +101,10 @@ pub fn prepare(
             }
             Verdict::No(Failed::Pose(unposed)) => {
                 return Ok(Outcome::Impossible(Box::new(unposed.impossible())));
+            }
+            Verdict::No(Failed::Stand(falls)) => {
+                let answer = falls.impossible(job.least_angle_deg);
+                return Ok(Outcome::Impossible(Box::new(answer)));
             }
             Verdict::No(Failed::Limb(barred)) => {
                 let is_shorter = barred.by_end && search.shorten_limb(&round, barred.limb);
@@ -133,6 +145,8 @@ enum Failed {
     Limb(Barred),
     /// For a pose cannot be.
     Pose(Box<Unposed>),
+    /// For it does not stand.
+    Stand(Falls),
 }
 
 /// Makes the parts of a network, finds a sequence that is free, and takes the poses. Else names the
@@ -157,13 +171,21 @@ fn attempt<'a>(
         Verdict::Found(limbs) => limbs,
         Verdict::No(refused) => return Ok(Verdict::No(barred(refused.limb, refused.why))),
     };
-    let junctures = junctures(workshop, &tree, &pieces)?;
-    let meshes: Vec<TriMesh> = junctures.iter().map(|own| own.in_model()).collect();
-    let refs: Vec<_> = limbs.iter().collect();
-    let bodies = Bodies::new(&tree.network, &refs, meshes);
-    let openings = tree.network.limbs.iter();
-    let openings: Vec<&[_]> = openings.map(|limb| &limb.opening.keys[..]).collect();
-    let found = bodies.sequence(&openings, workshop.watch)?;
+    let attempt = Attempt {
+        workshop,
+        tree: &tree,
+        limbs: &limbs,
+        pieces: &pieces,
+    };
+    let Opened {
+        junctures,
+        bodies,
+        found,
+        foot,
+    } = match attempt.stand()? {
+        Verdict::Found(opened) => opened,
+        Verdict::No(falls) => return Ok(Verdict::No(Failed::Stand(falls))),
+    };
     let poses = match &found {
         Ok(_) => workshop.poses(&tree, &limbs, &bodies)?,
         Err(_) => Verdict::Found(Vec::new()),
@@ -182,6 +204,7 @@ fn attempt<'a>(
             tree,
             sequence,
             poses,
+            foot,
         })),
         Err(hit) => {
             let end = Item::Juncture(tree.network.limbs[hit.limb].to);
@@ -192,6 +215,96 @@ fn attempt<'a>(
                 by_end,
             })))
         }
+    }
+}
+
+/// The parts of a network, of which the junctures are made.
+struct Attempt<'b> {
+    workshop: &'b Workshop<'b>,
+    tree: &'b Tree<'b>,
+    limbs: &'b [Made],
+    pieces: &'b [TriMesh],
+}
+
+/// A network with a sequence of opening, or what is in its way.
+struct Opened<'b> {
+    junctures: Vec<WrittenJuncture>,
+    bodies: Bodies<'b>,
+    found: Result<Vec<usize>, Hit>,
+    foot: Option<StoodFoot>,
+}
+
+impl<'b> Attempt<'b> {
+    /// Makes the junctures and finds a sequence that is free. A figure that is to stand gets the
+    /// least foot that holds it.
+    fn stand(&self) -> Result<Verdict<Opened<'b>, Falls>, TelescopeRunError> {
+        let bare = self.open(None)?;
+        let is_asked = self.workshop.job.goal == Stance::Stand;
+        let Some(sequence) = bare.found.as_ref().ok().filter(|_| is_asked) else {
+            return Ok(Verdict::Found(bare));
+        };
+        let mut foot = match self.footing(&bare.junctures, sequence).choose() {
+            Ok(foot) => foot,
+            Err(falls) => return Ok(Verdict::No(falls)),
+        };
+        for _ in 0..FOOT_TRIES {
+            let mut opened = self.open(Some(&foot))?;
+            let sequence = match &opened.found {
+                Ok(sequence) => sequence,
+                Err(hit) => {
+                    let why = hit.words(self.tree);
+                    return Ok(Verdict::No(Falls::Barred { why }));
+                }
+            };
+            match self.footing(&opened.junctures, sequence).confirm(&foot) {
+                Ok(worst_deg) => {
+                    opened.foot = Some(StoodFoot { foot, worst_deg });
+                    return Ok(Verdict::Found(opened));
+                }
+                Err(falls @ Falls::Topples { .. }) => match foot.wider(self.workshop) {
+                    Some(wider) => foot = wider,
+                    None => return Ok(Verdict::No(falls)),
+                },
+                Err(falls) => return Ok(Verdict::No(falls)),
+            }
+        }
+        Ok(Verdict::No(Falls::Topples {
+            angle_deg: 0.0,
+            foot_mm: foot.disc.radius_mm,
+        }))
+    }
+
+    fn footing<'c>(
+        &'c self,
+        junctures: &'c [WrittenJuncture],
+        sequence: &'c [usize],
+    ) -> Footing<'c> {
+        Footing {
+            workshop: self.workshop,
+            tree: self.tree,
+            limbs: self.limbs,
+            junctures,
+            masses: masses(junctures),
+            sequence,
+        }
+    }
+
+    /// Makes the junctures, and finds a sequence that is free.
+    fn open(&self, foot: Option<&Foot>) -> Result<Opened<'b>, TelescopeRunError> {
+        let (workshop, tree) = (self.workshop, self.tree);
+        let junctures = junctures(workshop, tree, self.pieces, foot)?;
+        let meshes: Vec<TriMesh> = junctures.iter().map(|own| own.in_model()).collect();
+        let refs: Vec<_> = self.limbs.iter().collect();
+        let bodies = Bodies::new(&tree.network, &refs, meshes);
+        let openings = tree.network.limbs.iter();
+        let openings: Vec<&[_]> = openings.map(|limb| &limb.opening.keys[..]).collect();
+        let found = bodies.sequence(&openings, workshop.watch)?;
+        Ok(Opened {
+            junctures,
+            bodies,
+            found,
+            foot: None,
+        })
     }
 }
 

@@ -6,6 +6,7 @@ use super::super::error::TelescopeRunError;
 use super::super::made::{Printing, WrittenFile};
 use super::bodies::{body, body_of_model};
 use super::divide::{Divided, Divider};
+use super::foot::Foot;
 use super::made::{Form, Workshop};
 use super::tree::Tree;
 use crate::base::verdict::Verdict;
@@ -76,19 +77,21 @@ impl WrittenPiece {
     }
 }
 
-/// Makes and writes the junctures; `pieces` are those of the model.
+/// Makes and writes the junctures; `pieces` are those of the model. The first one has the foot.
 pub fn junctures(
     workshop: &Workshop,
     tree: &Tree,
     pieces: &[TriMesh],
+    foot: Option<&Foot>,
 ) -> Result<Vec<WrittenJuncture>, TelescopeRunError> {
     workshop.watch.enter(Phase::Parts);
     let count = 0..tree.network.junctures;
+    let own_foot = |juncture: usize| foot.filter(|_| juncture == 0);
     let solids: Vec<Solid> = count
         .into_par_iter()
         .map(|juncture| match workshop.form {
-            Form::Balls => body(tree, juncture, false),
-            Form::Hulls => body(tree, juncture, true),
+            Form::Balls => body(tree, juncture, false, own_foot(juncture)),
+            Form::Hulls => body(tree, juncture, true, own_foot(juncture)),
             Form::Model(_) => body_of_model(tree, juncture, &pieces[juncture]),
         })
         .collect::<Result<_, ClipError>>()?;
