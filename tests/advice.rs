@@ -7,7 +7,7 @@
     reason = "a test whose input cannot be had has failed"
 )]
 
-mod common;
+use crate::common;
 
 use common::{
     ELLIPSOID, assert_exit, equipoise, json, list, make_kit, number, prepare_quickly, text, words,

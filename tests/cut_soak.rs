@@ -12,7 +12,7 @@
 )]
 #![allow(clippy::print_stderr, reason = "a long run reports its progress")]
 
-mod common;
+use crate::common;
 
 use std::path::Path;
 use std::time::Instant;

@@ -10,7 +10,7 @@
 )]
 #![allow(clippy::print_stdout, reason = "the times are shown with --nocapture")]
 
-mod common;
+use crate::common;
 
 use std::time::Instant;
 

@@ -11,9 +11,8 @@
     reason = "the figures are shown with --nocapture"
 )]
 
-mod common;
-#[path = "common/scene.rs"]
-mod scene;
+use crate::common;
+use crate::scene;
 
 use common::shared_model;
 use equipoise::base::verdict::Verdict;

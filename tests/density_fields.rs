@@ -12,9 +12,7 @@
     reason = "the figures are shown with --nocapture"
 )]
 
-mod common;
-#[path = "common/scene.rs"]
-mod scene;
+use crate::scene;
 
 use equipoise::base::verdict::Verdict;
 use equipoise::field::{Density, DensityRange, Ramp, Sine, measure};

@@ -7,7 +7,7 @@
     reason = "a test whose input cannot be had has failed"
 )]
 
-mod common;
+use crate::common;
 
 use std::path::{Path, PathBuf};
 use std::process::Output;

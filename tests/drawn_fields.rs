@@ -8,7 +8,7 @@
 )]
 #![allow(clippy::print_stderr, reason = "figures, and a skipped test says so")]
 
-mod common;
+use crate::common;
 
 use std::fs;
 use std::path::{Path, PathBuf};

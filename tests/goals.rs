@@ -7,7 +7,7 @@
     reason = "a test whose input cannot be had has failed"
 )]
 
-mod common;
+use crate::common;
 
 use common::{assert_exit, json, list, make_kit, number, prepare_quickly, verify};
 

@@ -5,7 +5,7 @@
     reason = "a test whose input cannot be had has failed"
 )]
 
-mod common;
+use crate::common;
 
 use std::fs;
 use std::path::{Path, PathBuf};

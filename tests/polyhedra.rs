@@ -6,7 +6,7 @@
     reason = "a test whose input cannot be had has failed; figures are shown with --nocapture"
 )]
 
-mod common;
+use crate::common;
 
 use equipoise::base::verdict::Verdict;
 use equipoise::base::watch::Watch;

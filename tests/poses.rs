@@ -5,7 +5,7 @@
 //! times, each in five seconds or more:
 //! ```sh
 //! export EQUIPOISE_KITS=homer-kit:bunny-kit
-//! cargo test --release --test poses -- --ignored --nocapture
+//! cargo test --release --test kits poses -- --ignored --nocapture
 //! ```
 //! It slices with an MK4-like profile, `tests/printers/mk4-like.ini`, and with the support settings
 //! that the packages of a kit carry.

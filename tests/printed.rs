@@ -8,7 +8,7 @@
 )]
 #![allow(clippy::print_stderr, reason = "a skipped test says so")]
 
-mod common;
+use crate::common;
 
 use std::fs;
 use std::io::{Read, Write};

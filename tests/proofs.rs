@@ -12,7 +12,7 @@
     reason = "the module also serves the program that writes the models"
 )]
 
-mod common;
+use crate::common;
 #[path = "../examples/make_models/models.rs"]
 mod models;
 

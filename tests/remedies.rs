@@ -6,7 +6,7 @@
     reason = "a test whose input cannot be had has failed, and the table is shown with --nocapture"
 )]
 
-mod common;
+use crate::common;
 
 use std::path::{Path, PathBuf};
 

@@ -6,7 +6,7 @@
 )]
 #![allow(clippy::print_stdout, reason = "the table is shown with --nocapture")]
 
-mod common;
+use crate::common;
 
 use equipoise::base::watch::Watch;
 use equipoise::geom::{Point, Vector};

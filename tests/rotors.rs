@@ -6,7 +6,7 @@
 )]
 #![allow(clippy::print_stderr, reason = "a skipped test says so")]
 
-mod common;
+use crate::common;
 
 use std::f64::consts::TAU;
 use std::fs;

@@ -4,7 +4,7 @@
 //! Runs take minutes, so they are ignored by default:
 //!
 //! ```text
-//! EQUIPOISE_SHARED_MODELS=FOLDER cargo test --test seams -- --ignored --nocapture
+//! EQUIPOISE_SHARED_MODELS=FOLDER cargo test --test kits seams -- --ignored --nocapture
 //! ```
 //!
 //! `EQUIPOISE_SEAM_ROWS=homer,bunny:top` runs some models or goals only.

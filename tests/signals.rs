@@ -6,7 +6,7 @@
     reason = "a test whose process cannot be started has failed"
 )]
 
-mod common;
+use crate::common;
 
 use std::fs;
 use std::path::Path;

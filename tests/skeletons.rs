@@ -6,7 +6,7 @@
 )]
 #![allow(clippy::print_stdout, reason = "a long run reports its figures")]
 
-mod common;
+use crate::common;
 
 use std::fs;
 use std::path::Path;

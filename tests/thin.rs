@@ -6,7 +6,7 @@
 )]
 #![allow(clippy::print_stdout, reason = "the table is shown with --nocapture")]
 
-mod common;
+use crate::common;
 
 use std::fs;
 use std::path::{Path, PathBuf};

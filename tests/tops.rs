@@ -6,7 +6,7 @@
     reason = "a test whose input cannot be had has failed"
 )]
 
-mod common;
+use crate::common;
 
 use common::{
     ELLIPSOID, QUICK, assert_exit, checklist, equipoise, list, make_kit, number, path,

@@ -13,7 +13,7 @@
     reason = "a skipped test says so, and figures are shown with --nocapture"
 )]
 
-mod common;
+use crate::common;
 
 use std::ffi::OsString;
 use std::fs;

@@ -1,7 +1,7 @@
 //! Alterations of files as such: bytes, ends, names, strangers.
 
-use crate::dice::Dice;
-use crate::kits::Kit;
+use super::dice::Dice;
+use super::kits::Kit;
 
 /// Alters a file of a kit at random, whatever it holds; returns what was done.
 pub fn alter(kit: &mut Kit, dice: &mut Dice) -> String {

@@ -5,8 +5,8 @@ use equipoise::mesh::TriMesh;
 use equipoise::mesh::primitives::ball;
 use serde_json::{Value, json};
 
-use crate::dice::Dice;
-use crate::kits::Kit;
+use super::dice::Dice;
+use super::kits::Kit;
 
 /// The uncut result.
 const HOLLOWED: &str = "hollowed.stl";

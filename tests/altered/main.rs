@@ -4,7 +4,7 @@
 //! A share runs by default. The rest takes minutes:
 //!
 //! ```text
-//! cargo test --test altered -- --ignored --nocapture
+//! cargo test --test judges altered -- --ignored --nocapture
 //! ```
 
 #![allow(
@@ -15,8 +15,6 @@
 #![allow(clippy::print_stderr, reason = "a long run reports its figures")]
 
 mod bytes;
-#[path = "../common/mod.rs"]
-mod common;
 mod dice;
 mod geometry;
 mod keys;

@@ -3,9 +3,9 @@
 use equipoise::verify::CheckKind;
 use serde_json::json;
 
+use super::kits::{Kit, Room, Said, kits};
+use super::seal;
 use crate::common::{equipoise, path, printed};
-use crate::kits::{Kit, Room, Said, kits};
-use crate::seal;
 
 /// Asserts that the papers of a kit, changed by the forger, break their promise.
 fn assert_papers_fail(change: impl Fn(&mut Kit)) {

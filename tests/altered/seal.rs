@@ -9,7 +9,7 @@ use equipoise::sheet::Checklist;
 use equipoise::verify::{Body, Fingerprint, read_kit, sums};
 use serde_json::json;
 
-use crate::kits::{Kit, Room};
+use super::kits::{Kit, Room};
 
 /// The pages of a kit, which bear the hash of its checklist.
 const PAGES: [&str; 2] = ["job.html", "certificate.html"];

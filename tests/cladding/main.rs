@@ -6,8 +6,6 @@
     reason = "a test whose input cannot be had has failed; figures are shown with --nocapture"
 )]
 
-#[path = "../common/mod.rs"]
-mod common;
 mod models;
 mod pins;
 mod scenes;

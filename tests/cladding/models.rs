@@ -14,8 +14,8 @@ use equipoise::mesh::Solid;
 use equipoise::polyhedra::{Ground, Limits, Polyhedron, Request, grow_polyhedron};
 use equipoise::repair::repair;
 
+use super::scenes::{MOST_ON_THE_WAY_MM3, SHEET_MM, hold_cup, panels, take_apart, volume_error};
 use crate::common;
-use crate::scenes::{MOST_ON_THE_WAY_MM3, SHEET_MM, hold_cup, panels, take_apart, volume_error};
 
 const GAP_MM: f64 = 0.5;
 const WALL_MM: f64 = 3.0;

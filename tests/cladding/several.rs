@@ -11,11 +11,11 @@ use equipoise::mesh::{TriMesh, primitives};
 use equipoise::panels::PanelSet;
 use equipoise::polyhedra::{BasePlan, ConnectorRequest, Ground, Limits, Request};
 
-use crate::scenes::{
+use super::scenes::{
     MOST_ON_THE_WAY_MM3, SHEET_MM, ground, on_the_way_mm3, overlap_mm3, panel_request, panels,
     unit_bodies, united,
 };
-use crate::{GAP_MM, WALL_MM};
+use super::{GAP_MM, WALL_MM};
 
 /// The distance of the balls' middles from the plane between them, mm.
 const AWAY_MM: f64 = 120.0;
@@ -65,7 +65,7 @@ fn plan(ground: &Ground) -> BasePlan {
 }
 
 fn clad(ground: &Ground, plan: &BasePlan) -> CladShell {
-    let kit = crate::kit();
+    let kit = super::kit();
     let request = ShellRequest {
         wall_mm: WALL_MM,
         style: ShellStyle::Solid,

@@ -5,7 +5,7 @@ use equipoise::cutter::Fastener;
 use equipoise::geom::{Aabb, Plane, Point, Vector};
 use equipoise::mesh::primitives::{ball, cuboid};
 
-use crate::scenes::block;
+use super::scenes::block;
 
 /// Returns the corners of a block at the origin.
 fn corners(size: [f64; 3]) -> Vec<Point> {

@@ -7,8 +7,7 @@
 )]
 #![allow(clippy::print_stderr, reason = "a skipped test says so")]
 
-#[path = "../common/mod.rs"]
-mod common;
+use crate::common;
 mod method;
 mod pins;
 mod rods;

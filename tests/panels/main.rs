@@ -6,8 +6,7 @@
     reason = "a test whose input cannot be had has failed; figures are shown with --nocapture"
 )]
 
-#[path = "../common/mod.rs"]
-mod common;
+use crate::common;
 mod nests;
 mod sheets;
 

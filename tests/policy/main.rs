@@ -4,7 +4,7 @@
 //! `corpus.toml` holds both. Runs take minutes, so they are ignored by default:
 //!
 //! ```text
-//! EQUIPOISE_SOAK_MODELS=FOLDER cargo test --test policy [ROW] -- --ignored --nocapture
+//! EQUIPOISE_SOAK_MODELS=FOLDER cargo test --test command policy[::ROW] -- --ignored --nocapture
 //! ```
 
 #![allow(

@@ -10,7 +10,7 @@ use equipoise::job::{Job, ModelChoice, PrinterChoice, Scaling};
 use equipoise::prepare::{Outcome, prepare};
 use serde_json::Value;
 
-use crate::corpus::{CORPUS, Claim, Row};
+use super::corpus::{CORPUS, Claim, Row};
 
 /// Declares a test for each row.
 macro_rules! rows {

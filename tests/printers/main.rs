@@ -9,8 +9,7 @@
 #![allow(clippy::print_stderr, reason = "a skipped test says so")]
 
 mod bundle;
-#[path = "../common/mod.rs"]
-mod common;
+use crate::common;
 mod grid;
 mod slide;
 

@@ -1,0 +1,21 @@
+//! Fields of density, infill and toolpaths.
+
+mod common;
+#[path = "common/scene.rs"]
+mod scene;
+
+mod density;
+mod density_best;
+mod density_bodies;
+mod density_coupon;
+mod density_fields;
+mod dithered;
+mod drawn_fields;
+mod fields;
+mod gcode;
+mod graded;
+mod graded_levels;
+mod matching;
+mod scale_extrusion;
+mod slice;
+mod volumes;

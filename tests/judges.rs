@@ -1,0 +1,12 @@
+//! Judges that share no code with the program, and kits that were altered.
+
+mod common;
+
+#[path = "altered/main.rs"]
+mod altered;
+mod browser;
+mod clip_cross_check;
+mod cura;
+mod independent_judge;
+mod slicer;
+mod verify;

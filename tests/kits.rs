@@ -1,0 +1,30 @@
+//! Kits of one object: hollowed, cut, joined, weighed, judged.
+
+mod common;
+
+mod advice;
+mod ballast;
+mod cleaning;
+mod cut_soak;
+mod cut_suite;
+mod drains;
+mod flow;
+mod goals;
+mod hardware;
+mod joinery;
+mod layers;
+mod mending;
+mod plugs;
+mod poses;
+mod prepare;
+mod printed;
+mod proofs;
+mod remedies;
+mod repairs;
+mod rotors;
+mod rounds;
+mod seams;
+mod shipped_model;
+mod thin;
+mod tops;
+mod upright;
