@@ -1,7 +1,8 @@
 //! Every reader of a stranger's file answers whatever it is given: it reads it or refuses it, in
 //! bounded time and without a panic.
 //!
-//! `EQUIPOISE_MUTATIONS=10000 cargo test --release --test command readers` damages each file that often.
+//! `EQUIPOISE_MUTATIONS=10000 cargo test --release --test command readers` damages each file that
+//! often.
 
 #![allow(
     clippy::unwrap_used,
