@@ -253,6 +253,7 @@ fn measures_that_contradict_each_other_are_refused() {
         ("--junctures hull", "has no limbs"),
         ("--root 3", "has no limbs"),
         ("--keep-solid 4mm", "has no limbs"),
+        ("--pose nowhere.toml", "cannot read the pose file"),
     ] {
         let said = refuse("curve.csv", curve, options);
         assert!(said.contains(expected), "{options}: {said}");

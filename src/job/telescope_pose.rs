@@ -68,7 +68,7 @@ impl PoseChoice {
     /// # Errors
     /// The file cannot be read as text.
     pub fn read(path: &Path) -> Result<Self, JobError> {
-        let text = std::fs::read_to_string(path).map_err(|source| JobError::Unreadable {
+        let text = std::fs::read_to_string(path).map_err(|source| JobError::UnreadablePose {
             path: path.to_owned(),
             source,
         })?;
