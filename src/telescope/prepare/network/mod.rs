@@ -247,7 +247,9 @@ impl<'b> Attempt<'b> {
             Ok(foot) => foot,
             Err(falls) => return Ok(Verdict::No(falls)),
         };
-        for _ in 0..FOOT_TRIES {
+        let mut tries = 0;
+        loop {
+            tries += 1;
             let mut opened = self.open(Some(&foot))?;
             let sequence = match &opened.found {
                 Ok(sequence) => sequence,
@@ -261,17 +263,15 @@ impl<'b> Attempt<'b> {
                     opened.foot = Some(StoodFoot { foot, worst_deg });
                     return Ok(Verdict::Found(opened));
                 }
-                Err(falls @ Falls::Topples { .. }) => match foot.wider(self.workshop) {
-                    Some(wider) => foot = wider,
-                    None => return Ok(Verdict::No(falls)),
-                },
+                Err(falls @ Falls::Topples { .. }) if tries < FOOT_TRIES => {
+                    match foot.wider(self.workshop) {
+                        Some(wider) => foot = wider,
+                        None => return Ok(Verdict::No(falls)),
+                    }
+                }
                 Err(falls) => return Ok(Verdict::No(falls)),
             }
         }
-        Ok(Verdict::No(Falls::Topples {
-            angle_deg: 0.0,
-            foot_mm: foot.disc.radius_mm,
-        }))
     }
 
     fn footing<'c>(
