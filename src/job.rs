@@ -259,14 +259,6 @@ pub enum JobError {
         /// The system's error.
         source: std::io::Error,
     },
-    /// A pose file cannot be read.
-    #[error("cannot read the pose file {path}; remedy: check the path and its permissions")]
-    UnreadablePose {
-        /// The file.
-        path: PathBuf,
-        /// The system's error.
-        source: std::io::Error,
-    },
     /// The text is not a job.
     #[error(transparent)]
     Text(#[from] TextFault),

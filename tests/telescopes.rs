@@ -154,6 +154,74 @@ fn what_falls_on_its_foot_is_told_the_ballast_that_holds_it() {
 }
 
 #[test]
+fn steel_discs_in_the_foot_let_it_stand_and_both_judges_weigh_them() {
+    let folder = tempfile::tempdir().unwrap();
+    let kit = folder.path().join("kit");
+    let stands = "telescope arc:80,90 --printer prusa-mk4 --shells 3 --goal stand --foot 32mm";
+    let alone = equipoise(&words(&format!("{stands} --least-angle 28 --json")));
+    assert_exit(&alone, 1);
+    let remedy = json(&alone);
+    let settings = list(&remedy, "remedies").iter();
+    let mut settings = settings.map(|remedy| &remedy["settings"][0]["key"]);
+    assert!(settings.any(|key| key == "ballast"), "{remedy}");
+    make(&kit, &format!("{stands} --least-angle 28 --ballast auto"));
+    let sheet = checklist(&kit);
+    let pieces = list(&sheet, "ballast").len();
+    assert!(pieces > 0);
+    let (code, said) = verify(&kit);
+    assert_eq!(code, Some(0), "{said}");
+    assert!(
+        said.contains("every piece of ballast is a stock part"),
+        "{said}"
+    );
+    judge_telescope(&kit);
+    replay(folder.path(), &kit);
+    let file = kit.join("checklist.json");
+    type Lie = fn(&mut serde_json::Value);
+    let lies: [(Lie, &str); 2] = [
+        (|piece| piece["mass_g"] = 10.0.into(), "is no stock part"),
+        (
+            |piece| {
+                for side in piece["center_mm"].as_array_mut().unwrap() {
+                    *side = (side.as_f64().unwrap() + 2.0).into();
+                }
+            },
+            "has no room",
+        ),
+    ];
+    for (lie, expected) in lies {
+        let mut told = sheet.clone();
+        lie(&mut told["ballast"][0]);
+        fs::write(&file, told.to_string()).unwrap();
+        let (code, said) = verify(&kit);
+        assert_eq!(code, Some(1), "{said}");
+        assert!(said.contains(expected), "{said}");
+    }
+}
+
+#[test]
+fn ballast_without_a_pocket_is_refused() {
+    for (order, expected) in [
+        ("arc:80,90 --ballast auto", "needs the foot"),
+        (
+            "arc:80,90 --goal stand --ballast ball-4",
+            "does not lie flat",
+        ),
+        ("arc:80,90 --goal stand --ballast disc-7", "disc-7"),
+        (
+            "arc:80,20 --goal stand --in-place --ballast auto",
+            "needs the foot",
+        ),
+    ] {
+        let order = format!("telescope {order} --printer prusa-mk4 --shells 3");
+        let output = equipoise(&words(&order));
+        assert_exit(&output, 2);
+        let said = printed(&output);
+        assert!(said.contains(expected), "{order}: {said}");
+    }
+}
+
+#[test]
 fn of_two_free_orders_the_one_that_stands_on_the_lesser_foot_is_taken() {
     let folder = tempfile::tempdir().unwrap();
     let foot = |order: &str| {

@@ -27,11 +27,13 @@
 //! the least gap. No more than 8 mm come out. So no collision lies between two states.
 //!
 //! # 5. Balance
-//! Mass is constant along the opening, the centre is not. A foot is chosen so that the telescope
-//! stands at every state. All play is taken up: every joint tilts by 2 g/o of its seat, the same
-//! way, and moves the centre by the sum. Of the orders that are free, the one that stands on the
-//! least foot is taken, unless one was ordered. Where no foot holds it, the answer tells the least
-//! ballast in the middle of the foot that would.
+//! Mass is constant along the opening, the centre is not. A foot is chosen so that the
+//! telescope stands at every state. All play is taken up: every joint tilts by 2 g/o of its
+//! seat, the same way, and moves the centre by the sum. Of the orders that are free, the one
+//! that stands on the least foot is taken, unless one was ordered. Where no foot holds it, the
+//! answer tells the least ballast in the middle of the foot that would. If it is ordered, the
+//! lightest stack of steel discs is taken that does. It counts as light as its stock allows,
+//! and lies in a pocket under the foot.
 //!
 //! # 6. Figures
 //! A figure is a tree of junctures and limbs ([`crate::telescope::Network`]). Each limb is a

@@ -6,9 +6,10 @@ use std::str::FromStr;
 
 use serde::{Deserialize, Deserializer, Serialize, de::Error as _};
 
-pub use super::telescope_pose::{PoseChoice, Reach, ReachError};
+pub use super::telescope_pose::{PoseChoice, PoseReadError, Reach, ReachError};
 pub use super::telescope_root::{Root, RootError};
 use super::{JobError, PrinterChoice, Scaling};
+use crate::ballast::Order;
 use crate::base::toml_text::{self, TextFault};
 use crate::base::units::Length;
 use crate::base::words::{ChoiceError, as_text, choice};
@@ -159,6 +160,9 @@ pub struct TelescopeJob {
     pub least_angle_deg: f64,
     /// The radius of its foot if it stands.
     pub foot: FootSize,
+    /// The ballast in its foot.
+    #[serde(default, skip_serializing_if = "Order::is_none")]
+    pub ballast: Order,
     /// True to print all shells in each other, in one go.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub in_place: bool,
@@ -220,6 +224,7 @@ impl TelescopeJob {
             goal: Stance::None,
             least_angle_deg: USUAL_LEAST_ANGLE_DEG,
             foot: FootSize::Auto,
+            ballast: Order::None,
             in_place: false,
             junctures: None,
             keep_solid: None,

@@ -1,12 +1,11 @@
 //! The poses that a job of a telescope orders.
 
 use std::fmt;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
 
-use super::JobError;
 use crate::base::words::as_text;
 
 /// A place that a tip is to reach.
@@ -52,6 +51,16 @@ impl fmt::Display for Reach {
 
 as_text!(Reach);
 
+/// A pose file that cannot be read.
+#[derive(Debug, thiserror::Error)]
+#[error("cannot read the pose file {}; remedy: check the path and its permissions", path.display())]
+pub struct PoseReadError {
+    /// The file.
+    pub path: PathBuf,
+    /// The system's error.
+    pub source: std::io::Error,
+}
+
 /// A pose file. The job holds its text, so that it replays away from the file.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -67,8 +76,8 @@ impl PoseChoice {
     ///
     /// # Errors
     /// The file cannot be read as text.
-    pub fn read(path: &Path) -> Result<Self, JobError> {
-        let text = std::fs::read_to_string(path).map_err(|source| JobError::UnreadablePose {
+    pub fn read(path: &Path) -> Result<Self, PoseReadError> {
+        let text = std::fs::read_to_string(path).map_err(|source| PoseReadError {
             path: path.to_owned(),
             source,
         })?;

@@ -124,7 +124,7 @@ fn facts(sheet: &TelescopeSheet) -> Markup {
         ("All out", measured_extent(&sheet.extended_mm)),
         ("Printer", sheet.printer.name.clone()),
         ("Material", sheet.material.name.clone()),
-        ("Mass", measured(sheet.mass_g, "g")),
+        ("Mass", mass_words(sheet)),
         (
             "Kit",
             match sheet.in_place {
@@ -145,6 +145,16 @@ fn facts(sheet: &TelescopeSheet) -> Markup {
         table class="facts" {
             @for (name, words) in rows { tr { th scope="row" { (name) } td { (words) } } }
         }
+    }
+}
+
+/// Words the mass, and how much of it is ballast.
+fn mass_words(sheet: &TelescopeSheet) -> String {
+    let ballast_g: f64 = sheet.ballast.iter().map(|piece| piece.lump.mass_g).sum();
+    let whole = measured(sheet.mass_g, "g");
+    match sheet.ballast.is_empty() {
+        true => whole,
+        false => format!("{whole}, {} of it ballast", measured(ballast_g, "g")),
     }
 }
 
@@ -221,11 +231,22 @@ pub(super) fn assemble(page: &TelescopePage) -> Markup {
                     @if shell < count { "Put the pack of " (sheet.shells[shell].id) " into " (sheet.shells[shell - 1].id) " from behind, mouth first. " }
                     "Glue " (cap_id(sheet, shell)) " into " (sheet.shells[shell - 1].id) ": glue on the spigot alone, none on the flange, slot on the rib."
                     @if shell == 1 && sheet.foot.is_some() { " " (cap_id(sheet, 1)) " is the foot." }
+                    @if shell == 1 { (lay_ballast(sheet)) }
                 }
             }
         }
         (glue(&sheet.printer))
         (figures(page.pictures, Role::Exploded))
+    }
+}
+
+/// Returns how ballast is glued into the foot; nothing without any.
+fn lay_ballast(sheet: &TelescopeSheet) -> Markup {
+    html! {
+        @if let Some(first) = sheet.ballast.first() {
+            " Glue " (format_count(sheet.ballast.len(), "piece")) " of " (first.name) " (" code { (first.id) } ", "
+            (measured(first.lump.mass_g, "g")) " each by the list: weigh them) into its pocket, with epoxy, none of it below the foot."
+        }
     }
 }
 

@@ -8,7 +8,8 @@ use super::Verdict;
 use super::kind::kind_sheet;
 use super::pose::PoseRow;
 use crate::verify::{
-    BalancePromise, Check, DeviationPromise, JointPromise, PrinterLimits, TelescopePartPromise,
+    BalancePromise, Check, DeviationPromise, JointPromise, PrinterLimits, TelescopeBallast,
+    TelescopePartPromise,
 };
 
 /// The version of the keys.
@@ -88,6 +89,9 @@ pub struct TelescopeSheet {
     pub least_angle_deg: Option<f64>,
     /// The foot; `None` without one.
     pub foot: Option<FootRow>,
+    /// The ballast in its foot; empty without any.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub ballast: Vec<TelescopeBallast>,
     /// The box when all in, along the root's axes, mm.
     pub collapsed_mm: [f64; 3],
     /// The box when all out, along the root's axes, mm.

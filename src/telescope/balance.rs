@@ -18,6 +18,9 @@ pub struct DiscFoot {
     pub radius_mm: f64,
     /// The height, mm.
     pub height_mm: f64,
+    /// The radius and the depth of a round pocket in the middle of its lower face, mm; `None`
+    /// without ballast.
+    pub pocket_mm: Option<[f64; 2]>,
 }
 
 /// The balance in a state.

@@ -283,7 +283,12 @@ impl Telescope {
             [high - chamfer, radius],
             [high, radius - chamfer],
         ]);
-        body(sweep_profile(&tail, &Helix::LINE, &disc))
+        let disc = body(sweep_profile(&tail, &Helix::LINE, &disc))?;
+        let Some([radius, depth]) = foot.pocket_mm else {
+            return Ok(disc);
+        };
+        let pocket = Profile::new([[low - BEYOND_MM, radius], [low + depth, radius]]);
+        disc.subtract(&body(sweep_profile(&tail, &Helix::LINE, &pocket))?)
     }
 
     fn vent(&self, inside: &Inside) -> Result<Csg, ClipError> {

@@ -29,6 +29,7 @@ mod loads;
 mod rotor;
 mod sparse;
 mod spin;
+mod stock;
 mod support;
 mod water;
 // The facts about surfaces, parts and joints.
@@ -191,8 +192,9 @@ pub use core_kit::{
 pub use telescope::{
     BalancePromise, DeviationPromise, JointMotion, JointPromise, MotionKey, PoseMotion,
     PosePromise, PoseState, PoseText, PoseTextJoint, PoseTipPromise, PosesFacts, REACH_LIMIT_MM,
-    ShellMotion, TelescopeEvidence, TelescopeFacts, TelescopeMotion, TelescopePartPromise,
-    TelescopePromise, TelescopeVerifyError, judge_telescope, telescope_checks, verify_telescope,
+    ShellMotion, TelescopeBallast, TelescopeEvidence, TelescopeFacts, TelescopeMotion,
+    TelescopePartPromise, TelescopePromise, TelescopeVerifyError, judge_telescope,
+    telescope_checks, verify_telescope,
 };
 pub use telescope::{
     CURVE_FILE, MOTION_FILE, MOTION_SCENE_FILE, NESTED_FILE, NESTED_NAME, OPENING, asked_points,

@@ -152,8 +152,10 @@ const ARROWS: &[(&str, &[&str])] = &[
     (
         "telescope",
         &[
-            "base", "curve", "cut", "draw", "error", "geom", "goal", "io", "job", "kit", "make",
-            "mass", "mesh", "page", "printer", "repair", "sheet", "skeleton", "verify", "wing",
+            // Its stock is that of ballast in prints, but it lies in a foot.
+            "ballast", "base", "curve", "cut", "draw", "error", "geom", "goal", "io", "job", "kit",
+            "make", "mass", "mesh", "page", "printer", "repair", "sheet", "skeleton", "verify",
+            "wing",
         ],
     ),
     // Objects on a base have a line of their own, from a model to a kit. It joins the rooms of

@@ -252,7 +252,14 @@ def judge_curve(kit):
 def judge_balance(kit):
     volumes = np.array([sum(mesh.volume for mesh in meshes) for meshes in kit.shells])
     centres = [sum(mesh.center_mass * mesh.volume for mesh in meshes) / volume for meshes, volume in zip(kit.shells, volumes)]
-    mass = volumes.sum() * kit.sheet["material"]["density_g_cm3"] / 1000.0
+    density = kit.sheet["material"]["density_g_cm3"] / 1000.0
+    for piece in kit.sheet.get("ballast", []):
+        # A piece counts as a volume of the shells' material, in the root.
+        more = piece["mass_g"] / density
+        centres[0] = (centres[0] * volumes[0] + np.array(piece["center_mm"]) * more) / (volumes[0] + more)
+        volumes[0] += more
+    judge_ballast(kit)
+    mass = volumes.sum() * density
     kit.say("mass", abs(mass / kit.sheet["mass_g"] - 1) < MASS_LIMIT_RATIO, f"{mass:.4f} of {kit.sheet['mass_g']:.4f} g")
     root = np.array(kit.motion["root"]) @ kit.along(0, kit.motion["shells"][0]["ends_mm"][0])
     to_ground = np.linalg.inv(root)
@@ -288,6 +295,20 @@ def judge_balance(kit):
         for pose in kit.motion.get("poses", []):
             least = min(balance(key[0])[1] for key in pose["keys"])
             kit.say(f"stands in pose {pose['name']}", least >= kit.sheet["least_angle_deg"], f"{least:.2f} of {kit.sheet['least_angle_deg']}°")
+
+
+def judge_ballast(kit):
+    """Every piece has room in the root: no corner of its rims is in a solid."""
+    for number, piece in enumerate(kit.sheet.get("ballast", []), 1):
+        axis = np.array(piece["axis"]) / np.linalg.norm(piece["axis"])
+        side = np.cross(axis, np.eye(3)[np.argmin(np.abs(axis))])
+        side /= np.linalg.norm(side)
+        radius, half = piece["shape"]["diameter_mm"] / 2, piece["shape"]["thickness_mm"] / 2
+        turns = np.linspace(0, 2 * np.pi, 48, endpoint=False)[:, None]
+        rim = (np.cos(turns) * side + np.sin(turns) * np.cross(axis, side)) * radius
+        points = np.concatenate([rim + np.array(piece["center_mm"]) + axis * end for end in (-half, half)])
+        is_in = np.any([mesh.contains(points).any() for mesh in kit.shells[0]])
+        kit.say(f"ballast {number} has room", not is_in, piece["id"])
 
 
 def judge_ground(kit, to_ground, ground):

@@ -3,6 +3,7 @@
 use super::missing::Missing;
 use crate::goal::RequestError;
 use crate::job::base_choice::BaseReadError;
+use crate::job::telescope::PoseReadError;
 use crate::job::{FieldOrderError, JobError, PlanError};
 use crate::printer::ShopError;
 
@@ -15,6 +16,9 @@ pub enum ArgsError {
     /// The replayed job cannot be used.
     #[error(transparent)]
     Job(#[from] JobError),
+    /// The pose file cannot be read.
+    #[error(transparent)]
+    Pose(#[from] PoseReadError),
     /// The base cannot be read.
     #[error(transparent)]
     Base(#[from] BaseReadError),

@@ -8,6 +8,7 @@ use super::beside::copy_beside;
 use super::error::ArgsError;
 use super::scaling::ScalingArgs;
 use super::values::{angle, words};
+use crate::ballast::Order as BallastOrder;
 use crate::base::units::Length;
 use crate::cli::shop::chosen_printer;
 use crate::cli::wing::Order;
@@ -138,6 +139,10 @@ pub struct StanceArgs {
     /// The radius of the foot, or auto: the least on which it stands [default: auto]
     #[arg(long, value_name = "LENGTH|auto", allow_hyphen_values = true)]
     pub foot: Option<FootSize>,
+    /// Steel discs in a pocket under the foot: the lightest that hold it if no foot alone does
+    /// (auto), or those of an id such as disc-60-10x2 [default: none]
+    #[arg(long, value_name = "auto|ID|IDxN|none")]
+    pub ballast: Option<BallastOrder>,
 }
 
 /// The arguments of poses.
@@ -154,7 +159,7 @@ pub struct PoseArgs {
 }
 
 /// The arguments that a replayed job decides.
-const DECIDED_BY_JOB: [&str; 26] = [
+const DECIDED_BY_JOB: [&str; 27] = [
     "printer",
     "material",
     "size",
@@ -179,6 +184,7 @@ const DECIDED_BY_JOB: [&str; 26] = [
     "goal",
     "least_angle",
     "foot",
+    "ballast",
     "reach",
     "pose",
 ];
@@ -238,6 +244,7 @@ impl TelescopeArgs {
             goal: stance.goal.unwrap_or(default.goal),
             least_angle_deg: stance.least_angle.unwrap_or(default.least_angle_deg),
             foot: stance.foot.unwrap_or(default.foot),
+            ballast: stance.ballast.unwrap_or_default(),
             reach: self.poses.reach,
             pose: pose.transpose()?,
             ..default

@@ -7,6 +7,7 @@ use super::best::{Best, Reason, Refused, design};
 use super::error::TelescopeRunError;
 use super::footing::choose_order;
 use super::load::Loaded;
+use crate::ballast::Order;
 use crate::base::numbers::measured;
 use crate::base::setting::{Key, Setting};
 use crate::base::units::Length;
@@ -156,7 +157,7 @@ fn changes(asked: &Asked, reason: &Reason) -> Vec<Vec<Change>> {
     }
 }
 
-/// Returns the changes to try for what falls: a free foot, a free order.
+/// Returns the changes to try for what falls: a free foot, a free order, ballast.
 fn standing_changes(asked: &Asked) -> Vec<Vec<Change>> {
     let foot = matches!(asked.job.foot, FootSize::Given(_)).then(|| {
         change(asked, Key::Foot, FootSize::Auto, |job| {
@@ -168,7 +169,15 @@ fn standing_changes(asked: &Asked) -> Vec<Vec<Change>> {
             job.order = Opening::Auto;
         })
     });
-    [foot, order].map(|one| one.into_iter().collect()).into()
+    let is_capped = !asked.job.in_place && asked.job.ballast.is_none();
+    let ballast = is_capped.then(|| {
+        change(asked, Key::Ballast, Order::Auto, |job| {
+            job.ballast = Order::Auto;
+        })
+    });
+    [foot, order, ballast]
+        .map(|one| one.into_iter().collect())
+        .into()
 }
 
 fn length(mm: f64) -> Option<Length> {
@@ -243,7 +252,7 @@ fn stands(asked: &Asked, best: &Best) -> Result<bool, TelescopeRunError> {
     }
     let design = &best.design;
     let masses = design.telescope.weigh()?;
-    let standing = choose_order(asked, &design.telescope, &design.opening, &masses);
+    let standing = choose_order(asked, &design.telescope, &design.opening, &masses)?;
     Ok(standing.found().is_some())
 }
 

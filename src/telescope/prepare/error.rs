@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use crate::ballast::BallastError;
 use crate::base::setting::{Key, Setting};
 use crate::base::toml_text::TextFault;
 use crate::base::watch::Cancelled;
@@ -12,7 +13,7 @@ use crate::error::Error;
 use crate::io::threemf::PackageError;
 use crate::io::{ContentError, LinesError, ReadError, StlError};
 use crate::job::JobError;
-use crate::job::telescope::JunctureKind;
+use crate::job::telescope::{JunctureKind, Stance};
 use crate::mesh::{ClipError, Defects};
 use crate::printer::{MaterialError, ProfileError, Quantity, WallError};
 use crate::repair::NotOneBody;
@@ -167,6 +168,16 @@ pub enum TelescopeRunError {
         /// The most that the root may be, mm.
         root_mm: f64,
     },
+    /// The ballast cannot be had.
+    #[error(transparent)]
+    Ballast(#[from] BallastError),
+    /// Ballast where there is no pocket for it.
+    #[error(
+        "`{0}` needs the foot of a telescope with caps; remedy: leave it out, or `{stand}` with a \
+         curve whose shells are glued",
+        stand = Setting::new(Key::Goal, Stance::Stand)
+    )]
+    NoPocket(Setting),
     /// A boolean failed.
     #[error(transparent)]
     Clip(#[from] ClipError),

@@ -3,17 +3,26 @@
 use super::asked::Asked;
 use super::balance::{Standing, centre, drop_mm, tail};
 use super::best::Reason;
+use crate::ballast::{BallastError, Order as BallastOrder, Part, catalogue, find};
 use crate::base::units::MM3_PER_CM3;
 use crate::base::verdict::Verdict;
 use crate::geom::Point;
 use crate::job::telescope::{self as job, FootSize};
+use crate::mass::{Lump, LumpShape};
 use crate::telescope::balance::DiscFoot;
 use crate::telescope::motion::{Opening, Order};
 use crate::telescope::nest::Telescope;
 use crate::telescope::tube::TubeMass;
+use crate::verify::TelescopeBallast;
 
 /// Step in which the radius of a foot grows, mm.
 const FOOT_STEP_MM: f64 = 1.0;
+
+/// The most discs that lie on each other.
+const MOST_DISCS: u32 = 4;
+
+/// Least wall of a foot around its pocket, mm.
+const RIM_MM: f64 = 3.0;
 
 /// Height of a foot over the flange's length, and the least, mm: thinner discs curl.
 const FOOT_HEIGHT_MM: f64 = 3.0;
@@ -33,25 +42,49 @@ const MOST_BALLAST_RATIO: f64 = 50.0;
 /// Halvings by which the least ballast is found: to a share of 1e-9 of the most.
 const HALVINGS: usize = 30;
 
+/// A foot, with the ballast in its pocket.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Base {
+    pub foot: DiscFoot,
+    pub ballast: Vec<TelescopeBallast>,
+}
+
+impl Base {
+    /// Returns what of two feet is less: ballast first, then the radius.
+    fn is_less(&self, other: &Self) -> bool {
+        let key = |base: &Self| {
+            let mass_g: f64 = base.ballast.iter().map(|piece| piece.lump.mass_g).sum();
+            [mass_g, base.foot.radius_mm]
+        };
+        key(self) < key(other)
+    }
+}
+
 /// Chooses the order of opening and the foot with which it stands. Of all free orders that the job
-/// leaves open it takes the one on the least foot. `masses` are those of the shells.
+/// leaves open it takes the one with the least ballast on the least foot. `masses` are those of the
+/// shells.
 ///
 /// The reason is that of the order that was found first.
+///
+/// # Errors
+/// The catalogue of ballast is at fault, or a part is ordered that is no disc of it.
 pub fn choose_order(
     asked: &Asked,
     telescope: &Telescope,
     found: &Opening,
     masses: &[TubeMass],
-) -> Verdict<(Opening, Option<DiscFoot>), Reason> {
+) -> Result<Verdict<(Opening, Option<Base>), Reason>, BallastError> {
     if !asked.stands() {
-        return Verdict::Found((found.clone(), None));
+        return Ok(Verdict::Found((found.clone(), None)));
     }
+    let stacks = stacks(&asked.job.ballast)?;
     let footing = |opening: &Opening| {
         let footing = Footing {
             asked,
             telescope,
             opening,
             masses,
+            stacks: &stacks,
         };
         footing.choose()
     };
@@ -67,14 +100,67 @@ pub fn choose_order(
             continue;
         };
         let is_less = match &best {
-            Verdict::Found((_, known)) => foot.radius_mm < known.radius_mm,
+            Verdict::Found((_, known)) => foot.is_less(known),
             Verdict::No(_) => true,
         };
         if is_less {
             best = Verdict::Found((opening, foot));
         }
     }
-    best.map(|(opening, foot)| (opening, Some(foot)))
+    Ok(best.map(|(opening, foot)| (opening, Some(foot))))
+}
+
+/// Discs of one kind, one on the other.
+struct Stack {
+    part: Part,
+    count: u32,
+}
+
+impl Stack {
+    fn mass_g(&self) -> f64 {
+        self.part.mass_g * f64::from(self.count)
+    }
+
+    fn height_mm(&self) -> f64 {
+        2.0 * self.part.shape.half_height_mm() * f64::from(self.count)
+    }
+}
+
+/// Returns the stacks of discs that an order allows, the lightest first.
+fn stacks(order: &BallastOrder) -> Result<Vec<Stack>, BallastError> {
+    let is_flat = |part: &Part| matches!(part.shape, LumpShape::Disc { .. });
+    let (kinds, counts) = match order {
+        BallastOrder::None => return Ok(Vec::new()),
+        BallastOrder::Auto => {
+            let mut kinds = catalogue()?;
+            kinds.retain(is_flat);
+            (kinds, 1..=MOST_DISCS)
+        }
+        BallastOrder::Parts { id, count } => {
+            let part = find(id)?;
+            if !is_flat(&part) {
+                return Err(BallastError::Unknown {
+                    id: id.clone(),
+                    remedy: "it does not lie flat in a foot; use a disc such as disc-60-10"
+                        .to_owned(),
+                });
+            }
+            let counts = count.map_or(1..=MOST_DISCS, |count| count..=count);
+            (vec![part], counts)
+        }
+    };
+    let mut stacks: Vec<Stack> = kinds
+        .iter()
+        .flat_map(|part| {
+            let stack = |count: u32| Stack {
+                part: part.clone(),
+                count,
+            };
+            counts.clone().map(stack).collect::<Vec<_>>()
+        })
+        .collect();
+    stacks.sort_by(|a, b| a.mass_g().total_cmp(&b.mass_g()));
+    Ok(stacks)
 }
 
 /// A telescope whose foot is looked for.
@@ -83,37 +169,113 @@ struct Footing<'a> {
     telescope: &'a Telescope,
     opening: &'a Opening,
     masses: &'a [TubeMass],
+    /// The ballast that may be taken, the lightest first.
+    stacks: &'a [Stack],
 }
 
 impl Footing<'_> {
-    /// Chooses the foot: as ordered, or the least on which it stands as promised.
-    fn choose(&self) -> Verdict<DiscFoot, Reason> {
+    /// Chooses the foot: as ordered, or the least on which it stands as promised. Ballast is taken
+    /// if it was ordered by name, or if no foot alone does.
+    fn choose(&self) -> Verdict<Base, Reason> {
         if let Some(reason) = self.find_low() {
             return Verdict::No(reason);
         }
-        let least_deg = self.asked.job.least_angle_deg;
-        let holds = |radius_mm: f64, deg: f64| self.angle_deg(radius_mm, 0.0) >= deg;
+        let is_named = matches!(self.asked.job.ballast, BallastOrder::Parts { .. });
+        let bare = self.radii_mm(self.first_mm());
+        let bare = bare.into_iter().find(|mm| self.holds(&self.foot(*mm), 0.0));
+        if let Some(radius_mm) = bare.filter(|_| !is_named) {
+            return Verdict::Found(Base {
+                foot: self.foot(radius_mm),
+                ballast: Vec::new(),
+            });
+        }
+        let weighted = self.stacks.iter().find_map(|stack| self.weighted(stack));
+        match weighted {
+            Some(base) => Verdict::Found(base),
+            None => Verdict::No(self.falls(match self.asked.job.foot {
+                FootSize::Given(radius) => radius.mm(),
+                FootSize::Auto => self.most_mm(),
+            })),
+        }
+    }
+
+    /// Returns the radii to try, from one on; the one that was ordered if there is one.
+    fn radii_mm(&self, first_mm: f64) -> Vec<f64> {
         match self.asked.job.foot {
-            FootSize::Given(radius) if holds(radius.mm(), least_deg) => {
-                Verdict::Found(self.foot(radius.mm()))
-            }
-            FootSize::Given(radius) => Verdict::No(self.falls(radius.mm())),
+            FootSize::Given(radius) => Vec::from_iter(Some(radius.mm())),
             FootSize::Auto => {
-                let (first_mm, most_mm) = (self.first_mm(), self.most_mm());
-                let steps = ((most_mm - first_mm) / FOOT_STEP_MM).max(0.0) as usize;
-                let mut radii = (0..=steps).map(|i| first_mm + FOOT_STEP_MM * i as f64);
-                match radii.find(|mm| holds(*mm, least_deg + SPARE_DEG)) {
-                    Some(radius_mm) => Verdict::Found(self.foot(radius_mm)),
-                    None => Verdict::No(self.falls(most_mm)),
-                }
+                let room_mm = self.most_mm() - first_mm;
+                let steps = (room_mm / FOOT_STEP_MM).floor();
+                let count = if steps < 0.0 { 0 } else { steps as usize + 1 };
+                (0..count)
+                    .map(|i| first_mm + FOOT_STEP_MM * i as f64)
+                    .collect()
             }
         }
+    }
+
+    /// Returns true if it stands as promised on a foot with so much ballast, mm³ of the shells'
+    /// material. A foot that is chosen has room for the rounding of files.
+    fn holds(&self, foot: &DiscFoot, ballast_mm3: f64) -> bool {
+        let spare_deg = match self.asked.job.foot {
+            FootSize::Given(_) => 0.0,
+            FootSize::Auto => SPARE_DEG,
+        };
+        self.angle_deg(foot, ballast_mm3) >= self.asked.job.least_angle_deg + spare_deg
+    }
+
+    /// Returns the least foot with a stack of discs on which it stands, even if they are as light
+    /// as their stock allows; `None` if there is none.
+    fn weighted(&self, stack: &Stack) -> Option<Base> {
+        let sizes = &self.telescope.sizes;
+        let pocket = [
+            stack.part.shape.radius_mm() + sizes.glue_mm,
+            stack.height_mm() + 2.0 * sizes.glue_mm,
+        ];
+        let rim_mm = RIM_MM.max(2.0 * sizes.wall_mm);
+        let first_mm = self.first_mm().max((pocket[0] + rim_mm).ceil());
+        let light = stack.mass_g() * (1.0 - stack.part.mass_spread_ratio);
+        let light_mm3 = light * MM3_PER_CM3 / self.asked.shop.material.density_g_cm3.value;
+        let foot = |radius_mm: f64| DiscFoot {
+            radius_mm,
+            height_mm: self.foot(radius_mm).height_mm + pocket[1],
+            pocket_mm: Some(pocket),
+        };
+        let radii = self.radii_mm(first_mm).into_iter();
+        let mut wide = radii.filter(|mm| *mm >= pocket[0] + rim_mm).map(foot);
+        let foot = wide.find(|foot| self.holds(foot, light_mm3))?;
+        Some(Base {
+            ballast: self.placed(stack, &foot),
+            foot,
+        })
+    }
+
+    /// Returns the discs of a stack in the pocket of a foot, in the root's frame.
+    fn placed(&self, stack: &Stack, foot: &DiscFoot) -> Vec<TelescopeBallast> {
+        let tail = tail(self.telescope);
+        let thick_mm = 2.0 * stack.part.shape.half_height_mm();
+        let low_mm = self.telescope.sizes.glue_mm - foot.height_mm;
+        let piece = |index: u32| {
+            let middle_mm = low_mm + thick_mm * (f64::from(index) + 0.5);
+            TelescopeBallast {
+                id: stack.part.id.clone(),
+                name: stack.part.name.clone(),
+                lump: Lump {
+                    shape: stack.part.shape,
+                    mass_g: stack.part.mass_g,
+                    center_mm: tail.to_model(&Point::new(middle_mm, 0.0, 0.0)).into(),
+                    axis: tail.axes.column(0).into_owned().into(),
+                },
+            }
+        };
+        (0..stack.count).map(piece).collect()
     }
 
     fn foot(&self, radius_mm: f64) -> DiscFoot {
         DiscFoot {
             radius_mm,
             height_mm: FOOT_HEIGHT_MM.max(2.0 * self.telescope.sizes.wall_mm),
+            pocket_mm: None,
         }
     }
 
@@ -143,26 +305,27 @@ impl Footing<'_> {
 
     /// Returns the lean at which it topples first on a foot of a radius, degrees. Ballast lies in
     /// the middle of the foot's lower face, in mm³ of the shells' material.
-    fn angle_deg(&self, radius_mm: f64, ballast_mm3: f64) -> f64 {
-        let foot = self.foot(radius_mm);
-        let low_mm = -drop_mm(self.telescope, &foot);
+    fn angle_deg(&self, foot: &DiscFoot, ballast_mm3: f64) -> f64 {
+        // A stack lies in the middle of its pocket, other ballast on the lower face.
+        let up_mm = foot.pocket_mm.map_or(0.0, |[_, depth_mm]| 0.5 * depth_mm);
+        let low_mm = up_mm - drop_mm(self.telescope, foot);
         let ballast = TubeMass {
             volume_mm3: ballast_mm3,
             centre: tail(self.telescope).to_model(&Point::new(low_mm, 0.0, 0.0)),
         };
         let mut masses = self.masses.to_vec();
-        masses[0] = both(&with_foot(&masses[0], self.telescope, &foot), &ballast);
+        masses[0] = both(&with_foot(&masses[0], self.telescope, foot), &ballast);
         let standing = Standing {
             telescope: self.telescope,
             masses: &masses,
-            foot,
+            foot: *foot,
         };
         standing.worst(self.opening).1.sagged_rad.to_degrees()
     }
 
     fn falls(&self, foot_mm: f64) -> Reason {
         Reason::Falls {
-            angle_deg: self.angle_deg(foot_mm, 0.0),
+            angle_deg: self.angle_deg(&self.foot(foot_mm), 0.0),
             least_deg: self.asked.job.least_angle_deg,
             foot_mm,
             ballast_g: self.ballast_g(foot_mm),
@@ -173,7 +336,8 @@ impl Footing<'_> {
     /// if much more than the telescope's own mass does not do it.
     fn ballast_g(&self, foot_mm: f64) -> Option<f64> {
         let least_deg = self.asked.job.least_angle_deg;
-        let holds = |mm3: f64| self.angle_deg(foot_mm, mm3) >= least_deg;
+        let foot = self.foot(foot_mm);
+        let holds = |mm3: f64| self.angle_deg(&foot, mm3) >= least_deg;
         let own_mm3: f64 = self.masses.iter().map(|mass| mass.volume_mm3).sum();
         let (mut low, mut high) = (0.0, MOST_BALLAST_RATIO * own_mm3);
         if !holds(high) {
@@ -198,16 +362,23 @@ fn with_foot(root: &TubeMass, telescope: &Telescope, foot: &DiscFoot) -> TubeMas
         true => (telescope.shells[0].body_mm, 1.0),
         false => (0.0, -1.0),
     };
-    let area_mm2 = std::f64::consts::PI * (foot.radius_mm.powi(2) - inner_mm.powi(2));
-    let disc = TubeMass {
-        volume_mm3: area_mm2 * foot.height_mm,
-        centre: tail(telescope).to_model(&Point::new(0.5 * up * foot.height_mm, 0.0, 0.0)),
+    let round = |area_mm2: f64, height_mm: f64, middle_mm: f64| TubeMass {
+        volume_mm3: std::f64::consts::PI * area_mm2 * height_mm,
+        centre: tail(telescope).to_model(&Point::new(middle_mm, 0.0, 0.0)),
     };
-    both(root, &disc)
+    let area_mm2 = foot.radius_mm.powi(2) - inner_mm.powi(2);
+    let disc = round(area_mm2, foot.height_mm, 0.5 * up * foot.height_mm);
+    let whole = both(root, &disc);
+    let Some([radius_mm, depth_mm]) = foot.pocket_mm else {
+        return whole;
+    };
+    // A pocket is mass that is taken away.
+    let middle_mm = 0.5 * depth_mm - foot.height_mm;
+    both(&whole, &round(-radius_mm.powi(2), depth_mm, middle_mm))
 }
 
 /// Returns two masses in one.
-fn both(a: &TubeMass, b: &TubeMass) -> TubeMass {
+pub fn both(a: &TubeMass, b: &TubeMass) -> TubeMass {
     let both = [*a, *b];
     TubeMass {
         volume_mm3: both.iter().map(|mass| mass.volume_mm3).sum(),

@@ -5,10 +5,11 @@ use rayon::prelude::*;
 use super::asked::Asked;
 use super::best::{Best, Reason, Refused};
 use super::error::TelescopeRunError;
-use super::footing::choose_order;
+use super::footing::{both, choose_order};
 use super::load_skeleton::Shop;
 use super::nested::lay_nested;
 use super::poses::{Laid, Lies, lay_cap, lay_shell};
+use crate::base::units::MM3_PER_CM3;
 use crate::base::verdict::Verdict;
 use crate::base::watch::{Phase, Watch};
 use crate::geom::{Frame, Point, Vector};
@@ -20,7 +21,7 @@ use crate::telescope::balance::DiscFoot;
 use crate::telescope::error::TelescopeError;
 use crate::telescope::nest::Telescope;
 use crate::telescope::tube::TubeMass;
-use crate::verify::Pose;
+use crate::verify::{Pose, TelescopeBallast};
 
 /// The kind of a part.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -59,10 +60,13 @@ pub struct Made {
     pub prefix: String,
     pub best: Best,
     pub foot: Option<DiscFoot>,
+    /// The ballast in the foot.
+    pub ballast: Vec<TelescopeBallast>,
     /// The shells and caps, a shell before its cap, the root first. What is printed in place has
     /// no caps.
     pub parts: Vec<WrittenPart>,
-    /// Volume and centre of every shell with its cap as written, in the shell's frame.
+    /// Volume and centre of every shell with its cap as written, in the shell's frame. Ballast
+    /// counts as a volume of the shells' material.
     pub masses: Vec<TubeMass>,
 }
 
@@ -81,14 +85,16 @@ pub fn make(
         .collect::<Result<_, TelescopeError>>()?;
     watch.check()?;
     let drawn: Vec<TubeMass> = solids.iter().map(ShellSolids::weigh).collect();
-    let foot = match choose_order(asked, telescope, &best.design.opening, &drawn) {
-        Verdict::Found((opening, foot)) => {
+    let base = match choose_order(asked, telescope, &best.design.opening, &drawn)? {
+        Verdict::Found((opening, base)) => {
             best.design.opening = opening;
-            foot
+            base
         }
         Verdict::No(reason) => return Ok(refused(best, reason)),
     };
     let telescope = &best.design.telescope;
+    let foot = base.as_ref().map(|base| base.foot);
+    let ballast = base.map_or_else(Vec::new, |base| base.ballast);
     let solids = with_foot(telescope, solids, foot.as_ref())?;
     let nested = telescope.sizes.is_in_place();
     let writer = Writer {
@@ -113,10 +119,16 @@ pub fn make(
         let whole = moments.fold(Moments::default(), |sum, one| sum + one);
         mass_of(&whole)
     });
+    let mut masses: Vec<TubeMass> = masses.collect();
+    let density_g_mm3 = asked.shop.material.density_g_cm3.value / MM3_PER_CM3;
+    for piece in &ballast {
+        masses[0] = both(&masses[0], &mass_of(&piece.lump.moments(density_g_mm3)));
+    }
     Ok(Verdict::Found(Made {
         prefix: asked.prefix.clone(),
-        masses: masses.collect(),
+        masses,
         foot,
+        ballast,
         parts,
         best,
     }))

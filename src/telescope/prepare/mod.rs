@@ -39,7 +39,7 @@ use self::posing::TIP;
 use crate::base::setting::{Key, Setting};
 use crate::base::verdict::Verdict;
 use crate::base::watch::Watch;
-use crate::job::telescope::TelescopeJob;
+use crate::job::telescope::{Stance, TelescopeJob};
 use crate::sheet::network::AnyTelescopeSheet;
 use crate::sheet::telescope::TelescopeSheet;
 use crate::wing::Outcome;
@@ -69,10 +69,18 @@ pub fn prepare(
         }
         Input::Skeleton(loaded) => {
             in_place::refuse_limbs(job)?;
+            if !job.ballast.is_none() {
+                return Err(no_pocket(job));
+            }
             let outcome = network::prepare(job, &shop, &loaded, watch)?;
             Ok(outcome.map(|sheet| AnyTelescopeSheet::Network(Box::new(sheet))))
         }
     }
+}
+
+/// Returns the error that ballast finds no pocket.
+fn no_pocket(job: &TelescopeJob) -> TelescopeRunError {
+    TelescopeRunError::NoPocket(Setting::new(Key::Ballast, &job.ballast))
 }
 
 /// Refuses options that a curve does not have.
@@ -84,6 +92,9 @@ fn refuse_limbs(job: &TelescopeJob) -> Result<(), TelescopeRunError> {
     let root = job.root.map(|root| Setting::new(Key::Root, root));
     if let Some(setting) = junctures.or(solid).or(root) {
         return Err(TelescopeRunError::OnlyLimbs(setting));
+    }
+    if !job.ballast.is_none() && (job.in_place || job.goal == Stance::None) {
+        return Err(no_pocket(job));
     }
     let mut reaches = job.reach.iter();
     match reaches.find(|reach| reach.tip != TIP) {

@@ -89,6 +89,7 @@ fn ordered(asked: &Asked, made: &Made) -> TelescopeSheet {
         worst_toppling_deg: None,
         least_angle_deg: asked.stands().then_some(asked.job.least_angle_deg),
         foot: made.foot.map(foot_row),
+        ballast: made.ballast.clone(),
         collapsed_mm: [0.0; 3],
         extended_mm: [0.0; 3],
         ratio: 0.0,
@@ -316,6 +317,7 @@ fn tip_play_mm(telescope: &Telescope) -> f64 {
 /// Returns a made telescope on its foot, or on the root's own cap.
 pub fn standing<'a>(telescope: &'a Telescope, made: &'a Made) -> Standing<'a> {
     let own = DiscFoot {
+        pocket_mm: None,
         radius_mm: telescope.shells[0].body_mm,
         height_mm: 0.0,
     };

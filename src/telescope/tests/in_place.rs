@@ -124,6 +124,7 @@ fn a_flange_too_short_for_its_cone_is_refused() {
 fn a_foot_around_a_nested_root_adds_its_ring_and_nothing_else() {
     let (telescope, solids) = nested();
     let foot = DiscFoot {
+        pocket_mm: None,
         radius_mm: 20.0,
         height_mm: 3.0,
     };

@@ -233,6 +233,7 @@ fn crook() -> Telescope {
 }
 
 const FOOT: DiscFoot = DiscFoot {
+    pocket_mm: None,
     radius_mm: 30.0,
     height_mm: 6.0,
 };

@@ -249,6 +249,10 @@ fn of_balance(promise: &TelescopePromise, facts: &TelescopeFacts) -> Vec<Check> 
             Limit::at_most(TOPPLING_LIMIT_DEG, "°"),
         ),
     ];
+    if !promise.ballast.is_empty() {
+        let words = "every piece of ballast is a stock part, and has room in its pocket";
+        checks.push(none(CheckKind::BallastRoom, words, &facts.ballast_faults));
+    }
     if let Some(least_deg) = promise.least_angle_deg {
         let worst = facts.balance.iter().map(|found| found.toppling_deg);
         checks.push(Check::new(

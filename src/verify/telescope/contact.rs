@@ -26,6 +26,11 @@ impl Body {
         self.distance.bvh()
     }
 
+    /// Returns how far a point is outside, mm: negative inside.
+    pub fn outside_mm(&self, p: &Point) -> f64 {
+        -self.distance.signed(p)
+    }
+
     /// Returns the middle of its box.
     pub fn centre(&self) -> Point {
         self.mesh.aabb().center()

@@ -2,6 +2,7 @@
 
 use rayon::prelude::*;
 
+use super::ballast::{faults, weighed};
 use super::contact::{Body, moved, seen_from};
 use super::course::{APART_SHARE, BETWEEN, Course, mixed};
 use super::deviation::{Deviated, deviation};
@@ -15,7 +16,7 @@ use super::stops::{JointFacts, Trial};
 use super::surfaces::{LyingPart, Surfaces};
 use crate::base::watch::{Cancelled, Watch};
 use crate::geom::{Aabb, Frame};
-use crate::mass::{Moments, moments_of_mesh};
+use crate::mass::Moments;
 use crate::mesh::TriMesh;
 use crate::verify::Pose;
 
@@ -52,6 +53,8 @@ pub struct TelescopeFacts {
     pub deviation: Option<Deviated>,
     /// Mass of all parts, g.
     pub mass_g: f64,
+    /// The faults of the ballast in its foot, in words.
+    pub ballast_faults: Vec<String>,
     /// The balance at every key.
     pub balance: Vec<Stands>,
     /// The depth to which parts reach below the root's lowest point at every key, mm.
@@ -94,10 +97,7 @@ pub fn judge_telescope(
 fn fallen(evidence: &TelescopeEvidence, bodies: &[Body], pose: &PoseMotion) -> Option<String> {
     let least_deg = evidence.promise.least_angle_deg?;
     let motion = &evidence.motion;
-    let moments: Vec<Moments> = bodies
-        .iter()
-        .map(|body| moments_of_mesh(&body.mesh))
-        .collect();
+    let moments = weighed(&evidence.promise, bodies);
     let falls = |states: &[[f64; 2]]| {
         let lean_deg = stands(motion, states, &moments, &bodies[0].mesh).toppling_deg;
         lean_deg < least_deg || depth_mm(motion, states, bodies) > GROUND_LIMIT_MM
@@ -145,10 +145,7 @@ pub(super) fn judge_bodies(
     let tube_facts = promise.parts.iter().filter(|part| part.is_tube);
     let shells = tube_facts.zip(&motion.shells).zip(&tubes);
     let shells = shells.map(|((part, shell), tube)| measure(shell, part, tube));
-    let moments: Vec<Moments> = bodies
-        .iter()
-        .map(|body| moments_of_mesh(&body.mesh))
-        .collect();
+    let moments = weighed(&evidence.promise, bodies);
     let volume: f64 = moments.iter().map(Moments::volume).sum();
     let balance = motion
         .keys
@@ -169,6 +166,9 @@ pub(super) fn judge_bodies(
         placement_error_mm: placement_error_mm(motion),
         deviation: deviation(motion, &evidence.asked),
         mass_g: volume * promise.material.density_g_cm3 / crate::base::units::MM3_PER_CM3,
+        ballast_faults: bodies
+            .first()
+            .map_or_else(Vec::new, |root| faults(promise, root)),
         balance: balance.collect(),
         depths_mm: depths_mm(motion, bodies),
         below_foot_mm: below_foot_mm(motion, bodies),

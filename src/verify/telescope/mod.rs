@@ -4,6 +4,7 @@
 //! memory. Nothing of the code that makes telescopes is seen here: shells are moved by the judge's
 //! own screws.
 
+mod ballast;
 mod checks;
 mod contact;
 mod course;
@@ -54,7 +55,8 @@ pub use pose::{
     REACH_LIMIT_MM,
 };
 pub use promise::{
-    BalancePromise, DeviationPromise, JointPromise, TelescopePartPromise, TelescopePromise,
+    BalancePromise, DeviationPromise, JointPromise, TelescopeBallast, TelescopePartPromise,
+    TelescopePromise,
 };
 pub use reading::{CURVE_FILE, MOTION_FILE, TelescopeVerifyError, asked_points};
 pub use scene::{MOTION_SCENE_FILE, OPENING};

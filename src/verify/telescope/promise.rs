@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use super::pose::PosePromise;
+use crate::mass::Lump;
 use crate::verify::{Density, Pose, PrinterLimits};
 
 /// The promises of a telescope's kit, and the data needed to judge its files by them.
@@ -39,6 +40,9 @@ pub struct TelescopePromise {
     pub collapsed_mm: [f64; 3],
     /// The same when all out, mm.
     pub extended_mm: [f64; 3],
+    /// The ballast in its foot.
+    #[serde(default)]
+    pub ballast: Vec<TelescopeBallast>,
     /// The poses.
     #[serde(default)]
     pub poses: Vec<PosePromise>,
@@ -67,6 +71,18 @@ pub struct TelescopePartPromise {
     /// The hole along the binormal through which powder leaves a tube: its arc and radius, mm.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub vent_mm: Option<[f64; 2]>,
+}
+
+/// A piece of ballast in the foot, in the root's frame.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct TelescopeBallast {
+    /// The id under which it is ordered.
+    pub id: String,
+    /// Its name in a shop.
+    pub name: String,
+    /// The piece in its place.
+    #[serde(flatten)]
+    pub lump: Lump,
 }
 
 /// A joint as the kit promises it.

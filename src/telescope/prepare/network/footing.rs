@@ -84,6 +84,7 @@ impl Footing<'_> {
         let sizes = &self.tree.network.limbs[0].telescope.sizes;
         Foot {
             disc: DiscFoot {
+                pocket_mm: None,
                 radius_mm,
                 height_mm: LEAST_HEIGHT_MM.max(HEIGHT_WALLS * sizes.wall_mm),
             },
