@@ -139,8 +139,8 @@ pub struct StanceArgs {
     /// The radius of the foot, or auto: the least on which it stands [default: auto]
     #[arg(long, value_name = "LENGTH|auto", allow_hyphen_values = true)]
     pub foot: Option<FootSize>,
-    /// Steel discs in a pocket under the foot: the lightest that hold it if no foot alone does
-    /// (auto), or those of an id such as disc-60-10x2 [default: none]
+    /// Steel discs in a pocket under the foot: the lightest that hold it (auto), or those of an id
+    /// such as disc-60-10x2 [default: none]
     #[arg(long, value_name = "auto|ID|IDxN|none")]
     pub ballast: Option<BallastOrder>,
 }
