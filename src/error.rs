@@ -2,12 +2,14 @@
 
 mod drain;
 mod graded;
+mod inner_cells;
 mod sliced;
 
 use std::path::PathBuf;
 
 pub use drain::DrainError;
 pub use graded::GradedError;
+pub use inner_cells::CellsError;
 pub use sliced::SlicedError;
 
 use crate::ballast::{BallastError, Order};
@@ -147,6 +149,9 @@ pub enum Error {
     /// The print cannot be graded.
     #[error(transparent)]
     Graded(#[from] GradedError),
+    /// The inside is not made of cells.
+    #[error(transparent)]
+    Cells(CellsError),
     /// The uncut piece gets no drain holes.
     #[error(transparent)]
     Drain(#[from] DrainError),
@@ -209,6 +214,15 @@ fn or_redraw(defects: &Defects) -> String {
 impl From<Cancelled> for Error {
     fn from(_: Cancelled) -> Self {
         Self::Cancelled
+    }
+}
+
+impl From<CellsError> for Error {
+    fn from(error: CellsError) -> Self {
+        match error {
+            CellsError::Comb(error) if error.is_stop() => Self::Cancelled,
+            error => Self::Cells(error),
+        }
     }
 }
 

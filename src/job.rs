@@ -135,12 +135,13 @@ pub struct Job {
         skip_serializing_if = "Interior::is_hollow"
     )]
     pub interior: Interior,
-    /// The least and the greatest density of a graded print; those of the printer if the key is
-    /// missing.
+    /// The size of the cells of an inside of cells; the usual one if the key is missing.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub cell_size: Option<Length>,
+    /// The least and the greatest density of a graded print; the printer's if the key is missing.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub density: Option<DensityOrder>,
-    /// The infill that a graded print should be near to everywhere; the goal alone decides if the
-    /// key is missing.
+    /// The infill that a graded print should be near to everywhere; the goal decides without it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub infill: Option<InfillDensity>,
     /// The number of densities near that infill; the usual number if the key is missing.
@@ -305,6 +306,7 @@ impl Job {
             ballast: Order::None,
             fill: None,
             interior: Interior::Hollow,
+            cell_size: None,
             density: None,
             infill: None,
             levels: None,
@@ -431,6 +433,7 @@ mod tests {
         other.seam = SeamStyle::Level;
         other.effort = Effort::Thorough;
         other.interior = Interior::Graded;
+        other.cell_size = Some("12mm".parse().unwrap());
         other.density = Some("15%..62.5%".parse().unwrap());
         other.infill = Some("40%".parse().unwrap());
         other.levels = Some("6".parse().unwrap());

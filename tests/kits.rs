@@ -11,6 +11,7 @@ mod drains;
 mod flow;
 mod goals;
 mod hardware;
+mod inner_cells;
 mod joinery;
 mod layers;
 mod mending;

@@ -14,17 +14,10 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use std::sync::OnceLock;
 
-use common::{ELLIPSOID, assert_exit, equipoise, files, json, list, number, path, printed, words};
+use common::{
+    ELLIPSOID, SL1S, assert_exit, equipoise, files, json, list, number, path, printed, words,
+};
 use serde_json::Value;
-
-/// A configuration of Prusa's SL1S, as its slicer exports it, without what is not needed here.
-const SL1S: &str = "printer_technology = SLA\nprinter_model = SL1S\nbed_shape = 0x0,127x0,127x80,0x80\n\
-    display_width = 128\ndisplay_height = 81\ndisplay_pixels_x = 2560\ndisplay_pixels_y = 1620\n\
-    display_orientation = portrait\ndisplay_mirror_x = 1\ndisplay_mirror_y = 0\n\
-    max_print_height = 150\nlayer_height = 0.05\ninitial_layer_height = 0.05\nexposure_time = 2\n\
-    initial_exposure_time = 25\nfaded_layers = 10\nelefant_foot_compensation = 0\n\
-    supports_enable = 0\npad_enable = 0\nsupport_object_elevation = 0\ngamma_correction = 1\n\
-    relative_correction = 1,1\n";
 
 /// Returns the folder with the kit of these tests, which is made once.
 fn bench() -> &'static Path {

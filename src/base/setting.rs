@@ -53,6 +53,8 @@ choice! {
         Fill = "fill",
         /// The inside of the print.
         Interior = "interior",
+        /// The size of the cells of an inside of cells.
+        CellSize = "cell_size",
         /// The least and the greatest density of a graded print.
         Density = "density",
         /// The infill that a graded print should be near to.

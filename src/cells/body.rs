@@ -70,7 +70,7 @@ fn are_closed<'a>(faces: impl Iterator<Item = &'a [u32]>) -> bool {
 
 impl Body {
     /// Takes the faces of a polytope; `None` unless they close.
-    pub(super) fn of_polytope(polytope: &Polytope) -> Option<Self> {
+    pub fn of_polytope(polytope: &Polytope) -> Option<Self> {
         let welded = Welded::of(polytope)?;
         Some(Self {
             corners: welded.corners,

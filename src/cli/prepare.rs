@@ -23,7 +23,7 @@ use crate::base::watch::Watch;
 use crate::error::{Error, GradedError};
 use crate::goal::GoalKind;
 use crate::io::read_model;
-use crate::job::{Job, Scaling};
+use crate::job::{Interior, Job, Scaling};
 use crate::kit::Existing;
 use crate::prepare::{self, Failure, Impossible, Outcome, Prepared};
 use crate::printer::Printer;
@@ -203,7 +203,7 @@ impl Rounds {
 fn refuse_unsliced(request: &Request) -> Result<(), GradedError> {
     let job = &request.job;
     let is_unsliced = !request.slice && job.sliced.is_empty();
-    let floats = job.goal.kind == GoalKind::Float && !job.interior.is_hollow();
+    let floats = job.goal.kind == GoalKind::Float && job.interior == Interior::Graded;
     // A wished infill is refused for what floats, sliced or not, and that is said later.
     if floats && is_unsliced && job.infill.is_none() {
         return Err(GradedError::FloatUnsliced);

@@ -84,8 +84,9 @@ fn shortfall_words(checklist: &Checklist, typed: &[String]) -> Option<String> {
             .map_or(Vec::new(), |short| short.taken);
         taken.iter().any(|taken| taken.by == taker)
     };
-    // The line on other plans names the command, too.
+    // The line on other plans names the command, too, and what is made of cells has no cuts.
     let is_told = !has(Taker::Cleaning) || !checklist.offers.is_empty();
+    let is_told = is_told || checklist.cells.is_some();
     let plans = (!is_told).then(|| format!(" {}", to_other_plans(typed)));
     Some(words + &plans.unwrap_or_default())
 }

@@ -143,7 +143,7 @@ fn ending(path: &Path) -> String {
 /// The file's name, or a print without densities.
 pub(super) fn check_graded(path: &Path, job: &Job, may_replace: bool) -> Result<(), TetsFileError> {
     check_file(path, may_replace)?;
-    if job.interior.is_hollow() {
+    if job.interior != Interior::Graded {
         return Err(TetsFileError::Hollow);
     }
     if job.format == PartFormat::ThreeMf {

@@ -1,6 +1,6 @@
 //! Builds the printable solid of a model made of cells.
 
-use super::doors::{Door, Sizes, doors};
+use super::doors::{Door, ROOM_RATIO, Sizes, doors};
 use super::error::CombError;
 use super::escapes::{Escape, air, escapes};
 use super::flow::Flow;
@@ -32,6 +32,7 @@ impl CombOrder {
         let sizes = Sizes {
             wall_mm: self.wall_mm,
             opening_mm: self.opening_mm,
+            room_ratio: ROOM_RATIO,
         };
         sizes.room_mm()
     }
@@ -108,8 +109,9 @@ pub fn build(
     let sizes = Sizes {
         wall_mm: order.wall_mm,
         opening_mm: order.opening_mm,
+        room_ratio: ROOM_RATIO,
     };
-    let all_doors = doors(&voids, &MeshDistance::new(cavity.mesh()), sizes);
+    let all_doors = doors(&voids, &MeshDistance::new(cavity.mesh()), sizes, None);
     let possible = escapes(&voids, &MeshDistance::new(solid.mesh()), sizes);
     let flow = Flow::of(&possible, &all_doors, order.holes);
     watch.check()?;
@@ -157,7 +159,12 @@ fn check(order: &CombOrder) -> Result<(), CombError> {
 }
 
 /// Unites voids and the openings between them.
-fn union_of(voids: &Voids, kept: &[usize], doors: &[Door], sizes: Sizes) -> Result<Csg, CombError> {
+pub(super) fn union_of(
+    voids: &Voids,
+    kept: &[usize],
+    doors: &[Door],
+    sizes: Sizes,
+) -> Result<Csg, CombError> {
     // Voids are a wall apart from each other, and openings lie in walls of their own.
     let join = |all: TriMesh, mesh: &TriMesh| all.joined(mesh);
     let meshes = kept.iter().map(|&void| &voids.all[void].mesh);

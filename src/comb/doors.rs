@@ -12,7 +12,10 @@ use crate::mesh::MeshDistance;
 const REACH_MM: f64 = 0.02;
 /// Room of an opening to the sides of its wall, in walls. Where three walls meet at 120° it lies
 /// 0.134 of a wall too near to the third void without it. That is the worst of all angles.
-const ROOM_RATIO: f64 = 0.15;
+pub(super) const ROOM_RATIO: f64 = 0.15;
+/// The same where two openings beside each other must leave a wall: 1 / (2 sin 60°), for walls that
+/// meet at 120°. Openings of a sharper corner do not face each other.
+pub(super) const APART_RATIO: f64 = 0.58;
 /// The same for the reach into the voids, mm.
 const ROOM_MM: f64 = 0.03;
 /// Places along each side of a wall's box that are tried.
@@ -40,17 +43,25 @@ pub(super) struct Sizes {
     pub wall_mm: f64,
     /// The free diameter, mm.
     pub opening_mm: f64,
+    /// The room of openings to the sides of their walls besides, in walls.
+    pub room_ratio: f64,
 }
 
 impl Sizes {
     /// Returns the distance that an opening's axis keeps from the sides of its wall, mm.
     pub fn room_mm(self) -> f64 {
-        corner_mm(self.opening_mm) + ROOM_RATIO * self.wall_mm + ROOM_MM
+        corner_mm(self.opening_mm) + self.room_ratio * self.wall_mm + ROOM_MM
     }
 }
 
-/// Returns an opening in every wall that can hold one, at the place farthest from its sides.
-pub(super) fn doors(voids: &Voids, cavity: &MeshDistance, sizes: Sizes) -> Vec<Door> {
+/// Returns an opening in every wall that can hold one: at the place farthest from its sides, or as
+/// far `down` as one fits.
+pub(super) fn doors(
+    voids: &Voids,
+    cavity: &MeshDistance,
+    sizes: Sizes,
+    down: Option<Vector>,
+) -> Vec<Door> {
     let pairs = voids.drawn_in.iter().enumerate().flat_map(|(one, drawn)| {
         let faces = drawn.faces().iter();
         faces.filter_map(move |face| match face.beyond {
@@ -61,7 +72,13 @@ pub(super) fn doors(voids: &Voids, cavity: &MeshDistance, sizes: Sizes) -> Vec<D
     let pairs: Vec<[usize; 2]> = pairs.collect();
     let found = pairs.into_par_iter().filter_map(|cells| {
         let wall = Wall::between(cells, &voids.drawn_in, sizes)?;
-        let (at, room_mm) = wall.widest(cavity)?;
+        let (at, room_mm) = match down {
+            Some(down) => wall.lowest(&down, cavity)?,
+            None => {
+                let (at, room_mm) = wall.widest(cavity)?;
+                (wall.place(&at), room_mm)
+            }
+        };
         let half = wall.plane.normal * wall.half_mm();
         let ends = [at - half, at + half];
         let void = |side: usize| {
@@ -121,7 +138,55 @@ impl Wall {
 
     /// Returns the place that is farthest from the sides of the wall and from the skin, with that
     /// distance; `None` if no opening fits there.
-    fn widest(&self, cavity: &MeshDistance) -> Option<(Point, f64)> {
+    fn widest(&self, cavity: &MeshDistance) -> Option<([f64; 2], f64)> {
+        let (places, mut step) = self.places();
+        let better = |best: ([f64; 2], f64), at: [f64; 2]| {
+            let room = self.room_mm(&at, best.1, cavity);
+            if room > best.1 { (at, room) } else { best }
+        };
+        let mut best = places.into_iter().fold(([0.0; 2], 0.0), better);
+        for _ in 0..HALVINGS {
+            step = step.map(|step| 0.5 * step);
+            best = around(best.0, step).fold(best, better);
+        }
+        (best.1 >= self.sizes.room_mm()).then_some(best)
+    }
+
+    /// Returns the place that is farthest down of those that hold an opening, with its distance
+    /// from the sides of the wall; `None` if no opening fits.
+    fn lowest(&self, down: &Vector, cavity: &MeshDistance) -> Option<(Point, f64)> {
+        let widest = self.widest(cavity)?;
+        let need_mm = self.sizes.room_mm();
+        let depth = |at: &[f64; 2]| down.dot(&self.place(at).coords);
+        let lower = |best: ([f64; 2], f64), at: [f64; 2]| {
+            if depth(&at) <= depth(&best.0) {
+                return best;
+            }
+            let room_mm = self.room_mm(&at, need_mm, cavity);
+            if room_mm > need_mm {
+                (at, room_mm)
+            } else {
+                best
+            }
+        };
+        let (places, mut step) = self.places();
+        let mut best = places.into_iter().fold(widest, lower);
+        for _ in 0..HALVINGS {
+            // A place beside may be lower than the one below.
+            for _ in 0..PLACES {
+                let next = around(best.0, step).fold(best, lower);
+                if next.0 == best.0 {
+                    break;
+                }
+                best = next;
+            }
+            step = step.map(|step| 0.5 * step);
+        }
+        Some((self.place(&best.0), best.1))
+    }
+
+    /// Returns places all over the wall's box, and the steps between them.
+    fn places(&self) -> (Vec<[f64; 2]>, [f64; 2]) {
         let all = || self.rings[0].iter();
         let range = |axis: usize| {
             let along = all().map(|at| at[axis]);
@@ -130,27 +195,12 @@ impl Wall {
             })
         };
         let ranges = [range(0), range(1)];
-        let mut step = ranges.map(|[low, high]| (high - low) / PLACES as f64);
+        let step = ranges.map(|[low, high]| (high - low) / PLACES as f64);
         let places = (0..PLACES * PLACES).map(|k| {
             let shares = [k % PLACES, k / PLACES].map(|k| k as f64 + 0.5);
             [0, 1].map(|axis| ranges[axis][0] + shares[axis] * step[axis])
         });
-        let better = |best: ([f64; 2], f64), at: [f64; 2]| {
-            let room = self.room_mm(&at, best.1, cavity);
-            if room > best.1 { (at, room) } else { best }
-        };
-        let mut best = places.fold(([0.0; 2], 0.0), better);
-        for _ in 0..HALVINGS {
-            step = step.map(|step| 0.5 * step);
-            let [x, y] = best.0;
-            let around = (0..9).map(|k| {
-                let [i, j] = [k % 3, k / 3].map(|k| f64::from(k) - 1.0);
-                [x + i * step[0], y + j * step[1]]
-            });
-            best = around.fold(best, better);
-        }
-        let (at, room_mm) = best;
-        (room_mm >= self.sizes.room_mm()).then(|| (self.place(&at), room_mm))
+        (places.collect(), step)
     }
 
     fn place(&self, at: &[f64; 2]) -> Point {
@@ -173,6 +223,14 @@ impl Wall {
         }
         inside.min(across.sqrt())
     }
+}
+
+/// Returns a place and the eight around it.
+fn around([x, y]: [f64; 2], step: [f64; 2]) -> impl Iterator<Item = [f64; 2]> {
+    (0..9).map(move |k| {
+        let [i, j] = [k % 3, k / 3].map(|k| f64::from(k) - 1.0);
+        [x + i * step[0], y + j * step[1]]
+    })
 }
 
 /// Returns the distance of a point to the sides of a convex ring; negative outside.

@@ -30,3 +30,15 @@ pub enum CombError {
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
 }
+
+impl CombError {
+    /// Returns true if a stop was asked for.
+    pub fn is_stop(&self) -> bool {
+        matches!(
+            self,
+            Self::Cancelled(_)
+                | Self::Skin(VoidError::Cancelled(_))
+                | Self::Void(BodyError::Cancelled(_))
+        )
+    }
+}

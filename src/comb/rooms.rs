@@ -53,7 +53,14 @@ pub(super) fn voids(
             [] => Chain::default(),
             _ => room.within(&polytope),
         };
-        Cell { polytope, part }
+        // What lies outside of the room is no cell of it.
+        match part.is_empty() {
+            true => Cell {
+                polytope: Polytope::default(),
+                part,
+            },
+            false => Cell { polytope, part },
+        }
     });
     let drawn: Vec<Cell> = drawn.collect();
     let meshes = bodies(&drawn, cavity, watch)?;

@@ -35,3 +35,26 @@
 //! Turned and stretched cells are cubes in a space of their own, x′ = S⁻¹Rᵀx with |S| = 1
 //! ([`crate::cells::Axes`]). The model is relaxed there and taken back. Planes stay planes, so
 //! cells stay convex. Axes that vary from place to place turn the norm of each cell, not its walls.
+//!
+//! # 5. Cells in place of voids
+//! A kit with an inside of cells is solved with two densities: solid, and that of its cells
+//! ([`crate::hollow::Fill`]). The inside is divided once, and the density is measured with all of
+//! it made of cells ([`crate::comb::InnerCells`]). Where the quadric is positive, the cells are
+//! drawn in from their walls and cut off by the surface of that region. Each wall that can hold an
+//! opening gets one. What is drawn differs from the assumed density, most of all at the border of
+//! the region. Parts of cells without an opening stay solid there. That difference is one of the
+//! defects that are made up for
+//! ([theory §10](crate::guide::theory#10-from-the-solution-to-the-print)). Sites stay where they
+//! are, so that it changes little from round to round. From the third round on, a cell that turns
+//! solid stays so, or it would come and go.
+//!
+//! Openings keep 0.58 walls from the edges of theirs. So two of them beside each other leave a
+//! wall between them where cells meet at 120°.
+//!
+//! In a vat, a cell encloses resin below the lowest way out, as every cup does. It is least where
+//! a cube stands on its corner and its openings lie as low as they can. So openings are placed for
+//! one of the lower corners of a cube along the axes of the model. It is the one with which the
+//! most stays hollow. The summit of the lowest way from each cell to the lowest one is found by
+//! joining cells at their openings, the lowest first (`comb/pockets.rs`). The cells with the
+//! largest pockets stay solid until the rest has 60 mm³ or less. The drain hole is bored where the
+//! cells are lowest in that pose, and the search for poses knows these corners.

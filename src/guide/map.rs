@@ -58,6 +58,7 @@
 //! | Which part of a solid is nearest to a site? | `cells` in `cells/diagram.rs`, of a `Room` (`cells/room.rs`); `relax` in `cells/lloyd.rs` moves the sites, by the energies of `cells/energy.rs` |
 //! | Where do the first sites of cells lie, and what is written of cells? | `poisson_sites` in `cells/poisson.rs`; `bodies` in `cells/parts.rs` cuts them as meshes, `cells/files.rs` writes them |
 //! | How is a model of cells printed, and how does every cell drain? | `build` in `comb/build.rs`: voids of `comb/rooms.rs`, openings of `comb/doors.rs`, holes of `comb/escapes.rs`, ways of `comb/flow.rs` |
+//! | How is the inside of a kit made of cells? | `with_cells` in `prepare/inner_cells.rs` measures their density, `InnerCells::within` in `comb/inner.rs` draws them in every round, `verify/cell_walls.rs` judges them |
 //! | Which part of a large object is its base? | `grow_polyhedron` in `polyhedra/inscribe.rs`; `Growth` in `polyhedra/growth.rs` moves the faces, `drop_cheapest` in `polyhedra/dropping.rs` leaves few |
 //! | Who says that a base stays inside the model? | `Separation::check` in `polyhedra/separation.rs`, one face for each triangle |
 //! | What happens to a model larger than the printer, in which order? | `prepare` in `core_kit/mod.rs`; `core_kit/build.rs` joins base, panels, shell and sheets |

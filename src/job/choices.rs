@@ -45,6 +45,8 @@ choice! {
         Hollow = "hollow",
         /// One piece without cuts: solid but for regions of sparse infill.
         Graded = "graded",
+        /// One piece without cuts: solid but for cells between thin walls, which drain.
+        Cells = "cells",
     }
 }
 
@@ -52,6 +54,11 @@ impl Interior {
     /// Returns true if it is hollow.
     pub fn is_hollow(&self) -> bool {
         *self == Self::Hollow
+    }
+
+    /// Returns true if it is made of cells.
+    pub fn has_cells(&self) -> bool {
+        *self == Self::Cells
     }
 }
 

@@ -51,6 +51,7 @@ pub fn make<'a>(
         solution,
         hollowed,
         inner,
+        cells,
         refused_mm3,
         rounds,
         ..
@@ -64,6 +65,7 @@ pub fn make<'a>(
         solution,
         hollowed,
         inner,
+        cells,
         refused_mm3,
         plan,
         remarks: opened.remarks,

@@ -14,6 +14,8 @@ const MASS_TOLERANCE_RATIO: f64 = 1e-5;
 /// Tolerance of a match: a tenth of what a kit promises. It is a share of the mass, and for each
 /// entry of the inertia tensor a share of the trace.
 const MATCH_TOLERANCE_RATIO: f64 = 1e-4;
+/// Tolerance of the mass of what is made of cells: half of what is promised of them.
+const CELLS_TOLERANCE_RATIO: f64 = 5e-4;
 /// Share of a rotor's permissible unbalance that may be left in the written parts.
 const GRADE_SHARE_RATIO: f64 = 0.1;
 
@@ -25,7 +27,7 @@ const BEARING_TOLERANCE_RAD: f64 = 0.5 * TILT_MARGIN_RAD;
 /// kit. That is the usual defect, and the tilt that an object near a wished infill must bear.
 pub fn shortfall_ratio(placed: &Placed, solved: &Moments, moments: &Moments) -> f64 {
     let goal = placed.goal();
-    let own = defect_ratio(goal, solved, moments);
+    let own = defect_ratio(goal, solved, moments).max(out_of_cells(placed, solved, moments));
     let near = placed
         .sparse
         .as_ref()
@@ -37,6 +39,15 @@ pub fn shortfall_ratio(placed: &Placed, solved: &Moments, moments: &Moments) -> 
         }
         _ => own,
     }
+}
+
+/// Returns the distance of a body with cells from the mass that was solved for, in tolerances.
+/// Farther off they are placed by a density that is not theirs.
+fn out_of_cells(placed: &Placed, solved: &Moments, moments: &Moments) -> f64 {
+    if placed.cells.is_none() {
+        return 0.0;
+    }
+    (moments.volume() / solved.volume() - 1.0).abs() / CELLS_TOLERANCE_RATIO
 }
 
 /// Returns the distance of a body from the goal's constraints, in the tolerances of a written kit.

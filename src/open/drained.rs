@@ -7,7 +7,7 @@ use super::way::Candidate;
 use crate::base::units::format_count;
 use crate::base::watch::Watch;
 use crate::cut::{self, CutPlan, Drained, PlanRequest, VoidId, find_hollow_cups};
-use crate::error::{DrainError, Error};
+use crate::error::{CellsError, DrainError, Error};
 use crate::goal::FloatConditions;
 use crate::job::DrainOrder;
 use crate::mass::Moments;
@@ -57,7 +57,7 @@ pub fn drained<'a>(
             };
             voids = resolver.correct(less, Moments::default())?;
             if sinks(placed, &voids) {
-                return Err(no_place(placed, &lost, &need).into());
+                return Err(no_place(placed, &lost, &need));
             }
         }
     }
@@ -105,6 +105,7 @@ fn need(placed: &Placed, voids: &Voids) -> Result<DrainNeed, DrainError> {
     let need = need.map_err(|why| DrainError::of_printer(why, &printer.name, order))?;
     Ok(DrainNeed {
         plug_gap_mm: placed.job.plugs.then(|| printer.snug_gap_mm()),
+        printed_up: placed.printed_up().map(Into::into),
         ..need
     })
 }
@@ -144,7 +145,7 @@ fn find_undrained(
 }
 
 /// Refuses a piece whose voids do not all have holes.
-fn refuse_closed(placed: &Placed, found: &Drained, need: &DrainNeed) -> Result<(), DrainError> {
+fn refuse_closed(placed: &Placed, found: &Drained, need: &DrainNeed) -> Result<(), Error> {
     if found.closed.is_empty() {
         return Ok(());
     }
@@ -152,13 +153,18 @@ fn refuse_closed(placed: &Placed, found: &Drained, need: &DrainNeed) -> Result<(
 }
 
 /// Returns the error that these voids have no place for their holes.
-fn no_place(placed: &Placed, voids: &[VoidId], need: &DrainNeed) -> DrainError {
+fn no_place(placed: &Placed, voids: &[VoidId], need: &DrainNeed) -> Error {
     let voids: Vec<String> = voids.iter().map(VoidId::to_string).collect();
-    DrainError::NoPlace {
-        voids: voids.join(", "),
-        diameter_mm: need.diameter_mm,
-        is_asked: placed.job.drain.asked_mm().is_some(),
+    let (voids, diameter_mm) = (voids.join(", "), need.diameter_mm);
+    if placed.cells.is_some() {
+        return CellsError::NoPlace { voids, diameter_mm }.into();
     }
+    let is_asked = placed.job.drain.asked_mm().is_some();
+    Error::Drain(DrainError::NoPlace {
+        voids,
+        diameter_mm,
+        is_asked,
+    })
 }
 
 /// Returns whether what should float has no void left, and is heavier than what it displaces.

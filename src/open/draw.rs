@@ -5,11 +5,16 @@ use rayon::prelude::*;
 use crate::ballast::{Load, PlacedPart, Pocket};
 use crate::base::watch::Watch;
 use crate::cut::{Seat, Void};
-use crate::error::Error;
+use crate::error::{CellsError, Error};
 use crate::hollow::Solution;
 use crate::mesh::{Solid, TriMesh};
-use crate::run::{Level, Nested, Placed, Voids};
+use crate::run::{DrawnCells, Inside, Level, Nested, Placed, Voids};
 use crate::voids::{self, Cavity, VoidError, without_slivers};
+
+/// Rounds of correction with cells, over those without: each may turn some of them solid.
+pub const CELL_ROUNDS: usize = 3;
+/// Rounds after which cells that stay solid do so for good, or they would come and go.
+pub const FREE_ROUNDS: usize = 2;
 
 /// Draws a solution's voids, or its outermost region of infill.
 pub fn draw_outermost(
@@ -62,6 +67,52 @@ pub fn draw_inner(
 
 fn inner_levels(nested: &Nested) -> &[Level] {
     nested.levels.get(1..).unwrap_or_default()
+}
+
+/// What is made of cells in the place of some bodies of air.
+pub struct InCells {
+    /// The bodies of air.
+    pub air: Vec<Solid>,
+    /// The cells.
+    pub cells: DrawnCells,
+    /// The cells in these bodies that stay solid. They do not touch each other.
+    pub solid: TriMesh,
+}
+
+/// Makes bodies of air of cells; the bodies themselves are left in a print without cells.
+pub fn in_cells(placed: &Placed, bodies: Vec<Solid>, watch: &Watch) -> Result<InCells, Error> {
+    let Some(inside) = &placed.cells else {
+        return Ok(InCells {
+            air: bodies,
+            cells: DrawnCells::default(),
+            solid: TriMesh::default(),
+        });
+    };
+    let join = |all: TriMesh, body: &Solid| all.joined(body.mesh());
+    let region = bodies.iter().fold(TriMesh::default(), join);
+    let drawn = inside.cells.within(&region, watch);
+    let drawn = drawn.map_err(CellsError::from)?;
+    let mut cells = DrawnCells::default();
+    let air = drawn.made.into_iter().map(|void| {
+        cells.places.extend(void.places);
+        cells.doors.extend(void.doors);
+        void.body
+    });
+    Ok(InCells {
+        air: air.collect(),
+        cells,
+        solid: drawn.solid,
+    })
+}
+
+/// Returns the error that the cells that stay solid leave too little to be emptied.
+pub fn too_solid(inside: &Inside) -> Error {
+    let sizes = inside.cells.sizes;
+    let error = CellsError::TooSolid {
+        size_mm: sizes.size_mm,
+        opening_mm: sizes.opening_mm,
+    };
+    error.into()
 }
 
 /// Returns the pockets of ballast, each with the seat of its part.

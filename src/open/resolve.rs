@@ -5,7 +5,9 @@ use std::sync::Arc;
 
 use super::budget::{Budget, Work};
 use super::defect::shortfall_ratio;
-use super::draw::{draw_inner, draw_outermost, pockets};
+use super::draw::{
+    CELL_ROUNDS, FREE_ROUNDS, draw_inner, draw_outermost, in_cells, pockets, too_solid,
+};
 use super::plan::Planner;
 use crate::base::watch::Watch;
 use crate::cut::{CutOrder, Hollowed, SolidEnd};
@@ -196,8 +198,15 @@ impl<'a> Resolver<'a> {
 
     /// Draws the voids whose uncut mesh meets the goal's constraints, before cuts and pins.
     pub fn draw(&mut self) -> Result<Voids, Error> {
-        let solution = self.solved.solution.clone();
-        let voids = self.voids(solution, self.solved.fixed, 0)?;
+        let fixed = self.solved.fixed;
+        if let Some(inside) = &self.placed.cells {
+            self.exclude(&inside.solid)?;
+            self.solved.solution = self.solved.solve_again(self.placed, fixed, &self.watch);
+            if !self.solved.solution.is_usable() {
+                return Err(too_solid(inside));
+            }
+        }
+        let voids = self.voids(self.solved.solution.clone(), fixed, 0)?;
         self.correct(voids, Moments::default())
     }
 
@@ -217,7 +226,9 @@ impl<'a> Resolver<'a> {
         let field = nested.and_then(|nested| nested.field.as_ref());
         let rounds = match field.is_some_and(LaidField::is_given) {
             true => 0,
-            false => placed.policy.correction_rounds,
+            false => {
+                placed.policy.correction_rounds * placed.cells.as_ref().map_or(1, |_| CELL_ROUNDS)
+            }
         };
         for _ in 0..rounds {
             if least <= 1.0 || !voids.solution.is_usable() {
@@ -315,6 +326,7 @@ impl<'a> Resolver<'a> {
             fixed,
             hollowed: voids.hollowed.clone(),
             inner: voids.inner.clone(),
+            cells: voids.cells.clone(),
             refused_mm3: self.refused_mm3,
             rounds: voids.rounds + 1,
         })
@@ -335,7 +347,11 @@ impl<'a> Resolver<'a> {
         let refused = bodies.too_small.into_iter().filter(is_significant);
         let refused: Vec<TriMesh> = refused.collect();
         self.refuse(&refused, policy.refused_margin_openings)?;
-        let mut hollowed = Hollowed::new(self.given.outer.clone(), bodies.bodies);
+        let drawn = in_cells(self.placed, bodies.bodies, &self.watch)?;
+        if rounds >= FREE_ROUNDS {
+            self.exclude(&drawn.solid)?;
+        }
+        let mut hollowed = Hollowed::new(self.given.outer.clone(), drawn.air);
         hollowed.voids.extend(self.given.voids.iter().cloned());
         hollowed.voids.extend(pockets(&self.solved.load)?);
         let inner = draw_inner(&self.cavity, self.placed, &solution, &self.watch)?;
@@ -344,6 +360,7 @@ impl<'a> Resolver<'a> {
             fixed,
             hollowed,
             inner,
+            cells: drawn.cells,
             refused_mm3,
             rounds,
         })
@@ -365,6 +382,9 @@ impl<'a> Resolver<'a> {
     /// Takes a body, or several that do not touch, out of what may be emptied.
     fn exclude(&mut self, solid: &TriMesh) -> Result<(), Error> {
         self.watch.check()?;
+        if solid.is_empty() {
+            return Ok(());
+        }
         let frame = &self.placed.goal().frame;
         let local = || solid.map_vertices(|p| frame.to_local(p));
         let (cavity, columns) = rayon::join(

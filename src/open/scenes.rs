@@ -141,6 +141,7 @@ pub(super) fn standing(bodies: &[TriMesh], wall_mm: f64, objective: Objective) -
         choice: None,
         fitted: None,
         fill: Fill::AIR,
+        cells: None,
         sparse: None,
         policy: Policy {
             partial_loss_ratio: 0.35,

@@ -115,6 +115,7 @@ pub fn pieces(sheet: &Checklist) -> String {
         _ => format!(" (in {planes} planes)"),
     };
     let plugs = sheet.plugs().count();
+    let cells = sheet.cells.as_ref().map_or(0, |own| own.places_mm.len());
     let counts = [
         (sheet.parts.len().saturating_sub(plugs), "part", ""),
         (plugs, "plug", ""),
@@ -122,6 +123,7 @@ pub fn pieces(sheet: &Checklist) -> String {
         (sheet.joints.len(), "glue joint", in_planes.as_str()),
         (pins, "pin", ""),
         (sheet.voids.len(), "void", ""),
+        (cells, "cell", ""),
     ];
     let counts = counts.into_iter().filter(|(count, ..)| *count > 0);
     let words = counts.map(|(count, word, more)| format_count(count, word) + more);
@@ -287,6 +289,7 @@ pub fn certificate(sheet: &Checklist) -> Vec<String> {
 /// Words what the files have beyond the calculated voids.
 fn what_is_made(sheet: &Checklist) -> &'static str {
     match (sheet.cuts.is_empty(), sheet.drains.is_empty()) {
+        (true, false) if sheet.cells.is_some() => "walls of cells, drain holes and rounding",
         (true, false) => "drain holes and rounding",
         (true, true) => "rounding",
         (false, _) => "pins, sockets and rounding",
@@ -310,6 +313,7 @@ pub fn shortfall(sheet: &Checklist) -> Option<String> {
             Taker::Cleaning => &format!("where the inside stays solid because it {}", fault(sheet)),
             Taker::Plan => "to what the plan keeps solid",
             Taker::Bosses => "to bosses around pins",
+            Taker::Making if sheet.cells.is_some() => "to cells that stay solid, and rounding",
             Taker::Making if sheet.cuts.is_empty() => "to drain holes and rounding",
             Taker::Making => "to cuts, pins and rounding",
         };

@@ -22,10 +22,11 @@ use super::levels::with_load;
 /// # Errors
 /// The printer has no infill, or the job orders what one closed piece cannot have.
 pub fn sparse_print(job: &Job, printer: &Printer) -> Result<Option<Nested>, GradedError> {
+    let is_graded = job.interior == Interior::Graded;
     if job.interior.is_hollow() && job.goal.kind == GoalKind::Match {
         return Err(GradedError::HollowMatch);
     }
-    if job.interior.is_hollow() {
+    if !is_graded {
         return ordered_density(job)
             .map_or(Ok(None), |order| Err(GradedError::NotGraded { order }));
     }
@@ -131,18 +132,24 @@ pub fn refuse_rounds(placed: &Placed) -> Result<(), SlicedError> {
     }
 }
 
-/// Returns the hint that voids do what sparse infill does not, if a solve confirms it.
+/// Returns the hint that voids do what sparse infill or cells do not, if a solve confirms it.
 pub fn hollow_hint(placed: &Placed, watch: &Watch) -> Result<Option<String>, Error> {
-    if placed.sparse.is_none() || placed.goal().kind == GoalKind::Match {
+    let is_full = placed.sparse.is_some() || placed.cells.is_some();
+    if !is_full || placed.goal().kind == GoalKind::Match {
         return Ok(None);
     }
+    let what = match placed.cells {
+        Some(_) => "cells",
+        None => "sparse infill",
+    };
     let hollow = Placed {
         fill: Fill::AIR,
         sparse: None,
+        cells: None,
         ..placed.clone()
     };
     let found = with_load(&hollow, Load::default(), watch)?;
     let setting = Setting::new(Key::Interior, Interior::Hollow);
-    let hint = format!("make voids in place of sparse infill, and cut them open (`{setting}`)");
+    let hint = format!("make voids in place of {what}, and cut them open (`{setting}`)");
     Ok(matches!(found, Verdict::Found(_)).then_some(hint))
 }

@@ -11,6 +11,7 @@ mod given;
 mod graded;
 mod hardware;
 mod hints;
+mod inner_cells;
 mod judge;
 mod kept;
 mod levels;

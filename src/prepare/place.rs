@@ -1,6 +1,8 @@
 //! Place: the goal in the model, with its axis, its waterline and its hardware.
 
-use super::{advise, densities, fields, graded, hardware, like, mean, rotor, upright, waterline};
+use super::{
+    advise, densities, fields, graded, hardware, inner_cells, like, mean, rotor, upright, waterline,
+};
 use crate::advice::{Case, best_orientation, is_possible};
 use crate::base::watch::Watch;
 use crate::error::Error;
@@ -9,19 +11,19 @@ use crate::goal::{
     place_in_material, spins_on_lowest,
 };
 use crate::hollow::Fill;
-use crate::job::Job;
+use crate::job::{CutMode, Job};
 use crate::run::{AxisChoice, Model, NaturalUp, Placed, Policy, Shop};
 
 /// Places the job's goal in the model and settles what the job leaves open.
 pub fn goal(job: &Job, model: Model, shop: Shop, watch: &Watch) -> Result<Placed, Error> {
     let job = &like::resolved(job, &model, watch)?;
     let sparse = graded::sparse_print(job, &shop.printer)?;
+    let cells = inner_cells::sizes(job, &model, &shop)?;
     let laid = sparse.as_ref().and_then(densities::fill);
-    let fill = match laid {
-        Some(laid) => laid,
-        None => fill(job, shop.material.density_g_cm3.value)?,
-    };
-    // The searches know of infill, and of no fillings.
+    let laid = laid.or(cells.as_ref().map(inner_cells::fill));
+    let filled = || fill(job, shop.material.density_g_cm3.value);
+    let fill = laid.map_or_else(filled, Ok)?;
+    // The searches know of infill and of cells, and of no fillings.
     let searched = laid.unwrap_or(Fill::AIR);
     let case = |request: Request| advise::case(&model, &shop, request, searched);
     let choice = choose_axis(job, &model, &case(job.goal), watch)?;
@@ -47,16 +49,14 @@ pub fn goal(job: &Job, model: Model, shop: Shop, watch: &Watch) -> Result<Placed
     };
     let placement = match place_in_material(&model.solid, &stock, &request) {
         Ok(placement) => placement,
-        Err(error) => {
-            return Err(upright::advised(error, &case(request), watch)?);
-        }
+        Err(error) => return Err(upright::advised(error, &case(request), watch)?),
     };
     refuse_air(&request, &placement)?;
-    let mut bound = job.clone();
-    bound.model.sha256 = Some(model.sha256.clone());
+    let bound = bound(job, &model, cells.is_some());
     let placed = Placed {
         fill,
         sparse,
+        cells: None,
         policy: Policy::with_joint_price(bound.joint_price_ratio).with_effort(bound.effort),
         job: bound,
         model,
@@ -68,9 +68,20 @@ pub fn goal(job: &Job, model: Model, shop: Shop, watch: &Watch) -> Result<Placed
     };
     let placed = hardware::fit(waterline::choose(placed, watch)?, watch)?;
     let placed = fields::with_field(mean::with_levels(placed, watch)?, watch)?;
+    let placed = inner_cells::with_cells(placed, cells, watch)?;
     graded::refuse_pieces(&placed)?;
     graded::refuse_holes(&placed)?;
     Ok(placed)
+}
+
+/// Returns a job bound to the bytes of its model. What is made of cells drains, and is never cut.
+fn bound(job: &Job, model: &Model, has_cells: bool) -> Job {
+    let mut bound = job.clone();
+    bound.model.sha256 = Some(model.sha256.clone());
+    if has_cells {
+        bound.cut = CutMode::Never;
+    }
+    bound
 }
 
 /// Chooses the axis of a request that leaves it open; `None` if the request names one.

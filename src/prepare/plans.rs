@@ -8,7 +8,7 @@ use super::{advise, outcome::Impossible, placed, solve};
 use crate::base::verdict::Verdict;
 use crate::base::watch::{Phase, Watch};
 use crate::cut::{CutError, CutOrder, parts};
-use crate::error::{Error, GradedError};
+use crate::error::{CellsError, Error, GradedError};
 use crate::job::{Job, JobError};
 use crate::kit::{Kit, PLANS_FILE};
 use crate::mesh::TriMesh;
@@ -37,6 +37,9 @@ pub fn plans(
     how_to_choose: &str,
     watch: &Watch,
 ) -> Result<Verdict<Plans, Impossible>, Error> {
+    if job.interior.has_cells() {
+        return Err(CellsError::Cuts.into());
+    }
     if !job.interior.is_hollow() {
         return Err(GradedError::Cuts.into());
     }

@@ -25,6 +25,9 @@ pub struct DrainNeed {
     pub is_liquid: bool,
     /// The gap on each side of the plug that closes each hole afterwards, mm; `None` without plugs.
     pub plug_gap_mm: Option<f64>,
+    /// The unit direction that points up in the printer, where the lowest place of a void must
+    /// drain; `None` if up is that of the object.
+    pub printed_up: Option<[f64; 3]>,
 }
 
 impl DrainNeed {
@@ -90,6 +93,7 @@ impl Printer {
             count,
             is_liquid,
             plug_gap_mm: None,
+            printed_up: None,
         })
     }
 }

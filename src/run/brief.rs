@@ -1,8 +1,12 @@
 //! The brief of a run: the model, the shop that prints it, and the goal placed in the model.
 
+use std::sync::Arc;
+
 use super::{AxisChoice, Nested, Policy};
 use crate::ballast::Load;
+use crate::comb::InnerCells;
 use crate::cut::{Hollowed, Rod};
+use crate::geom::Vector;
 use crate::goal::{Footing, Goal, Hardware, Placement, Request};
 use crate::hardware::Fitted;
 use crate::hollow::Fill;
@@ -43,6 +47,15 @@ pub struct Shop {
     pub rods: Vec<Rod>,
 }
 
+/// The cells of an inside.
+#[derive(Debug, Clone)]
+pub struct Inside {
+    /// All of them.
+    pub cells: InnerCells,
+    /// Those that stay solid whatever is emptied, model frame. They do not touch each other.
+    pub solid: TriMesh,
+}
+
 /// A goal in its model, ready to be solved: waterline and hardware are settled.
 #[derive(Debug, Clone)]
 pub struct Placed {
@@ -64,6 +77,8 @@ pub struct Placed {
     pub fill: Fill,
     /// The infill that takes the place of voids; `None` for a hollow print.
     pub sparse: Option<Nested>,
+    /// The cells that take the place of voids; `None` for an inside without them.
+    pub cells: Option<Arc<Inside>>,
     /// The limits of the search for cuts and pins.
     pub policy: Policy,
 }
@@ -119,6 +134,13 @@ impl Placed {
             .map_or(Moments::default(), |fitted| fitted.moments(density_g_cm3))
     }
 
+    /// Returns the direction that points up in the vat, model frame, for which an inside of cells
+    /// is made; `None` for other prints.
+    pub fn printed_up(&self) -> Option<Vector> {
+        let down = self.cells.as_ref()?.cells.sizes.down?;
+        Some(-down)
+    }
+
     /// Returns the moments of what is put into the print, model frame: ballast, hardware and the
     /// filling of the voids. With them goes what a slicer lays beyond the written parts. The
     /// regions of infill inside of the voids are `inner`, as [`Voids::inner`](super::Voids::inner).
@@ -131,6 +153,8 @@ impl Placed {
                 let inner = inner.iter().map(moments_of_mesh);
                 nested.laid(std::iter::once(volume).chain(inner))
             }
+            // The walls between cells are part of the written body, and what they leave is air.
+            None if self.cells.is_some() => Moments::default(),
             None => volume * self.fill.density_ratio(),
         };
         load.moments() + self.hardware_moments() + filled + self.laid_beyond()

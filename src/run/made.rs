@@ -1,6 +1,6 @@
 //! The parts of a kit as they are written and read back.
 
-use super::{BossRound, CleaningRound, HeightProof, Level, Remark};
+use super::{BossRound, CleaningRound, DrawnCells, HeightProof, Level, Remark};
 use crate::ballast::Load;
 use crate::cut::{CutPlan, Hollowed, Jig, JointId, Part};
 use crate::field::Clamped;
@@ -30,6 +30,8 @@ pub struct Made {
     pub smooth: Option<Clamped>,
     /// The regions of infill inside of its voids, as [`Voids::inner`](super::Voids::inner).
     pub inner: Vec<TriMesh>,
+    /// The cells that its voids are made of, as [`Voids::cells`](super::Voids::cells).
+    pub cells: DrawnCells,
     /// Volume of voids that stay solid for cleaning or for pins, mm³.
     pub refused_mm3: f64,
     /// The cuts and pins.

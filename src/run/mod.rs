@@ -22,12 +22,14 @@ mod remark;
 mod solved;
 mod tendency;
 
-pub use brief::{Model, Placed, Shop};
+pub use brief::{Inside, Model, Placed, Shop};
 pub use laid_field::LaidField;
 pub use made::{Made, WrittenJig, WrittenPart, WrittenRegion, WrittenSparse};
 pub use natural::{NaturalUp, short_reason};
 pub use nested::{Extent, Level, Nested};
-pub use opened::{Achieved, BossRound, CleaningRound, KeptBoss, KeptSolid, Opened, Voids};
+pub use opened::{
+    Achieved, BossRound, CleaningRound, DrawnCells, KeptBoss, KeptSolid, Opened, Voids,
+};
 pub use policy::{Policy, Rung};
 pub use remark::{AxisChoice, FewerFault, KeptCause, Refusal, Remark, Untried};
 pub use solved::{HeightProof, Solved};

@@ -2,6 +2,7 @@
 
 use super::{KeptCause, Remark, Rung};
 use crate::cut::{CutPlan, Hollowed, PartId, PinSite, PlanRequest, VoidId};
+use crate::geom::Point;
 use crate::hollow::{Certificate, Figure, Solution};
 use crate::mass::Moments;
 use crate::mesh::TriMesh;
@@ -18,10 +19,21 @@ pub struct Voids {
     /// The regions of infill inside of the voids of a print in one piece, the outermost first;
     /// model frame. Those of other prints have none.
     pub inner: Vec<TriMesh>,
+    /// The cells that the voids are made of; none in other prints.
+    pub cells: DrawnCells,
     /// Volume of voids that cannot be cleaned and stay solid, mm³.
     pub refused_mm3: f64,
     /// Number of times that it was solved again.
     pub rounds: usize,
+}
+
+/// The cells that voids are made of.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct DrawnCells {
+    /// A place inside of each cell, model frame, mm.
+    pub places: Vec<Point>,
+    /// The ends of the axis of each opening between two of them, model frame, mm.
+    pub doors: Vec<[Point; 2]>,
 }
 
 /// The figure that voids reach, and their volume.

@@ -16,8 +16,8 @@ use super::voids::{CutRow, VoidRow};
 use crate::printer::Plate;
 use crate::repair::RepairOrder;
 use crate::verify::{
-    Check, Figures, FillOrder, Hardware, InfillOrder, LaidOrder, PromisedFigure, PromisedHole,
-    PromisedPlate, PromisedPlug, SCHEMA,
+    CellsOrder, Check, Figures, FillOrder, Hardware, InfillOrder, LaidOrder, PromisedFigure,
+    PromisedHole, PromisedPlate, PromisedPlug, SCHEMA,
 };
 
 /// The job sheet of a kit, for machines; the room `page` renders the same for people.
@@ -59,6 +59,9 @@ pub struct Checklist {
     /// Drain holes of an uncut piece; empty for others.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub drains: Vec<PromisedHole>,
+    /// Cells inside of an uncut piece; `None` for others.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub cells: Option<CellsOrder>,
     /// Cuts.
     pub cuts: Vec<CutRow>,
     /// Parts.

@@ -172,6 +172,7 @@ fn checklist(evidence: &Evidence, found: &Judgement) -> Checklist {
         foot: None,
         ballast: Vec::new(),
         fill: None,
+        cells: None,
         infill: None,
         laid: None,
         toolpaths: None,

@@ -1,5 +1,6 @@
 //! The list of checks of a kit.
 
+use super::cell_walls::cell_checks;
 use super::goal_checks::{figure_check, goal_checks};
 use super::hardware::HardwareKind;
 use super::joints::FilmError;
@@ -47,6 +48,7 @@ pub fn checks(promise: &Promise, found: &Judgement) -> Vec<Check> {
     checks.extend(cup_check(&found.cups));
     checks.extend(holes_check(&found.holes));
     checks.extend(plugs_check(promise, &found.plugs));
+    checks.extend(cell_checks(promise, found.cells.as_ref()));
     checks.extend(void_checks(promise, &found.voids));
     checks.push(volume_check(promise, found));
     checks.extend(joint_checks(promise, found));

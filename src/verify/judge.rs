@@ -4,6 +4,7 @@ use rayon::prelude::*;
 
 use super::ballast::least_room_mm;
 use super::body::Body;
+use super::cell_walls::measure_cells;
 use super::checks::checks;
 use super::cleaning::inspect_voids;
 use super::cups::measure_cups;
@@ -20,8 +21,9 @@ use super::regions::measure_inner_regions;
 use super::shape::measure_shapes;
 use super::slack::Slack;
 use super::{
-    Evidence, Figures, Fit, HoleFacts, JigFacts, Judgement, PartFacts, PegFacts, PlugFacts,
-    RegionFacts, Setting, ShapeFacts, SpinFacts, SurfaceFacts, VoidFacts, assembly_moments,
+    CellFacts, Evidence, Figures, Fit, HoleFacts, JigFacts, Judgement, PartFacts, PegFacts,
+    PlugFacts, RegionFacts, Setting, ShapeFacts, SpinFacts, SurfaceFacts, VoidFacts,
+    assembly_moments,
 };
 use crate::base::watch::{Cancelled, Watch};
 use crate::mass::{Moments, moments_of_mesh};
@@ -120,6 +122,7 @@ fn judge_beside(
         voids: inside.voids,
         holes: inside.holes,
         plugs: inside.plugs,
+        cells: inside.cells,
         drained_mm3: bored.map_or_else(Vec::new, |bored| bored.taken_mm3.clone()),
         beyond_ratio: figures.beyond_ratio,
         inner_regions: inside.inner_regions,
@@ -224,6 +227,7 @@ struct Inside {
     voids: Vec<VoidFacts>,
     holes: Vec<HoleFacts>,
     plugs: Vec<PlugFacts>,
+    cells: Option<CellFacts>,
     lost_strokes: Option<usize>,
     inner_regions: Vec<RegionFacts>,
 }
@@ -250,6 +254,7 @@ impl Inside {
         let holes = measure_holes(promise, body, bodies, watch)?;
         let meant = bored.map_or(&[][..], |bored| &bored.plugs);
         let plugs = measure_plugs(promise, meant, &probes, watch)?;
+        let cells = measure_cells(promise, body, &holes, watch)?;
         let mut voids = voids;
         open_through_holes(&mut voids, promise, body, &holes);
         Ok(Self {
@@ -259,6 +264,7 @@ impl Inside {
             voids,
             holes,
             plugs,
+            cells,
             lost_strokes: count_lost_strokes(promise, &probes),
             inner_regions: measure_inner_regions(evidence),
         })

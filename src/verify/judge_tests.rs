@@ -58,6 +58,7 @@ fn promise(poses: &[Pose]) -> Promise {
     };
     Promise {
         drains: Vec::new(),
+        cells: None,
         certificate: None,
         schema: SCHEMA,
         printer: PrinterLimits {

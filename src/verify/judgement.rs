@@ -2,8 +2,8 @@
 
 use super::joints::FilmError;
 use super::{
-    Check, CupFacts, Figures, FileChange, Fit, HoleFacts, JigFacts, JointFacts, PartFacts,
-    PegFacts, PlugFacts, RegionFacts, ShapeFacts, SpinFacts, SurfaceFacts, VoidFacts,
+    CellFacts, Check, CupFacts, Figures, FileChange, Fit, HoleFacts, JigFacts, JointFacts,
+    PartFacts, PegFacts, PlugFacts, RegionFacts, ShapeFacts, SpinFacts, SurfaceFacts, VoidFacts,
 };
 use crate::thin::ThinFeatures;
 
@@ -55,6 +55,8 @@ pub struct Judgement {
     pub holes: Vec<HoleFacts>,
     /// The plugs of the drain holes, in the order of the holes.
     pub plugs: Vec<PlugFacts>,
+    /// Facts about the cells of a piece; `None` if none are stated.
+    pub cells: Option<CellFacts>,
     /// The volume that the drain holes take from the uncut result, mm³; 0 without any.
     pub drained_mm3: Vec<f64>,
     /// The film of glue that differs most from its faces; `None` without films.

@@ -99,6 +99,10 @@ pub enum CheckKind {
     DrainHoles,
     /// Gaps of the plugs in their drain holes.
     Plugs,
+    /// Thickness of the walls between the cells of a piece.
+    CellWalls,
+    /// Free diameters of the openings by which cells drain.
+    CellOpenings,
     /// Agreement of the voids with what the checklist states of them.
     VoidsAsStated,
     /// Sum of the parts' volumes against the uncut body.
@@ -311,6 +315,8 @@ impl fmt::Display for CheckKind {
             Self::VoidClean { void } => return write!(f, "void {void} clean"),
             Self::DrainHoles => "drain holes",
             Self::Plugs => "plugs",
+            Self::CellWalls => "walls of cells",
+            Self::CellOpenings => "openings of cells",
             Self::VoidsAsStated => "voids as stated",
             Self::Volumes => "volumes",
             Self::Pins => "pins",
@@ -340,7 +346,13 @@ mod tests {
     use serde_json::json;
 
     /// The keys and names of all kinds without data.
-    const KEYS: [(CheckKind, &str, &str); 90] = [
+    const KEYS: [(CheckKind, &str, &str); 92] = [
+        (CheckKind::CellWalls, "cell-walls", "walls of cells"),
+        (
+            CheckKind::CellOpenings,
+            "cell-openings",
+            "openings of cells",
+        ),
         (CheckKind::Held, "held", "held parts"),
         (CheckKind::Stock, "stock", "stock"),
         (CheckKind::Grain, "grain", "grain"),

@@ -21,6 +21,7 @@ mod asked;
 mod ballast;
 mod body;
 mod bound;
+mod cells_order;
 mod figures;
 mod hardware;
 mod hole;
@@ -33,6 +34,7 @@ mod stock;
 mod support;
 mod water;
 // The facts about surfaces, parts and joints.
+mod cell_walls;
 mod cleaning;
 mod cover;
 mod cups;
@@ -113,6 +115,7 @@ pub use reading::{find_model, read_kit, read_promise};
 pub use crate::printer::{Cleaning, CleaningRule};
 pub use ballast::{BallastOrder, FillOrder};
 pub use bound_proof::{BoundPoint, BoundProof, KeptPlace};
+pub use cells_order::CellsOrder;
 pub use fingerprint::{Fingerprint, Likeness};
 pub use hardware::{Hardware, HardwareKind};
 pub use hole::{PromisedHole, PromisedPlug};
@@ -131,6 +134,7 @@ pub use water::WaterOrder;
 
 // The facts.
 pub use body::Body;
+pub use cell_walls::CellFacts;
 pub use cleaning::VoidFacts;
 pub use cups::CupFacts;
 pub use drains::HoleFacts;

@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use super::{
-    BallastOrder, BoundProof, Density, FillOrder, Fingerprint, Hardware, InfillOrder, LaidOrder,
-    Pose, PrinterLimits, PromisedHole, PromisedPlate, RotorOrder, WaterOrder,
+    BallastOrder, BoundProof, CellsOrder, Density, FillOrder, Fingerprint, Hardware, InfillOrder,
+    LaidOrder, Pose, PrinterLimits, PromisedHole, PromisedPlate, RotorOrder, WaterOrder,
 };
 use crate::geom::{Frame, Point, Vector};
 use crate::goal::{GoalKind, Target};
@@ -47,6 +47,9 @@ pub struct Promise {
     /// The drain holes of an uncut piece; empty for others.
     #[serde(default)]
     pub drains: Vec<PromisedHole>,
+    /// The cells inside of an uncut piece; `None` for others.
+    #[serde(default)]
+    pub cells: Option<CellsOrder>,
     /// The hardware put into the parts.
     #[serde(default)]
     pub hardware: Vec<Hardware>,

@@ -3,6 +3,7 @@
 
 use serde_json::{Map, Value, json};
 
+use super::cell_walls::find_false_cells;
 use super::claims::find_false_claims;
 use super::limits::SHEET_LIMIT_RATIO;
 use super::machine::find_false_numbers;
@@ -100,6 +101,8 @@ pub fn find_misstatements(
         let numbers = find_false_numbers(sheet, evidence);
         rough.misstatements.extend(numbers);
         rough.misstatements.extend(find_false_rows(sheet, evidence));
+        let cells = find_false_cells(&evidence.promise, judgement.cells.as_ref());
+        rough.misstatements.extend(cells);
     }
     rough.misstatements
 }

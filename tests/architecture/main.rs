@@ -250,16 +250,17 @@ const ARROWS: &[(&str, &[&str])] = &[
     (
         "error",
         &[
-            "base", "repair", "ballast", "cut", "draw", "field", "goal", "hardware", "hollow",
-            "interior", "io", "job", "kit", "mend", "mesh", "printer", "sheet", "shell", "slice",
-            "slicer", "thin", "verify", "voids",
+            "base", "repair", "ballast", "comb", "cut", "draw", "field", "goal", "hardware",
+            "hollow", "interior", "io", "job", "kit", "mend", "mesh", "printer", "sheet", "shell",
+            "slice", "slicer", "thin", "verify", "voids",
         ],
     ),
+    // The cells of an inside are divided once, and drawn again in every round.
     (
         "run",
         &[
-            "advice", "ballast", "base", "cut", "field", "geom", "goal", "hardware", "hollow",
-            "interior", "job", "mass", "mesh", "printer", "repair", "thin", "verify",
+            "advice", "ballast", "base", "comb", "cut", "field", "geom", "goal", "hardware",
+            "hollow", "interior", "job", "mass", "mesh", "printer", "repair", "thin", "verify",
         ],
     ),
     (
@@ -281,10 +282,10 @@ const ARROWS: &[(&str, &[&str])] = &[
     (
         "prepare",
         &[
-            "advice", "ballast", "base", "cut", "error", "field", "geom", "goal", "hardware",
-            "hollow", "interior", "io", "job", "kit", "make", "mass", "mend", "mesh", "open",
-            "page", "press", "printer", "repair", "run", "sheet", "shell", "slice", "slicer",
-            "thin", "verify", "voids",
+            "advice", "ballast", "base", "comb", "cut", "error", "field", "geom", "goal",
+            "hardware", "hollow", "interior", "io", "job", "kit", "make", "mass", "mend", "mesh",
+            "open", "page", "press", "printer", "repair", "run", "sheet", "shell", "slice",
+            "slicer", "thin", "verify", "voids",
         ],
     ),
     (

@@ -44,6 +44,15 @@ pub fn shared_folder() -> PathBuf {
 /// The options of a quick run: a small model, and few columns for the solver.
 pub const QUICK: &str = "--printer objet-connex350 --size 60mm --pitch 0.3mm";
 
+/// A configuration of Prusa's SL1S, as its slicer exports it, without what is not needed here.
+pub const SL1S: &str = "printer_technology = SLA\nprinter_model = SL1S\nbed_shape = 0x0,127x0,127x80,0x80\n\
+    display_width = 128\ndisplay_height = 81\ndisplay_pixels_x = 2560\ndisplay_pixels_y = 1620\n\
+    display_orientation = portrait\ndisplay_mirror_x = 1\ndisplay_mirror_y = 0\n\
+    max_print_height = 150\nlayer_height = 0.05\ninitial_layer_height = 0.05\nexposure_time = 2\n\
+    initial_exposure_time = 25\nfaded_layers = 10\nelefant_foot_compensation = 0\n\
+    supports_enable = 0\npad_enable = 0\nsupport_object_elevation = 0\ngamma_correction = 1\n\
+    relative_correction = 1,1\n";
+
 /// The judge of a telescope's kit in Python.
 const TELESCOPE_JUDGE: &str = concat!(
     env!("CARGO_MANIFEST_DIR"),

@@ -55,6 +55,10 @@ LONG = 4
 PAIRS_AT_ONCE = 4_000_000
 # More pairs than this are not looked at: minutes and gigabytes, and a surface made of slivers.
 PAIRS_LIMIT = 40_000_000
+# How many places along the axis of an opening between two cells are looked at.
+OPENING_STEPS = 9
+# How many places on the voids of cells are looked at from the other side of their walls.
+CELL_SAMPLES = 2000
 # How many points of a void's wall are looked at, from so many places across each mouth in two directions.
 SIGHT_SAMPLES = 400
 # Triangles that are tried first, as they were in the way last.
@@ -1386,6 +1390,8 @@ def judge_holes(table, sheet, parts, whole, voids):
         blocked = any(((met > 0) & (met < np.linalg.norm(end - start))).any() for met in lines_through(near, start[None], (end - start) / np.linalg.norm(end - start)))
         table.at_least(f"{hole['id']} free, mm", hole["diameter_mm"] - 0.01, 0.0 if blocked else free)
         table.same(f"{hole['id']} volume, mm³", hole["volume_mm3"], hole_volume(hole, whole.triangles), 0.01)
+    if "cells" in sheet:
+        judge_cells(table, sheet, voids)
     for void in sheet["voids"]:
         holes = [hole for hole in sheet.get("drains", []) if hole["void"] == void["id"]]
         if holes and "cleaning" in sheet["printer"]:
@@ -1393,6 +1399,48 @@ def judge_holes(table, sheet, parts, whole, voids):
             single = sum(hole["diameter_mm"] >= wide for hole in holes) >= (2 if sheet["printer"].get("process") == "sla" else 1)
             pair = sum(hole["diameter_mm"] >= rule.get("pair_opening_mm", math.inf) for hole in holes) >= 2
             table.line(f"{void['id']} has the holes it needs", True, single or pair, single or pair)
+
+
+def judge_cells(table, sheet, voids):
+    """The cells of a piece: their air is the voids, each place is in a void that a hole drains, and a ball of the stated width goes
+    through each opening."""
+    cells = sheet["cells"]
+    meshes = [welded(void[:, ::-1]) for void in voids]
+    table.same("air of the cells, mm³", cells["drained_mm3"], sum(mesh.volume for mesh in meshes), 1e-5)
+    drained = {hole["void"] for hole in sheet.get("drains", [])}
+    in_air = np.zeros(len(cells["places_mm"]), bool)
+    for void, mesh in zip(sheet["voids"], meshes):
+        if void["id"] in drained:
+            in_air |= mesh.contains(np.array(cells["places_mm"], float))
+    table.none("cells that no hole drains", int((~in_air).sum()))
+    if cells["openings_mm"]:
+        ways = np.array(cells["openings_mm"], float)
+        ways = ways[:, :1] + (ways[:, 1:] - ways[:, :1]) * np.linspace(0, 1, OPENING_STEPS)[:, None]
+        soup = welded_soup(np.concatenate(voids))
+        near = trimesh.proximity.closest_point(soup, ways.reshape(-1, 3))[1]
+        table.at_least("openings of the cells, mm", cells["opening_mm"] - 0.01, 2 * near.min())
+    table.at_least("walls of the cells, mm", cells["wall_mm"] - WALL_TOLERANCE_MM, cell_wall(np.concatenate(voids), cells["wall_mm"]))
+
+
+def cell_wall(corners, wall):
+    """The thinnest wall behind places spread over voids, along their normals, up to two walls. An edge of the material is no wall: its
+    sides meet, or do not face each other."""
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    areas = np.linalg.norm(normals, axis=1)
+    normals = normals / np.maximum(areas, 1e-12)[:, None]
+    rng = np.random.default_rng(0)
+    thinnest = 2 * wall
+    for i in rng.choice(len(corners), CELL_SAMPLES, p=areas / areas.sum()):
+        u, v = rng.random(2)
+        u, v = (u, v) if u + v < 1 else (1 - u, 1 - v)
+        a, b, c = corners[i]
+        # Surfaces look away from the material.
+        met = distances(corners, a + u * (b - a) + v * (c - a) - 1e-4 * normals[i], -normals[i])
+        behind = corners[met.argmin()]
+        is_edge = (behind[:, None] == corners[i][None]).all(axis=2).any()
+        if not is_edge and -normals[met.argmin()] @ normals[i] >= 0.5:
+            thinnest = min(thinnest, met.min() + 1e-4)
+    return thinnest
 
 
 def same_triangles(corners, known):

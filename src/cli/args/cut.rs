@@ -7,6 +7,7 @@ use std::str::FromStr;
 use clap::Args;
 
 use super::values::{share, words};
+use crate::base::units::Length;
 use crate::cut::{CutOrder, KeepClear, LeastPart, SeamStyle};
 use crate::field::is_file_name;
 use crate::job::{
@@ -30,10 +31,14 @@ pub struct CutArgs {
     /// Print a plug for each drain hole, to be glued in once the void is empty
     #[arg(long)]
     pub plugs: bool,
-    /// Hollow the inside (hollow), or print one uncut piece whose inside is sparse infill where
-    /// that helps (graded). Graded is for filament printers [default: hollow]
+    /// Hollow the inside (hollow), or print one uncut piece whose inside is sparse infill (graded)
+    /// or cells that drain (cells) where that helps. Graded is for filament printers, cells are for
+    /// powder, resin and wax [default: hollow]
     #[arg(long, value_parser = words::<Interior>(Interior::WORDS))]
     pub interior: Option<Interior>,
+    /// The size of the cells of an inside of cells [default: the usual one of the process]
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
+    pub cell_size: Option<Length>,
     /// The least and the greatest infill of a graded print, such as 15%..60%. Walls stay solid
     /// [default: the least that prints, and 100%]
     #[arg(long, value_name = "LO..HI", allow_hyphen_values = true)]

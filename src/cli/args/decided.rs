@@ -1,7 +1,7 @@
 //! The arguments of `prepare` that a replayed job decides.
 
 /// The arguments that a replayed job decides.
-pub const DECIDED_BY_JOB: [&str; 51] = [
+pub const DECIDED_BY_JOB: [&str; 52] = [
     "slicer",
     "printer",
     "material",
@@ -47,6 +47,7 @@ pub const DECIDED_BY_JOB: [&str; 51] = [
     "ballast",
     "fill",
     "interior",
+    "cell_size",
     "density",
     "infill",
     "levels",

@@ -306,6 +306,7 @@ impl PrepareArgs {
             drain: self.cutting.drain.unwrap_or_default(),
             plugs: self.cutting.plugs,
             interior: self.cutting.interior.unwrap_or(default.interior),
+            cell_size: self.cutting.cell_size,
             density: self.cutting.density,
             infill: self.cutting.infill,
             levels: self.cutting.levels,

@@ -36,6 +36,8 @@ const LEVEL_PRICE: f64 = 4.0;
 const LEVEL_SLACK: f64 = 0.1;
 /// Price of a second hole right beside the first.
 const NEAR_PRICE: f64 = 2.0;
+/// The same share if the lowest place must drain while the part is printed.
+const PRINTED_SLACK: f64 = 0.01;
 /// Least distance of two holes, in diameters from middle to middle.
 const APART_DIAMETERS: f64 = 3.0;
 /// Most holes of a void. With more it is cut.
@@ -191,20 +193,19 @@ impl Chooser<'_> {
     ) -> Option<Site> {
         let aabb = void.mesh().aabb();
         let size_mm = aabb.size().norm().max(f64::MIN_POSITIVE);
-        let heights = || {
-            void.mesh()
-                .vertices()
-                .iter()
-                .map(|p| self.up.dot(&p.coords))
+        let (up, slack) = match self.need.printed_up {
+            Some(up) => (Vector::from(up), PRINTED_SLACK),
+            None => (self.up, LEVEL_SLACK),
         };
+        let heights = || void.mesh().vertices().iter().map(|p| up.dot(&p.coords));
         let low_mm = heights().fold(f64::INFINITY, f64::min);
         let high_mm = heights().fold(f64::NEG_INFINITY, f64::max);
         let range_mm = (high_mm - low_mm).max(f64::MIN_POSITIVE);
         let price = |place: &Priced| {
-            let height = (self.up.dot(&place.site.ends[1].coords) - low_mm) / range_mm;
+            let height = (up.dot(&place.site.ends[1].coords) - low_mm) / range_mm;
             let off = match level {
                 Level::Any => 0.0,
-                Level::Low => (height - LEVEL_SLACK).max(0.0),
+                Level::Low => (height - slack).max(0.0),
                 Level::High => (1.0 - LEVEL_SLACK - height).max(0.0),
             };
             let distances = chosen.iter().map(|site| (site.at - place.site.at).norm());

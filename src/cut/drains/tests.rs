@@ -13,18 +13,21 @@ const ONE: DrainNeed = DrainNeed {
     count: 1,
     is_liquid: false,
     plug_gap_mm: None,
+    printed_up: None,
 };
 const PAIR: DrainNeed = DrainNeed {
     diameter_mm: 2.0,
     count: 2,
     is_liquid: false,
     plug_gap_mm: None,
+    printed_up: None,
 };
 const RESIN: DrainNeed = DrainNeed {
     diameter_mm: 3.5,
     count: 2,
     is_liquid: true,
     plug_gap_mm: None,
+    printed_up: None,
 };
 
 /// Returns a box of 40 mm with a void 2 mm below its surface.
@@ -151,6 +154,22 @@ fn resin_leaves_at_the_bottom_and_air_comes_in_at_the_top() {
     };
     assert!(
         drain.from_mm[2] < -17.0 && vent.from_mm[2] > 17.0,
+        "{found:?}"
+    );
+}
+
+#[test]
+fn resin_leaves_where_the_part_is_lowest_in_the_printer() {
+    let need = DrainNeed {
+        printed_up: Some([1.0, 0.0, 0.0]),
+        ..RESIN
+    };
+    let found = placed(&hollow_ball(), &need);
+    let [drain, vent] = &found.plan.drains[..] else {
+        panic!("two holes")
+    };
+    assert!(
+        drain.from_mm[0] < -19.0 && vent.from_mm[0] > 17.0,
         "{found:?}"
     );
 }

@@ -14,7 +14,7 @@ use super::printer::{material_row, printer_row};
 use super::promise::{aim, ballast_orders, fill_order, infill_order, laid_order};
 use super::remarks::{notes, offers, warnings};
 use super::toolpaths::{print_time_row, toolpaths_row};
-use super::voids::{cut_rows, drain_holes, void_rows};
+use super::voids::{cells_order, cut_rows, drain_holes, void_rows};
 use crate::ballast::PlacedPart;
 use crate::goal::{Objective, RoundKind, RoundSurface, Warning};
 use crate::mass::moments_of_mesh;
@@ -55,6 +55,7 @@ pub fn checklist(facts: &Facts) -> Checklist {
         },
         voids: void_rows(facts),
         drains: drain_holes(facts.made),
+        cells: cells_order(placed, facts.made),
         cuts: cut_rows(&facts.made.plan),
         turn: turn_row(facts, &parts),
         foot,

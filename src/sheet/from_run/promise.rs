@@ -3,7 +3,7 @@
 use super::hardware::{dowels, hardware};
 use super::joints::{joint_id, promised_jig, promised_joints};
 use super::printer::enlargement;
-use super::voids::{drain_holes, promised_cuts, promised_voids};
+use super::voids::{cells_order, drain_holes, promised_cuts, promised_voids};
 use crate::ballast::{Load, PlacedPart};
 use crate::base::digest::sha256_hex;
 use crate::cut::{CutPlan, Label, PinSite};
@@ -48,6 +48,7 @@ pub fn promise(placed: &Placed, made: &Made) -> Promise {
         cuts: promised_cuts(plan),
         voids: promised_voids(placed, made),
         drains: drain_holes(made),
+        cells: cells_order(placed, made),
         hardware: hardware(placed),
         dowels: dowels(plan),
         string_gap_mm: placed.string_gap_mm(),

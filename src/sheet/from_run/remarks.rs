@@ -7,8 +7,9 @@ use super::joints::{is_shown_at_its_step, warn_of_joints};
 use super::parts::is_printed_in_vat;
 use super::printer::{enlargement, scale_note};
 use super::promise::aim;
+use super::voids::cells_order;
 use crate::base::numbers::{measured, number};
-use crate::base::units::MM3_PER_CM3;
+use crate::base::units::{MM3_PER_CM3, format_count};
 use crate::cut::{self, PartId};
 use crate::goal::GoalKind;
 use crate::run::{Remark, WrittenPart};
@@ -133,6 +134,21 @@ fn left_solid(facts: &Facts) -> Option<String> {
     })
 }
 
+/// Words the cells inside of a piece, and how to know that they are empty; `None` without cells.
+fn cells(facts: &Facts) -> Option<String> {
+    let order = cells_order(facts.placed, facts.made)?;
+    Some(format!(
+        "{} of about {} inside, between walls of {} with {} of {}: {} drain. Weigh the cleaned \
+         piece: a full cell makes it heavier than the sheet says",
+        format_count(order.places_mm.len(), "cell"),
+        measured(order.size_mm, "mm"),
+        measured(order.wall_mm, "mm"),
+        format_count(order.openings_mm.len(), "opening"),
+        measured(order.opening_mm, "mm"),
+        measured(order.drained_mm3 / MM3_PER_CM3, "cm³"),
+    ))
+}
+
 /// Returns the offers of other plans.
 pub fn offers(facts: &Facts) -> Vec<String> {
     let remarks = facts.made.remarks.iter();
@@ -154,6 +170,7 @@ pub fn notes(facts: &Facts) -> Vec<String> {
     let remarks = made.remarks.iter().filter(|remark| !is_told(remark));
     let remarks = remarks.map(ToString::to_string);
     let all = std::iter::once(wall)
+        .chain(cells(facts))
         .chain(scale)
         .chain(left_solid(facts))
         .chain(planned);

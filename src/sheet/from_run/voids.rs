@@ -5,8 +5,10 @@ use crate::cut::{Cut, CutPlan, CutSide, DrainHole, VoidAccess, VoidId};
 use crate::geom::Point;
 use crate::run::{CleaningRound, KeptSolid, Made, Placed, WrittenPart};
 use crate::sheet::{CleaningRow, CutRow, KeptRow, SideRow, VoidRow, is_clean};
-use crate::verify::{PromisedCut, PromisedHole, PromisedPlug, PromisedVoid, VoidFacts};
+use crate::verify::{CellsOrder, PromisedCut, PromisedHole, PromisedPlug, PromisedVoid, VoidFacts};
 
+/// Steps in a millimetre to which the places of cells are stated: no file's rounding is finer.
+const STEPS_A_MM: f64 = 1e5;
 /// Distance up to which a vertex lies on a void's wall, mm; booleans keep vertices to 1e-6 mm.
 const SAME_MM: f64 = 1e-5;
 /// Least number of vertices on a void's wall of a part that holds it: a pin may touch the rim of a
@@ -78,6 +80,23 @@ pub fn drain_holes(made: &Made) -> Vec<PromisedHole> {
         volume_mm3: hole.volume_mm3,
     };
     made.plan.drains.iter().map(hole).collect()
+}
+
+/// Returns the cells as the judge reads them; `None` in a print without cells.
+pub fn cells_order(placed: &Placed, made: &Made) -> Option<CellsOrder> {
+    let sizes = placed.cells.as_ref()?.cells.sizes;
+    let voids = made.hollowed.voids.iter();
+    let near = |at: &Point| [at.x, at.y, at.z].map(|mm| (mm * STEPS_A_MM).round() / STEPS_A_MM);
+    let doors = made.cells.doors.iter();
+    Some(CellsOrder {
+        size_mm: sizes.size_mm,
+        wall_mm: sizes.wall_mm,
+        opening_mm: sizes.opening_mm,
+        density_ratio: placed.fill.density_ratio(),
+        drained_mm3: voids.map(|void| void.mesh().signed_volume_mm3()).sum(),
+        places_mm: made.cells.places.iter().map(near).collect(),
+        openings_mm: doors.map(|ends| ends.each_ref().map(near)).collect(),
+    })
 }
 
 /// Returns the drain holes of a void.
