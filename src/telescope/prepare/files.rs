@@ -117,7 +117,7 @@ pub fn packages(asked: &Asked, made: &Made) -> Result<Vec<File>, TelescopeRunErr
             job: name.clone(),
             objects: &objects,
             build,
-            settings: settings.clone(),
+            settings,
         };
         Ok((file, package.encode()?))
     });
