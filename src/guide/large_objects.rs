@@ -52,6 +52,12 @@
 //! glued to a part that does. Where that part is of another cell, the order is found by
 //! looking.
 //!
+//! Pieces that bear on no panel may hook into others, so that none leaves first. Then the answer
+//! names a circle of parts, each with the next one in its way. Planes beside and between two of
+//! them are tried, along the way and across it. A plane counts if it frees a piece that leaves
+//! first, and if all units then find an order past each other. The one with the least section is
+//! told ([`crate::cladding::FreeingCut`]).
+//!
 //! Pins need a way along themselves. Cuts of one part form a tree: each parts what the ones before
 //! it left in two. So its pieces come together in the reverse order, each time square to one
 //! plane, and pins may stand in all of these planes. That is done on the bench, before the panel

@@ -8,6 +8,7 @@
 #![allow(clippy::print_stderr, reason = "a skipped test says so")]
 
 use crate::common;
+mod knots;
 mod method;
 mod pins;
 mod rods;
