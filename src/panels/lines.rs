@@ -108,8 +108,8 @@ fn drilled(hole: &Hole, placement: &Placement, kerf_mm: f64) -> Result<Hole, Bea
         .ok_or(BeamError::TooNarrow { at_mm, kerf_mm })
 }
 
-/// Returns the strokes of a panel's number and of those of its neighbours, as they are seen from
-/// inside; none if they would be too small.
+/// Returns the strokes of a panel's number and of those of its neighbours, seen from inside. There
+/// are none if they would be too small.
 fn names(set: &PanelSet, panel: usize, most_mm: f64) -> Vec<Vec<[f64; 2]>> {
     let edges = set.edges.iter().filter(|edge| edge.panels.contains(&panel));
     let rooms = edges.map(|edge| room_mm(&set.panels[panel], edge, edge.panels[0] == panel));

@@ -1,4 +1,4 @@
-//! Times and prices: estimates from the profiles of a shop, and none where they have no figures.
+//! Times and prices are estimates from the profiles of a shop, if these have the figures.
 
 use std::fs;
 use std::path::Path;

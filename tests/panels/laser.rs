@@ -104,7 +104,7 @@ fn a_finger_is_drawn_wider_by_the_kerf_and_the_gap_that_takes_it_narrower() {
     }
 }
 
-/// Returns the turns of a line and the ratios of its pieces: they are the same at any place, turn
+/// Returns the turns of a line and the ratios of its pieces. They are the same at any place, turn
 /// and size, but not in a mirror.
 fn shape(line: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let pieces = line
@@ -178,8 +178,8 @@ fn numbers_are_engraved_on_the_inner_face_each_beside_the_edge_to_that_panel() {
     }
 }
 
-/// The panels of the bunny at 600 mm, 5 mm from its surface, as the reference has them: no limit of
-/// a sheet is asked for.
+/// The panels of the bunny at 600 mm, 5 mm from its surface as those of the reference are. Each
+/// fits the smallest of the sheets.
 fn bunny_panels() -> Option<PanelSet> {
     let path = shared_model("bunny.stl")?;
     let (mesh, _) = repair(read_model(&path).unwrap(), &Watch::silent()).unwrap();
