@@ -59,7 +59,7 @@ impl VertexPair {
 }
 
 /// Moves the vertices of two start polyhedra until their volume is large and a face of each meets
-/// one of the other, or says why there is no room. They start about two deep points.
+/// one of the other. They start about two deep points; without these there is no room.
 ///
 /// A local optimum. The same bytes on any number of threads.
 pub fn grow_pair_by_vertices(
