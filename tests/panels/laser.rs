@@ -1,7 +1,6 @@
 //! What the beam leaves of fingers, what it writes, and how much of a sheet the panels of a model
 //! take.
 
-use equipoise::base::verdict::Verdict;
 use equipoise::base::watch::Watch;
 use equipoise::cutter::{Cutter, StockSheet};
 use equipoise::cutting::{SheetOrder, cut_sheets};
@@ -187,9 +186,8 @@ fn bunny_panels() -> Option<PanelSet> {
     let solid = Solid::new(mesh.map_vertices(|p| p * factor)).unwrap();
     let ground = Ground::new(&solid).unwrap();
     let order = Request::new(5.0, Limits::for_sheet(SHEET_MM, 8.0, [590.0, 390.0]));
-    let Verdict::Found(body) = grow_polyhedron(&ground, &order, &Watch::silent()).unwrap() else {
-        panic!("the bunny has room")
-    };
+    let grown = grow_polyhedron(&ground, &order, &Watch::silent()).unwrap();
+    let body = grown.found().unwrap();
     Some(PanelSet::of(&body, &request(JointStyle::Auto)).unwrap())
 }
 
