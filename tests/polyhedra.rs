@@ -553,6 +553,87 @@ fn faces_of_moved_vertices_go_into_the_rectangle_of_a_sheet() {
     }
 }
 
+/// Two balls on a neck of this radius.
+fn dumbbell_on(neck_mm: f64) -> Ground {
+    let ball = |x: f64, radius: f64| primitives::ball(&Point::new(x, 0.0, 0.0), radius, 3);
+    let neck = primitives::cylinder(neck_mm, 160.0, 32);
+    let neck = neck.map_vertices(|p| Point::new(p.z, p.x, p.y));
+    let all = [ball(0.0, 80.0), neck, ball(160.0, 60.0)];
+    let bodies = all.iter().map(|mesh| Csg::of_mesh(mesh).unwrap());
+    let whole = bodies.reduce(|a, b| a.union(&b).unwrap()).unwrap();
+    Ground::new(&Solid::new(whole.to_mesh().unwrap()).unwrap()).unwrap()
+}
+
+#[test]
+fn two_polyhedra_meet_in_a_disc_as_the_supplement_asks_and_are_proved_apart() {
+    let ground = dumbbell_on(40.0);
+    for start in [StartSolid::Cube, StartSolid::Dodecahedron] {
+        let request = PairRequest {
+            vertices: VertexRequest {
+                distance_mm: 5.0,
+                start,
+                samples_per_edge: 5,
+                room_mm: None,
+            },
+            radius_mm: 12.0,
+        };
+        let grown = grow_pair_by_vertices(&ground, &request, &Watch::silent()).unwrap();
+        let grown = grown.found().unwrap();
+        assert!(grown.turn_rad.to_degrees() < 2.0, "{start}: {grown:?}");
+        assert!(
+            grown.beside_mm < 1.0 && grown.apart_mm > 0.0,
+            "{start}: {grown:?}"
+        );
+        assert!(grown.disc_mm > 11.0, "{start}: {}", grown.disc_mm);
+        assert!(grown.cylinder_mm > 4.0, "{start}: {}", grown.cylinder_mm);
+        let base = Request::new(5.0, Limits::NONE);
+        let proved = prove_pair(&ground, &grown, &base, 0.5).unwrap();
+        let model = ground.solid().mesh();
+        let mut volume_mm3 = 0.0;
+        for one in &proved {
+            let planes = one.polyhedron.planes();
+            let kept_mm = one.polyhedron.separation().check(model, &planes);
+            assert!(kept_mm.unwrap() >= 5.0 - 1e-6);
+            volume_mm3 += one.polyhedron.volume_mm3();
+        }
+        // A plane parts them by the gap.
+        let [low, high] = proved.each_ref().map(|one| one.polyhedron.mesh().unwrap());
+        let normal = (grown.normals[0] - grown.normals[1]).normalize();
+        let place = |p: &Point| normal.dot(&p.coords);
+        let most = low
+            .vertices()
+            .iter()
+            .map(place)
+            .fold(f64::NEG_INFINITY, f64::max);
+        let least = high
+            .vertices()
+            .iter()
+            .map(place)
+            .fold(f64::INFINITY, f64::min);
+        assert!(least - most >= 0.5 - 1e-9, "{start}: {most} {least}");
+        let share = volume_mm3 / ground.volume_mm3();
+        assert!(share > 0.2, "{start}: {share}");
+    }
+}
+
+#[test]
+fn a_model_too_thin_has_no_room_for_two() {
+    let request = PairRequest {
+        vertices: VertexRequest {
+            distance_mm: 90.0,
+            start: StartSolid::Cube,
+            samples_per_edge: 3,
+            room_mm: None,
+        },
+        radius_mm: 12.0,
+    };
+    let grown = grow_pair_by_vertices(&dumbbell_on(40.0), &request, &Watch::silent()).unwrap();
+    let Verdict::No(why) = grown else {
+        unreachable!("{grown:?}")
+    };
+    assert!(why.deepest_mm < 90.0, "{why:?}");
+}
+
 #[test]
 #[ignore = "takes a minute, and needs models that are not part of the project"]
 fn two_polyhedra_of_moved_vertices_are_joined_and_proved_or_the_answer_is_none() {
