@@ -166,7 +166,7 @@
 //!
 //! Two polyhedra by that method move together, so that a face of each meets one of the other
 //! ([`crate::polyhedra::vertices::grow_pair_by_vertices`]). They do so in one of four rows. There
-//! the bunny's two cubes share a disc of 67 mm: their normals are opposed to 0.01°, and their
+//! the bunny's two cubes share a disc of 67 mm. Their normals are opposed to 0.01°, and their
 //! centres lie 0.25 mm beside each other. In the others the centres stay 33 to 101 mm beside each
 //! other. Only library and tests have it. Two polyhedra by planes fill 0.564 and 0.393.
 //!
