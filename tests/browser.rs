@@ -164,3 +164,22 @@ fn the_sheet_of_a_box_on_a_base_takes_its_units_off_along_their_normals_in_a_bro
     assert_exit(&output, 0);
     browser.assert_works("units.js", &kit, 10);
 }
+
+#[test]
+#[ignore = "a whole kit of two polyhedra: a minute on 2 cores"]
+fn the_sheet_of_a_long_box_parts_its_polyhedra_between_what_closes_them_and_the_rest() {
+    let Some(browser) = Browser::find() else {
+        return;
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let model = folder.path().join("beam.stl");
+    let mesh = primitives::cuboid(&Point::origin(), &Point::new(340.0, 150.0, 150.0));
+    fs::write(&model, stl::encode(&mesh, "beam")).unwrap();
+    let kit = folder.path().join("kit");
+    let line = "--printer prusa-mk4 --cutter makerspace-900x600 --sheet birch-3 --faces 6 --up z \
+                --polyhedra 2";
+    let start = ["core", path(&model), "--out", path(&kit)];
+    let output = equipoise(&[&start[..], &words(line)].concat());
+    assert_exit(&output, 0);
+    browser.assert_works("units.js", &kit, 12);
+}

@@ -13,7 +13,9 @@ use equipoise::base::watch::Watch;
 use equipoise::geom::{Plane, Point, Vector};
 use equipoise::io::read_model;
 use equipoise::mesh::{Csg, MeshDistance, Solid, TriMesh, primitives, spread_points};
-use equipoise::polyhedra::vertices::{StartSolid, VertexRequest, grow_by_vertices};
+use equipoise::polyhedra::vertices::{
+    PairRequest, StartSolid, VertexRequest, grow_by_vertices, grow_pair_by_vertices, prove_pair,
+};
 use equipoise::polyhedra::{
     BaseFileError, BasePlan, ConnectorRequest, Count, Ground, Joint, LimitKind, Limits, NoPlan,
     Polyhedron, Request, RequestError, Separation, SeparationError, Several, Side, grow_polyhedra,
@@ -501,6 +503,7 @@ fn the_method_of_the_paper_agrees_on_simple_bodies_and_keeps_its_samples_away() 
             distance_mm: DISTANCE_MM,
             start,
             samples_per_edge: 6,
+            room_mm: None,
         };
         let grown = grow_by_vertices(ground, &request, &Watch::silent()).unwrap();
         let found = grown.found().unwrap();
@@ -509,6 +512,168 @@ fn the_method_of_the_paper_agrees_on_simple_bodies_and_keeps_its_samples_away() 
         assert!((0.9..1.005).contains(&ratio), "{start}: {ratio}");
         assert!(found.sampled_mm >= DISTANCE_MM - 1e-6);
         assert!(found.certified_mm <= found.sampled_mm + 1e-6);
+    }
+}
+
+#[test]
+fn faces_of_moved_vertices_go_into_the_rectangle_of_a_sheet() {
+    let corner = Point::new(90.0, 60.0, 40.0);
+    let block = ground(primitives::cuboid(&Point::origin(), &corner));
+    let grown = |room_mm: Option<[f64; 2]>| {
+        let request = VertexRequest {
+            distance_mm: DISTANCE_MM,
+            start: StartSolid::Cube,
+            samples_per_edge: 6,
+            room_mm,
+        };
+        let grown = grow_by_vertices(&block, &request, &Watch::silent()).unwrap();
+        grown.found().unwrap()
+    };
+    let free = grown(None);
+    let bound = grown(Some([60.0, 45.0]));
+    // Without it the box has 80 by 50 by 30 mm; one of 60 by 45 by 30 has 0.675 of that.
+    let ratio = bound.volume_mm3 / free.volume_mm3;
+    println!("{ratio:.4} of the volume without a sheet");
+    assert!((0.55..0.69).contains(&ratio), "{ratio}");
+    for face in &bound.faces {
+        let at = |k: usize| bound.corners[face[k % face.len()] as usize];
+        let normal = (at(1) - at(0)).cross(&(at(2) - at(1))).normalize();
+        let fits = (0..face.len()).any(|k| {
+            let along = (at(k + 1) - at(k)).normalize();
+            let sides = [along, normal.cross(&along)].map(|way| {
+                let places = (0..face.len()).map(|k| way.dot(&at(k).coords));
+                let ends = places.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], at| {
+                    [low.min(at), high.max(at)]
+                });
+                ends[1] - ends[0]
+            });
+            sides[0].min(sides[1]) <= 45.0 + 0.01 && sides[0].max(sides[1]) <= 60.0 + 0.01
+        });
+        assert!(fits, "{face:?}");
+    }
+}
+
+/// Two balls on a neck of this radius.
+fn dumbbell_on(neck_mm: f64) -> Ground {
+    let ball = |x: f64, radius: f64| primitives::ball(&Point::new(x, 0.0, 0.0), radius, 3);
+    let neck = primitives::cylinder(neck_mm, 160.0, 32);
+    let neck = neck.map_vertices(|p| Point::new(p.z, p.x, p.y));
+    let all = [ball(0.0, 80.0), neck, ball(160.0, 60.0)];
+    let bodies = all.iter().map(|mesh| Csg::of_mesh(mesh).unwrap());
+    let whole = bodies.reduce(|a, b| a.union(&b).unwrap()).unwrap();
+    Ground::new(&Solid::new(whole.to_mesh().unwrap()).unwrap()).unwrap()
+}
+
+#[test]
+fn two_polyhedra_meet_in_a_disc_as_the_supplement_asks_and_are_proved_apart() {
+    let ground = dumbbell_on(40.0);
+    for start in [StartSolid::Cube, StartSolid::Dodecahedron] {
+        let request = PairRequest {
+            vertices: VertexRequest {
+                distance_mm: 5.0,
+                start,
+                samples_per_edge: 5,
+                room_mm: None,
+            },
+            radius_mm: 12.0,
+        };
+        let grown = grow_pair_by_vertices(&ground, &request, &Watch::silent()).unwrap();
+        let grown = grown.found().unwrap();
+        assert!(grown.turn_rad.to_degrees() < 2.0, "{start}: {grown:?}");
+        assert!(
+            grown.beside_mm < 1.0 && grown.apart_mm > 0.0,
+            "{start}: {grown:?}"
+        );
+        assert!(grown.disc_mm > 11.0, "{start}: {}", grown.disc_mm);
+        assert!(grown.cylinder_mm > 4.0, "{start}: {}", grown.cylinder_mm);
+        let base = Request::new(5.0, Limits::NONE);
+        let proved = prove_pair(&ground, &grown, &base, 0.5).unwrap();
+        let model = ground.solid().mesh();
+        let mut volume_mm3 = 0.0;
+        for one in &proved {
+            let planes = one.polyhedron.planes();
+            let kept_mm = one.polyhedron.separation().check(model, &planes);
+            assert!(kept_mm.unwrap() >= 5.0 - 1e-6);
+            volume_mm3 += one.polyhedron.volume_mm3();
+        }
+        // A plane parts them by the gap.
+        let [low, high] = proved.each_ref().map(|one| one.polyhedron.mesh().unwrap());
+        let normal = (grown.normals[0] - grown.normals[1]).normalize();
+        let place = |p: &Point| normal.dot(&p.coords);
+        let most = low
+            .vertices()
+            .iter()
+            .map(place)
+            .fold(f64::NEG_INFINITY, f64::max);
+        let least = high
+            .vertices()
+            .iter()
+            .map(place)
+            .fold(f64::INFINITY, f64::min);
+        assert!(least - most >= 0.5 - 1e-9, "{start}: {most} {least}");
+        let share = volume_mm3 / ground.volume_mm3();
+        assert!(share > 0.2, "{start}: {share}");
+    }
+}
+
+#[test]
+fn a_model_too_thin_has_no_room_for_two() {
+    let request = PairRequest {
+        vertices: VertexRequest {
+            distance_mm: 90.0,
+            start: StartSolid::Cube,
+            samples_per_edge: 3,
+            room_mm: None,
+        },
+        radius_mm: 12.0,
+    };
+    let grown = grow_pair_by_vertices(&dumbbell_on(40.0), &request, &Watch::silent()).unwrap();
+    let Verdict::No(why) = grown else {
+        unreachable!("{grown:?}")
+    };
+    assert!(why.deepest_mm < 90.0, "{why:?}");
+}
+
+#[test]
+#[ignore = "takes a minute, and needs models that are not part of the project"]
+fn two_polyhedra_of_moved_vertices_are_joined_and_proved_or_the_answer_is_none() {
+    for name in ["bunny.stl", "homer.obj"] {
+        let Some(ground) = shared(name) else { return };
+        let share = |volume_mm3: f64| volume_mm3 / ground.volume_mm3();
+        for start in [StartSolid::Cube, StartSolid::Dodecahedron] {
+            let request = PairRequest {
+                vertices: VertexRequest {
+                    distance_mm: DISTANCE_MM,
+                    start,
+                    samples_per_edge: 8,
+                    room_mm: None,
+                },
+                radius_mm: 20.0,
+            };
+            let begun = std::time::Instant::now();
+            let grown = grow_pair_by_vertices(&ground, &request, &Watch::silent()).unwrap();
+            let seconds = begun.elapsed().as_secs_f64();
+            let Some(found) = grown.found() else {
+                println!("| {name} | {start} | no room | {seconds:.1} s |");
+                continue;
+            };
+            let proved = prove_pair(&ground, &found, &without_limits(12), 0.1);
+            let proved = proved.map(|pair| pair.map(|one| one.polyhedron.volume_mm3()));
+            println!(
+                "| {name} | {start} | {:.4} | turn {:.2}° apart {:.1} beside {:.2} disc {:.1} cylinder \
+                 {:.1} mm | proved {:?} | {seconds:.1} s |",
+                share(found.volume_mm3()),
+                found.turn_rad.to_degrees(),
+                found.apart_mm,
+                found.beside_mm,
+                found.disc_mm,
+                found.cylinder_mm,
+                proved.map(|pair| pair.map(share))
+            );
+            for body in &found.polyhedra {
+                assert!(body.sampled_mm >= DISTANCE_MM - 1e-6);
+            }
+        }
     }
 }
 
@@ -524,6 +689,7 @@ fn what_the_method_of_the_paper_fills_more_it_cannot_certify() {
                 distance_mm: DISTANCE_MM,
                 start: *start,
                 samples_per_edge: 8,
+                room_mm: None,
             };
             let grown = grow_by_vertices(&ground, &request, &Watch::silent()).unwrap();
             let Some(found) = grown.found() else {

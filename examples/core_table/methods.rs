@@ -41,6 +41,7 @@ fn of_vertices(ground: &Ground, start: StartSolid) -> Result<String> {
         distance_mm: DISTANCE_MM,
         start,
         samples_per_edge: SAMPLES_PER_EDGE,
+        room_mm: None,
     };
     let (grown, seconds) = timed(|| Ok(grow_by_vertices(ground, &request, &Watch::silent())?))?;
     let Verdict::Found(grown) = grown else {

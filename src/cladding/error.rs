@@ -2,6 +2,7 @@
 
 use crate::base::numbers::measured;
 use crate::base::watch::Cancelled;
+use crate::geom::{Plane, Point, Vector};
 use crate::mesh::{ClipError, Defects};
 use crate::voids::VoidError;
 
@@ -43,10 +44,17 @@ pub enum CladdingError {
         face: usize,
     },
     /// Units that bar each other's ways.
-    #[error("no order takes the object apart: the units over faces {} bar each other", list(.faces))]
+    #[error(
+        "no order takes the object apart: the units over faces {} wait for each other. {}",
+        list(.faces), barring(.parts)
+    )]
     Cycle {
         /// The indices of their faces in the whole base.
         faces: Vec<usize>,
+        /// The parts that bar each other, each with the next one in its way.
+        parts: Vec<PartPlace>,
+        /// A cut after which all come apart; `None` if no cut that was tried frees them.
+        cut: Option<Box<FreeingCut>>,
     },
     /// A polyhedron among several that no side opens.
     #[error(
@@ -95,6 +103,65 @@ pub enum CladdingError {
     /// The caller stopped the run.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
+}
+
+/// A part of the shell, where a person finds it in the model.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PartPlace {
+    /// The index of the face below it, in the whole base.
+    pub face: usize,
+    /// The middle of its box.
+    pub middle: Point,
+}
+
+impl std::fmt::Display for PartPlace {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let face = self.face + 1;
+        write!(
+            f,
+            "the part over face {face} about {} mm",
+            place_words(&self.middle)
+        )
+    }
+}
+
+/// A cut by which units that bar each other come apart. It was tried.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FreeingCut {
+    /// The part that is cut.
+    pub part: PartPlace,
+    /// The plane of the cut; its normal points to the piece that leaves first.
+    pub plane: Plane,
+    /// The direction in which it leaves, a unit vector.
+    pub way: Vector,
+    /// The middle of that piece's box.
+    pub piece: Point,
+    /// The volume of that piece, mm³.
+    pub volume_mm3: f64,
+    /// The area of the cut, mm².
+    pub area_mm2: f64,
+}
+
+impl FreeingCut {
+    /// Returns the place of the piece that leaves first, in words: the middle of its box, mm.
+    pub fn piece_words(&self) -> String {
+        place_words(&self.piece)
+    }
+}
+
+/// Writes a place in the model in whole millimetres.
+fn place_words(at: &Point) -> String {
+    let [x, y, z] = [at.x, at.y, at.z].map(|mm| mm.round() + 0.0);
+    format!("({x}, {y}, {z})")
+}
+
+/// Names parts that bar each other.
+fn barring(parts: &[PartPlace]) -> String {
+    let names: Vec<String> = parts.iter().map(PartPlace::to_string).collect();
+    match names.as_slice() {
+        [] => "None of them finds a way".to_owned(),
+        names => format!("In each other's way are {}", names.join(", and ")),
+    }
 }
 
 /// A reason why two rods of a kind find no place.

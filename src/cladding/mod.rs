@@ -11,7 +11,8 @@
 //! * [`Scene::screws`] finds the places of screws, and [`PartScrews`] has their bosses, bores and
 //!   holes.
 //! * [`PartPins`] join parts of one panel, and limbs to what carries them.
-//! * [`Scene::assembly`] gathers panels and parts in [`Unit`]s, and orders them.
+//! * [`Scene::assembly`] gathers panels and parts in [`Unit`]s, and orders them. Where there is no
+//!   order, the answer names the parts, and a [`FreeingCut`] that was tried.
 //! * [`Scene::clad`] does all of it.
 //! * [`Sides`] does it for a base of several polyhedra, each on its side of the planes between
 //!   them.
@@ -27,7 +28,10 @@ mod cups;
 mod divide;
 mod error;
 mod floor;
+mod joins;
+mod knot;
 mod lie;
+mod ordering;
 mod overlap;
 mod part;
 mod part_pins;
@@ -46,7 +50,7 @@ pub use bolts::{Bolt, BoltKit, bolts};
 pub use cells::{Cell, cells};
 pub use cups::{Cup, CupRequest, ShellStyle};
 pub use divide::Scene;
-pub use error::{CladdingError, RodLack};
+pub use error::{CladdingError, FreeingCut, PartPlace, RodLack};
 pub use floor::{FlatThing, places_on};
 pub use lie::Lie;
 pub use overlap::{barred_mm2, contact_mm2, face_mm2};

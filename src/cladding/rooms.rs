@@ -293,7 +293,7 @@ fn width_mm(ring: &[[f64; 2]]) -> f64 {
 }
 
 /// Returns the least and the greatest place of a body along a direction, mm.
-fn extent(body: &TriMesh, along: &Vector) -> [f64; 2] {
+pub(super) fn extent(body: &TriMesh, along: &Vector) -> [f64; 2] {
     let places = body.vertices().iter().map(|p| along.dot(&p.coords));
     places.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], at| {
         [low.min(at), high.max(at)]

@@ -69,7 +69,7 @@ impl Scene<'_> {
     ) -> Result<CladShell, CladdingError> {
         let bare = self.clad_bare(panels, request, watch)?;
         let units = self.blocked(&bare.parts, &bare.pins);
-        let assembly = self.closed_by(units, &request.up, self.bottom_face(&request.up))?;
+        let assembly = self.ordered(&bare.parts, units, &request.up)?;
         Ok(CladShell { assembly, ..bare })
     }
 

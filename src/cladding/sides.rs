@@ -6,6 +6,9 @@
 
 use super::divide::{Scene, hold_loose};
 use super::error::CladdingError;
+use super::joins::joins;
+use super::knot::Knot;
+use super::ordering::knot;
 use super::overlap::barred_mm2;
 use super::part::Holding;
 use super::part_pins::PartPins;
@@ -13,12 +16,12 @@ use super::rod_bore::RodBore;
 use super::rods::{Rod, bores_of};
 use super::screws::PartScrews;
 use super::shell::{CladShell, ShellRequest};
-use super::units::{Assembly, FREE_MM2, Join, Unit};
+use super::units::{Assembly, FREE_MM2, Unit};
 use crate::base::watch::Watch;
 use crate::geom::Vector;
 use crate::mesh::TriMesh;
 use crate::panels::PanelSet;
-use crate::polyhedra::{BasePlan, Child, Ground};
+use crate::polyhedra::{BasePlan, Ground};
 
 /// The area of a side through which a hand passes, mm²: a hole of 100 mm.
 pub const HAND_MM2: f64 = 7_900.0;
@@ -278,7 +281,11 @@ impl<'a> Meeting<'a> {
         let mut bars: Vec<usize> = Vec::new();
         for (_, _, face) in open {
             let units = self.own[polyhedron].clone();
-            let assembly = scene.closed_by(units, &request.up, Some(face))?;
+            let assembly = scene.closed_by(units, &request.up, Some(face));
+            let assembly = assembly.map_err(|waiting| {
+                let waiting = waiting.iter().map(|unit| unit + start);
+                knot(&self.shell.parts, &self.units, waiting.collect()).error()
+            })?;
             let Some(at) = assembly
                 .order
                 .iter()
@@ -347,8 +354,7 @@ impl<'a> Meeting<'a> {
                 free.map(|way| (at, way))
             });
             let Some((at, way)) = found else {
-                let faces = waiting.iter().map(|&unit| units[unit].face).collect();
-                return Err(CladdingError::Cycle { faces });
+                return Err(self.knot_of(waiting, strays).error());
             };
             let unit = waiting.remove(at);
             units[unit].way = way;
@@ -357,38 +363,24 @@ impl<'a> Meeting<'a> {
         leaving.reverse();
         Ok((units, leaving))
     }
-}
 
-/// Returns the ways in which polyhedra come together, the innermost planes first. The upper ones
-/// come to the lower ones.
-fn joins(plan: &BasePlan, up: &Vector) -> Vec<Join> {
-    let mut order = Vec::new();
-    let mut waiting: Vec<usize> = (0..plan.splits.len().min(1)).collect();
-    while let Some(split) = waiting.pop() {
-        order.push(split);
-        let of = plan.splits[split];
-        let within = [of.below, of.above]
-            .into_iter()
-            .filter_map(|child| match child {
-                Child::Split(inner) => Some(inner),
-                Child::Polyhedron(_) => None,
-            });
-        waiting.extend(within);
-    }
-    let outermost_last = order.into_iter().rev();
-    let join = |split: usize| {
-        let [below, above] = plan.polyhedra_beside(split);
-        let way = plan.splits[split].plane.normal;
-        let is_upright = up.dot(&way) >= 0.0;
-        Join {
-            moving: if is_upright {
-                above.clone()
-            } else {
-                below.clone()
-            },
-            standing: if is_upright { below } else { above },
-            way: if is_upright { way } else { -way },
+    /// Returns the knot of strays that find no way past all the other units.
+    fn knot_of(&self, waiting: Vec<usize>, strays: &[usize]) -> Knot<'_> {
+        let ways = self.units.iter().map(|unit| {
+            let away = self.sides.plan.sides(unit.polyhedron).into_iter();
+            let away = away.map(|plane| -plane.normal);
+            [unit.way].into_iter().chain(away).collect()
+        });
+        let standing = (0..self.units.len()).filter(|unit| !strays.contains(unit));
+        Knot {
+            parts: &self.shell.parts,
+            units: &self.units,
+            bodies: (0..self.units.len())
+                .map(|unit| self.bodies(unit))
+                .collect(),
+            ways: ways.collect(),
+            waiting,
+            standing: standing.collect(),
         }
-    };
-    outermost_last.map(join).collect()
+    }
 }

@@ -3,7 +3,6 @@
 use rayon::prelude::*;
 
 use super::divide::Scene;
-use super::error::CladdingError;
 use super::overlap::barred_mm2;
 use super::part::{Holding, Part};
 use super::part_pins::PartPins;
@@ -77,25 +76,14 @@ impl Scene<'_> {
         self.base.bottom_face(up)
     }
 
-    /// Gathers parts in units and orders them. `up` is the direction up of the object: the unit at
-    /// the bottom comes last of those with a panel, after the higher ones.
-    ///
-    /// A part that is pinned to one of its own cell goes with it. A part that is pinned to one of
-    /// another cell is a unit of its own: it leaves along its own way, before the other.
-    ///
-    /// # Errors
-    /// The units bar each other's ways in a circle: the error names them.
-    pub fn assembly(&self, parts: &[Part], up: &Vector) -> Result<Assembly, CladdingError> {
-        self.closed_by(self.blocked(parts, &[]), up, self.bottom_face(up))
-    }
-
-    /// Orders units so that the one of a face closes.
+    /// Orders units so that the one of a face closes; an error lists the units that wait for each
+    /// other.
     pub(super) fn closed_by(
         &self,
         units: Vec<Unit>,
         up: &Vector,
         face: Option<usize>,
-    ) -> Result<Assembly, CladdingError> {
+    ) -> Result<Assembly, Vec<usize>> {
         let closing = units
             .iter()
             .position(|unit| unit.has_panel && Some(unit.face) == face);
@@ -194,14 +182,15 @@ impl Scene<'_> {
     }
 }
 
-/// Returns the order in which units are joined: the reverse of that in which they leave.
+/// Returns the order in which units are joined: the reverse of that in which they leave. An error
+/// lists those that wait for each other.
 ///
 /// The closing unit leaves as early as it can, and then the lower ones first.
 fn order(
     units: &[Unit],
     heights_mm: &[f64],
     closing: Option<usize>,
-) -> Result<Vec<usize>, CladdingError> {
+) -> Result<Vec<usize>, Vec<usize>> {
     let mut before_closing = vec![false; units.len()];
     let mut open: Vec<usize> = closing.into_iter().collect();
     while let Some(unit) = open.pop() {
@@ -221,9 +210,7 @@ fn order(
             first.then(heights_mm[a].total_cmp(&heights_mm[b]))
         });
         let Some(next) = next else {
-            let barred = (0..units.len()).filter(|&unit| !has_left[unit]);
-            let faces = barred.map(|unit| units[unit].face).collect();
-            return Err(CladdingError::Cycle { faces });
+            return Err((0..units.len()).filter(|&unit| !has_left[unit]).collect());
         };
         has_left[next] = true;
         order.push(next);

@@ -25,6 +25,7 @@ pub(super) fn show_number(quantity: Quantity, value: f64) -> String {
         Quantity::GlueDensityGCm3 => format!("{value} g/cm³"),
         Quantity::GlueHoldS => format!("{value} s"),
         Quantity::GlueCureH => format!("{value} h"),
+        Quantity::WallFlowMm3S | Quantity::SolidFlowMm3S => format!("{value} mm³/s"),
         _ => show_mm(value),
     }
 }

@@ -1,6 +1,6 @@
 //! The answers where there is no such object, with what helps.
 
-use super::advise_base::{is_by_vertices, no_base, other_methods};
+use super::advise_base::{is_by_vertices, no_base, other_methods, plane_words};
 use super::advise_size::{NEXT_RATIO, large_enough};
 use super::asked::Asked;
 use super::ballast::ballasted;
@@ -11,8 +11,9 @@ use super::mass::{Weighed, point, toppling_deg, weigh};
 use crate::ballast::{BallastError, Order};
 use crate::base::numbers::measured;
 use crate::base::setting::{Key, Setting};
+use crate::base::units::MM3_PER_CM3;
 use crate::base::watch::{Cancelled, Watch};
-use crate::cladding::CladdingError;
+use crate::cladding::{CladdingError, FreeingCut};
 use crate::cutting::SheetError;
 use crate::geom::Point;
 use crate::goal::{Goal, Up, support_edges};
@@ -77,6 +78,9 @@ fn uncut(asked: &Asked, why: &SheetError) -> Impossible {
 /// Tells why a base gets no shell, and what helps.
 fn unclad(asked: &Asked, why: &CladdingError) -> Impossible {
     let mut answer = Impossible::new(why.to_string());
+    if let CladdingError::Cycle { cut, .. } = why {
+        answer.hints.push(freeing(cut.as_deref()));
+    }
     let hint = match why {
         CladdingError::NoBolts { .. } => {
             let larger = format!("{}mm", (1.5 * asked.connector.radius_mm).ceil());
@@ -100,6 +104,27 @@ fn unclad(asked: &Asked, why: &CladdingError) -> Impossible {
     answer.hints.push(hint);
     answer.hints.extend(other_methods(asked));
     answer
+}
+
+/// Tells the cut that frees units which bar each other: it was tried.
+fn freeing(cut: Option<&FreeingCut>) -> String {
+    let Some(cut) = cut else {
+        return "no cut frees them, of those beside and between the parts that were tried"
+            .to_owned();
+    };
+    format!(
+        "a cut of {} frees them, as was tried: part the piece about {} mm, {}, from {} along the \
+         plane {}. It leaves first, along ({}), and then all others do. Take it off the model, print \
+         it for itself, and glue it on last",
+        measured(cut.area_mm2, "mm²"),
+        cut.piece_words(),
+        measured(cut.volume_mm3 / MM3_PER_CM3, "cm³"),
+        cut.part,
+        plane_words(&cut.plane),
+        [cut.way.x, cut.way.y, cut.way.z]
+            .map(|part| format!("{:.2}", part + 0.0))
+            .join(", ")
+    )
 }
 
 /// Tells why an object does not stand as asked, and what helps; `None` if it does, or need not.

@@ -204,7 +204,7 @@ fn shared(asked: &Asked, apart: &Unjoined) -> String {
 }
 
 /// Words a plane; one that is square to an axis by its place along it.
-fn plane_words(plane: &Plane) -> String {
+pub fn plane_words(plane: &Plane) -> String {
     let axes = ["x", "y", "z"].iter().zip(plane.normal.iter());
     let mut along = axes.filter(|(_, part)| part.abs() > 1.0 - 1e-9);
     match along.next() {

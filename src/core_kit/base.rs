@@ -159,6 +159,7 @@ fn from_start(
         distance_mm: asked.base.distance_mm,
         start,
         samples_per_edge: SAMPLES_PER_EDGE,
+        room_mm: asked.base.limits.room_mm,
     };
     let grown = match grow_by_vertices(asked.ground, &request, watch)? {
         Verdict::Found(grown) => grown,

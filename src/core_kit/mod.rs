@@ -17,6 +17,7 @@ mod base;
 mod bench;
 mod build;
 mod error;
+mod estimates;
 mod files;
 mod hardware;
 mod home;

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use super::asked::{Asked, margin_mm};
 use super::ballast_rows::{ballast_edges, ballast_panel, ballast_rows};
+use super::estimates::estimates;
 use super::files::{cut_sheets, joint_word};
 use super::hardware::pins;
 use super::made::Made;
@@ -27,6 +28,7 @@ use crate::verify::{CutPromise, PrinterLimits, StockPromise};
 pub fn checklist(asked: &Asked, made: &Made, weighed: &Weighed) -> CoreSheet {
     let goal = asked.goal.as_ref();
     let ballast_edges = ballast_edges(made, weighed);
+    let masses = masses(asked, made, weighed);
     CoreSheet {
         schema: CORE_SHEET_SCHEMA,
         kind: "core",
@@ -61,7 +63,8 @@ pub fn checklist(asked: &Asked, made: &Made, weighed: &Weighed) -> CoreSheet {
         buy: buy(asked, made, weighed),
         up: asked.up.into(),
         mass_g: weighed.mass_g(),
-        masses: masses(asked, made, weighed),
+        estimates: estimates(asked, made, &masses),
+        masses,
         centre_mm: weighed.center().into(),
         toppling_deg: goal.map(|goal| toppling_deg(goal, weighed)),
         least_angle_deg: goal.map(|_| asked.job.least_angle_deg),

@@ -3,8 +3,8 @@
 use crate::cutter::{CannotCut, Cutter, CutterNumber, Dialect, StockSheet};
 use crate::io::{CutDrawing, CutLayer, DrawnLine, DrawnShape};
 use crate::panels::{
-    BeamError, Hole, LineOrder, NestError, NestRequest, NestedSheet, Outline, PanelSet, SheetLines,
-    Stock, nest,
+    BeamError, Hole, LineOrder, NestError, NestRequest, NestedSheet, Outline, Panel, PanelSet,
+    SheetLines, Stock, nest,
 };
 
 /// Height of a panel's number, mm: it is read at arm's length.
@@ -71,7 +71,7 @@ pub struct SheetFigures {
     pub engraved_mm: f64,
 }
 
-/// Lays the panels of a base on sheets, and finds the paths of the beam.
+/// Lays the panels of a base on sheets, their inner faces up, and finds the paths of the beam.
 ///
 /// Panels lie as far apart as the cutter asks, and as far from the edge as its margin. Offcuts are
 /// used first.
@@ -82,7 +82,7 @@ pub fn cut_sheets(set: &PanelSet, order: &SheetOrder) -> Result<Vec<CutSheet>, S
     let kerf = order.cutter.check_sheet(order.sheet)?;
     let kerf_mm = kerf.kerf_mm;
     let request = nest_request(order, kerf_mm)?;
-    let outlines = set.panels.iter().map(|panel| &panel.outline);
+    let outlines = set.panels.iter().map(Panel::inner_outline);
     let rings: Vec<Vec<[f64; 2]>> = outlines.map(|ring| ring.corners().to_vec()).collect();
     let lines = LineOrder {
         kerf_mm: order.cutter.offset_mm(kerf_mm),

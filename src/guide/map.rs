@@ -63,6 +63,6 @@
 //! | Who says that a base stays inside the model? | `Separation::check` in `polyhedra/separation.rs`, one face for each triangle |
 //! | What happens to a model larger than the printer, in which order? | `prepare` in `core_kit/mod.rs`; `core_kit/build.rs` joins base, panels, shell and sheets |
 //! | Who says that a kit with a base is right? | `judge_core` in `verify/core_kit/facts.rs`, with its own seams in `verify/core_kit/shell.rs` |
-//! | Which printed part leaves with which panel, and in which order? | `cells` in `cladding/cells.rs` gives each face its space, `Scene::assembly` in `cladding/units.rs` orders what leaves |
+//! | Which printed part leaves with which panel, and in which order? | `cells` in `cladding/cells.rs` gives each face its space, `Scene::assembly` in `cladding/ordering.rs` orders what leaves, and `cladding/knot.rs` names what cannot |
 //! | Where is a base parted into several? | `grow_polyhedra` in `polyhedra/plan.rs`; `polyhedra/connection.rs` joins them |
 //! | How wide is a laser's cut? | `Cutter::kerf` in `cutter/machine.rs`, from the profiles that `cutter/library.rs` lists |

@@ -231,7 +231,7 @@ fn cut(page: &CorePage) -> Markup {
                 (measured(cutter.kerf_mm, "mm")) " (" (cutter.kerf_source) "). "
                 "Set its merging of lines to 0.01 mm at most, or it eats the reliefs in inner corners."
             }
-            " Engrave first, then cut holes, then outlines. The engraved side is the outside."
+            " Engrave first, then cut holes, then outlines. The engraved side is the inside: parts will cover the other one."
         }
         @for (index, (of, row)) in sheet.cut_sheets.iter().zip(&sheet.sheet_rows).enumerate() {
             div class="together" {

@@ -8,7 +8,7 @@ use super::edge::PanelEdge;
 use super::engraving::{engraved, width_mm};
 use super::nest::{NestedSheet, Placement};
 use super::outline::Outline;
-use super::panel::{Hole, Panel, flat};
+use super::panel::{Hole, Panel, flat, seen_inside};
 use super::rings::along;
 use super::set::PanelSet;
 
@@ -49,6 +49,8 @@ impl SheetLines {
     /// Returns the lines of a sheet. Panels are numbered from 1. Each has its number in its middle,
     /// and beside each edge the number of the panel that meets it there.
     ///
+    /// The inner face is up, and is engraved: parts cover the outer one before panels are joined.
+    ///
     /// # Errors
     /// A gap or a hole is too narrow for the cut.
     pub fn of(set: &PanelSet, sheet: &NestedSheet, order: &LineOrder) -> Result<Self, BeamError> {
@@ -60,7 +62,7 @@ impl SheetLines {
         };
         for placement in &sheet.placements {
             let panel = &set.panels[placement.panel];
-            let path = beam_path(&panel.outline, order.kerf_mm)?;
+            let path = beam_path(&panel.inner_outline(), order.kerf_mm)?;
             lines.outlines.push(placed(&path, placement));
             for hole in &panel.holes {
                 lines.holes.push(drilled(hole, placement, order.kerf_mm)?);
@@ -98,7 +100,7 @@ fn placed(outline: &Outline, placement: &Placement) -> Outline {
 
 /// Returns the path in a hole, in its place on the sheet.
 fn drilled(hole: &Hole, placement: &Placement, kerf_mm: f64) -> Result<Hole, BeamError> {
-    let at_mm = placement.place(hole.at_mm);
+    let at_mm = placement.place(seen_inside(hole.at_mm));
     let diameter_mm = hole.diameter_mm - kerf_mm;
     let path = Hole { at_mm, diameter_mm };
     (diameter_mm > 0.0)
@@ -106,8 +108,8 @@ fn drilled(hole: &Hole, placement: &Placement, kerf_mm: f64) -> Result<Hole, Bea
         .ok_or(BeamError::TooNarrow { at_mm, kerf_mm })
 }
 
-/// Returns the strokes of a panel's number and of those of its neighbours, in the panel's frame;
-/// none if they would be too small.
+/// Returns the strokes of a panel's number and of those of its neighbours, seen from inside. There
+/// are none if they would be too small.
 fn names(set: &PanelSet, panel: usize, most_mm: f64) -> Vec<Vec<[f64; 2]>> {
     let edges = set.edges.iter().filter(|edge| edge.panels.contains(&panel));
     let rooms = edges.map(|edge| room_mm(&set.panels[panel], edge, edge.panels[0] == panel));
@@ -143,10 +145,10 @@ fn neighbour(set: &PanelSet, panel: usize, edge: &PanelEdge, text_mm: f64) -> Ve
     strokes.map(place).collect()
 }
 
-/// Returns the ends of an edge in a panel's frame, counterclockwise about the panel.
+/// Returns the ends of an edge as they are seen from inside, counterclockwise about the panel.
 fn ends(panel: &Panel, edge: &PanelEdge, is_first: bool) -> [[f64; 2]; 2] {
-    let [start, end] = edge.ends.map(|end| flat(&panel.frame, &end));
-    if is_first { [start, end] } else { [end, start] }
+    let [start, end] = edge.ends.map(|end| seen_inside(flat(&panel.frame, &end)));
+    if is_first { [end, start] } else { [start, end] }
 }
 
 /// Returns the distance from the joint of an edge to the panel's middle, mm.

@@ -45,7 +45,7 @@ pub struct NestRequest {
     pub keeps_grain: bool,
 }
 
-/// The place of a panel on a sheet.
+/// The place of a panel on a sheet, its inner face up.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Placement {
     /// The index of the panel.
@@ -57,7 +57,7 @@ pub struct Placement {
 }
 
 impl Placement {
-    /// Returns the place of one of the panel's points, mm.
+    /// Returns the place of a point of the outline that was laid, mm.
     pub fn place(&self, point: [f64; 2]) -> [f64; 2] {
         let [x, y] = turned(point, self.turn_rad);
         [x + self.at_mm[0], y + self.at_mm[1]]

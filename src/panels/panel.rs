@@ -41,12 +41,25 @@ impl Panel {
         prism(self.outline.corners(), |at, depth| self.at(at, depth))
     }
 
+    /// Returns the outline as it is seen from inside: so a panel lies on its sheet, its inner face
+    /// up.
+    pub fn inner_outline(&self) -> Outline {
+        let corners = self.outline.corners().iter().rev();
+        let mirrored = Outline::new(corners.map(|at| seen_inside(*at)));
+        mirrored.unwrap_or_else(|| self.outline.clone())
+    }
+
     /// Returns the volume with its holes, mm³.
     pub fn volume_mm3(&self) -> f64 {
         let hole = |hole: &Hole| std::f64::consts::FRAC_PI_4 * hole.diameter_mm.powi(2);
         let holes_mm2: f64 = self.holes.iter().map(hole).sum();
         (self.outline.area_mm2() - holes_mm2) * self.sheet_mm
     }
+}
+
+/// Returns a point of a panel's frame as it is seen from inside: x runs the other way.
+pub(super) fn seen_inside([x, y]: [f64; 2]) -> [f64; 2] {
+    [-x, y]
 }
 
 /// Returns a point in a panel's frame, without its height, mm.

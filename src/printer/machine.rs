@@ -254,11 +254,11 @@ impl Printer {
     }
 
     /// Lists all unknown values: the build volume, the shrinkage, then the numbers in the order of
-    /// [`Quantity`].
+    /// [`Quantity`] but for those that only estimate times.
     pub fn unknown(&self) -> Vec<Unknown> {
         let numbers = Quantity::ALL
             .iter()
-            .filter(|&&quantity| self.number(quantity).is_none());
+            .filter(|&&quantity| !quantity.is_for_estimates() && self.number(quantity).is_none());
         let volume = self
             .build_volume_mm
             .is_none()

@@ -28,6 +28,8 @@ const GLUES_G_CM3: RangeInclusive<f64> = 0.5..=3.0;
 const HOLD_S: RangeInclusive<f64> = 1.0..=3600.0;
 /// Times after which glue has its whole strength, hours: up to two weeks.
 const CURE_H: RangeInclusive<f64> = 0.01..=336.0;
+/// Volumes that a machine prints in a second, mm³/s. Larger values must be in mm³/min.
+const FLOWS_MM3_S: RangeInclusive<f64> = 0.01..=500.0;
 /// Densities of infill over that of solid print. Larger values must be in per cent.
 pub(super) const INFILL_RATIOS: RangeInclusive<f64> = 0.01..=1.0;
 /// Densities of infill that carry solid print over them. At a tenth, lines of 0.45 mm are 4.5 mm
@@ -124,11 +126,17 @@ pub enum Quantity {
     GlueHoldS,
     /// Hours after which the glue has its whole strength.
     GlueCureH,
+    /// Volume of thin walls that are printed in a second.
+    #[serde(rename = "wall_flow_mm3_s")]
+    WallFlowMm3S,
+    /// Volume of solid blocks that are printed in a second.
+    #[serde(rename = "solid_flow_mm3_s")]
+    SolidFlowMm3S,
 }
 
 impl Quantity {
     /// Every quantity, in order.
-    pub const ALL: [Self; 39] = [
+    pub const ALL: [Self; 41] = [
         Self::PixelXMm,
         Self::PixelYMm,
         Self::LayerMm,
@@ -168,6 +176,8 @@ impl Quantity {
         Self::GlueDensityGCm3,
         Self::GlueHoldS,
         Self::GlueCureH,
+        Self::WallFlowMm3S,
+        Self::SolidFlowMm3S,
     ];
 
     /// Returns its key in a profile.
@@ -212,6 +222,8 @@ impl Quantity {
             Self::GlueDensityGCm3 => "glue_density_g_cm3",
             Self::GlueHoldS => "glue_hold_s",
             Self::GlueCureH => "glue_cure_h",
+            Self::WallFlowMm3S => "wall_flow_mm3_s",
+            Self::SolidFlowMm3S => "solid_flow_mm3_s",
         }
     }
 
@@ -247,6 +259,8 @@ impl Quantity {
                 | Self::GlueDensityGCm3
                 | Self::GlueHoldS
                 | Self::GlueCureH
+                | Self::WallFlowMm3S
+                | Self::SolidFlowMm3S
         )
     }
 
@@ -289,7 +303,13 @@ impl Quantity {
             Self::GlueDensityGCm3 => GLUES_G_CM3,
             Self::GlueHoldS => HOLD_S,
             Self::GlueCureH => CURE_H,
+            Self::WallFlowMm3S | Self::SolidFlowMm3S => FLOWS_MM3_S,
         }
+    }
+
+    /// True for a number that only estimates times: nobody misses it.
+    pub fn is_for_estimates(self) -> bool {
+        matches!(self, Self::WallFlowMm3S | Self::SolidFlowMm3S)
     }
 
     /// True for a step of the machine's grid, which may be given as `dpi`.

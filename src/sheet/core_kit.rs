@@ -93,6 +93,8 @@ pub struct CoreSheet {
     pub mass_g: f64,
     /// The mass of its things, g.
     pub masses: MassRow,
+    /// Estimates of times and prices.
+    pub estimates: EstimateRow,
     /// The centre of mass in the model frame, mm.
     pub centre_mm: [f64; 3],
     /// The lean at which it topples, degrees; `None` if it need not stand.
@@ -332,4 +334,20 @@ pub struct MassRow {
     pub if_solid_g: f64,
     /// A skin of the same wall without a base: its area times the wall.
     pub if_skin_g: f64,
+}
+
+/// Estimates of times and prices, from the figures of profiles alone; `None` for those that no
+/// profile has.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct EstimateRow {
+    /// The time to print all parts and brackets, without support, s.
+    pub print_s: Option<f64>,
+    /// The time to print the model solid, without a base, s.
+    pub if_solid_s: Option<f64>,
+    /// The time to print a skin of the same wall without a base, s.
+    pub if_skin_s: Option<f64>,
+    /// The time that all cuts take, s.
+    pub cut_s: Option<f64>,
+    /// The price of the sheets but for offcuts at hand, in the shop's currency.
+    pub sheets_price: Option<f64>,
 }

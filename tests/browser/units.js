@@ -9,7 +9,18 @@ const { holdSheets } = require("./sheets.js");
 const kit = process.argv[2];
 const read = (file) => JSON.parse(fs.readFileSync(path.join(kit, file), "utf8"));
 const [sheet, panels] = [read("checklist.json"), read("panels.json").panels];
-const leaving = [...sheet.units].reverse();
+
+// What comes together, in the order of the kit: units, then polyhedra across their planes, then what closes them. It leaves the
+// other way round.
+const [joins, pegs] = [sheet.joins ?? [], sheet.pins ?? []];
+const within = (join, unit) => join.moving.includes(unit.polyhedron) && !unit.is_last;
+const own = (unit) => ({ way: unit.way, moves: (other) => other === unit });
+const coming = [
+  ...sheet.units.filter((unit) => !unit.is_last).map(own),
+  ...joins.map((join) => ({ way: join.way, moves: (unit) => within(join, unit) })),
+  ...sheet.units.filter((unit) => unit.is_last).map(own),
+];
+const leaving = [...coming].reverse();
 
 const set = (page, at) => page.$eval("#view-at", (slider, value) => {
   slider.value = value;
@@ -21,25 +32,33 @@ const along = (rows, way) => rows.reduce((sum, row, axis) => sum + row[3] * way[
 const far = (rows) => Math.hypot(...rows.map((row) => row[3]));
 const isUpright = (rows) => rows.every((row, i) => [0, 1, 2].every((j) => row[j] === (i === j ? 1 : 0)));
 
-// At each half step all before it are out, the one that leaves is on its way, and the others stand.
+// At each half step all before it have gone their whole way, what leaves is on its own, and the others stand. A unit whose polyhedron
+// left first goes on from there.
 const leave = async (page) => {
-  let [whole, aside, wrong] = [0, 0, []];
+  await set(page, 1);
+  const places = async () => Object.fromEntries((await found(page)).map(({ name, rows }) => [name, rows]));
+  const start = await places();
+  const whole = far(start[sheet.units.filter((unit) => leaving[0].moves(unit)).flatMap(ids)[0]]);
+  let [aside, wrong] = [0, []];
   for (let step = 0; step < leaving.length; step += 1) {
     await set(page, step + 0.5);
-    const named = Object.fromEntries((await found(page)).map(({ name, rows }) => [name, rows]));
-    leaving.forEach((unit, place) => {
+    const named = await places();
+    for (const unit of sheet.units) {
+      const gone = leaving.slice(0, step).filter((one) => one.moves(unit));
+      const base = [0, 1, 2].map((axis) => gone.reduce((sum, one) => sum + whole * one.way[axis], 0));
       for (const id of ids(unit)) {
         const rows = named[id];
-        const out = along(rows, unit.way);
-        aside = Math.max(aside, Math.sqrt(Math.max(0, far(rows) ** 2 - out ** 2)));
-        whole = place < step ? Math.max(whole, out) : whole;
-        const isRight = place < step ? out > 1 : place === step ? out > 0.5 : far(rows) === 0;
-        if (!isRight || !isUpright(rows)) wrong.push(`${id} at ${step + 0.5}`);
+        const left = rows.map((row, axis) => row[3] - base[axis]);
+        const { way } = leaving[step];
+        const out = leaving[step].moves(unit) ? left.reduce((sum, value, axis) => sum + value * way[axis], 0) : 0;
+        aside = Math.max(aside, Math.hypot(...left.map((value, axis) => value - out * way[axis])));
+        const isOnWay = out > 0.1 * whole && out < 0.9 * whole;
+        if (leaving[step].moves(unit) !== isOnWay || !isUpright(rows)) wrong.push(`${id} at ${step + 0.5}`);
       }
-    });
+    }
   }
-  must(wrong.length === 0, `units leave in order, what closes it first ${wrong.join("; ")}`);
-  must(aside < 1e-3 && whole > 0, `each goes ${whole.toFixed(1)} mm along its way and ${aside.toExponential(1)} mm beside it`);
+  must(wrong.length === 0, `${leaving.length} steps leave in order, what closes it first ${wrong.join("; ")}`);
+  must(aside < 1e-3 && whole > 1, `each goes ${whole.toFixed(1)} mm along its way and ${aside.toExponential(1)} mm beside it`);
   const skew = sheet.units.filter((unit) => unit.panel).map((unit) => {
     const normal = panels[unit.panel - 1].axes[2];
     return Math.hypot(...unit.way.map((value, axis) => value - normal[axis]));
@@ -52,13 +71,13 @@ const bench = async (page) => {
   await set(page, 1e9);
   const named = Object.fromEntries((await found(page)).map(({ name, rows }) => [name, rows]));
   const unitOf = (id) => sheet.units.findIndex((unit) => unit.parts.includes(id));
-  const inside = sheet.pins.filter(({ on, into }) => unitOf(on) === unitOf(into));
+  const inside = pegs.filter(({ on, into }) => unitOf(on) === unitOf(into));
   const gap = ({ on, into, direction }) => along(named[into], direction) - along(named[on], direction);
   const wrong = inside.filter((pin) => gap(pin) < 2 * pin.length_mm).map(({ on, into }) => `${on} into ${into}`);
-  must(inside.length > 1 && wrong.length === 0, `${inside.length} pins point into the gap that they close ${wrong.join("; ")}`);
+  must((inside.length > 1 || joins.length > 0) && wrong.length === 0, `${inside.length} pins point into the gap that they close ${wrong.join("; ")}`);
   const pins = Object.entries(named).filter(([name]) => name.startsWith("pin "));
   const loose = pins.filter(([name, rows]) => far(rows.map((row, axis) => [0, 0, 0, row[3] - named[name.split(" ")[3]][axis][3]])) > 1e-9);
-  must(pins.length === sheet.pins.length && loose.length === 0, `each of ${pins.length} pins stands on its part`);
+  must(pins.length === pegs.length && loose.length === 0, `each of ${pins.length} pins stands on its part`);
 };
 
 const drive = async (page) => {

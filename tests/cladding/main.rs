@@ -6,6 +6,7 @@
     reason = "a test whose input cannot be had has failed; figures are shown with --nocapture"
 )]
 
+mod knots;
 mod models;
 mod pins;
 mod scenes;

@@ -8,6 +8,8 @@
 #![allow(clippy::print_stderr, reason = "a skipped test says so")]
 
 use crate::common;
+mod estimates;
+mod knots;
 mod method;
 mod pins;
 mod rods;
@@ -118,6 +120,7 @@ fn a_box_becomes_a_kit_that_stands_and_passes_both_judges() {
     }
     let sheet = checklist(&kit);
     hold_figures(&sheet);
+    estimates::hold_none(&kit, &sheet);
     pins::hold_pins(&sheet);
     pins::hold_pictures(&kit, &sheet);
     let (code, said) = verify(&kit);

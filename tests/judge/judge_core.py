@@ -302,7 +302,8 @@ def judge_sheet(kit, index, promised):
     for place in promised["panels"]:
         panel = kit.panels[place["panel"] - 1]
         turn = np.array([[math.cos(place["turn_rad"]), -math.sin(place["turn_rad"])], [math.sin(place["turn_rad"]), math.cos(place["turn_rad"])]])
-        put = lambda points: np.asarray(points, float).reshape(-1, 2) @ turn.T + place["at_mm"]
+        # The inner face is up: a panel lies as it is seen from inside.
+        put = lambda points: np.asarray(points, float).reshape(-1, 2) * [-1, 1] @ turn.T + place["at_mm"]
         ring = Polygon(put(panel["outline_mm"]))
         rings.append(ring)
         own = [path for path in paths if path.intersection(ring).area > 0.9 * ring.area]

@@ -7,6 +7,7 @@
 )]
 
 use crate::common;
+mod laser;
 mod nests;
 mod sheets;
 

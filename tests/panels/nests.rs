@@ -207,11 +207,11 @@ fn panels_of_a_dodecahedron_lie_on_one_sheet() {
     assert!(share > 0.55, "{share}");
 }
 
-fn lines_of(set: &PanelSet, kerf_mm: f64) -> (Vec<NestedSheet>, Vec<SheetLines>) {
+pub fn lines_of(set: &PanelSet, kerf_mm: f64) -> (Vec<NestedSheet>, Vec<SheetLines>) {
     let panels: Vec<Vec<[f64; 2]>> = set
         .panels
         .iter()
-        .map(|panel| panel.outline.corners().to_vec())
+        .map(|panel| panel.inner_outline().corners().to_vec())
         .collect();
     let sheets = nest(&panels, &nest_request(vec![stock(900.0, 600.0)])).unwrap();
     let order = LineOrder {

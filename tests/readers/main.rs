@@ -23,7 +23,7 @@ use std::time::{Duration, Instant};
 use damage::damaged;
 use equipoise::base::dialect::Dialect;
 use equipoise::base::watch::Watch;
-use equipoise::cutter::AnyProfile;
+use equipoise::cutter::{AnyProfile, Fastener};
 use equipoise::field::read_text;
 use equipoise::geom::Point;
 use equipoise::io::gcode::{Options, read_plates};
@@ -282,6 +282,21 @@ fn profiles_of_printers_cutters_sheets_and_fasteners() {
             AnyProfile::read(path).is_ok()
         });
     }
+    let kinds = texts("fasteners", 5);
+    assert_eq!(kinds.len(), 5);
+    fuzz_files("fasteners", "own.toml", &kinds, |path| {
+        Fastener::read(path).is_ok_and(|all| {
+            for one in &all {
+                assert!(one.mass_g > 0.0 && one.shape.volume_mm3() > 0.0, "{one:?}");
+                let mut sizes_mm = one.shape.sizes_mm().into_iter();
+                assert!(
+                    sizes_mm.all(|(_, mm)| mm > 0.0 && mm.is_finite()),
+                    "{one:?}"
+                );
+            }
+            true
+        })
+    });
 }
 
 #[test]

@@ -2,6 +2,7 @@
 
 use rayon::prelude::*;
 
+use super::sheet::Sheet;
 use super::start::Shape;
 use crate::geom::{Point, Vector};
 use crate::mesh::MeshDistance;
@@ -42,6 +43,8 @@ pub(super) struct Field<'a> {
     pub distance_mm: f64,
     /// The length by which energies are made plain numbers, mm.
     pub scale_mm: f64,
+    /// The sheet into which every face must go; `None` for any size.
+    pub sheet: Option<Sheet>,
 }
 
 impl Structure {
@@ -132,7 +135,40 @@ impl Structure {
                 }
             }
         }
+        energy += self.add_sheet(corners, field, weights.bent, &mut gradient);
         (energy, gradient)
+    }
+
+    /// Adds the penalty of faces that are larger than the sheet.
+    fn add_sheet(
+        &self,
+        corners: &[Point],
+        field: &Field,
+        weight: f64,
+        gradient: &mut [Vector],
+    ) -> f64 {
+        let Some(sheet) = field.sheet else {
+            return 0.0;
+        };
+        let mut energy = 0.0;
+        for (face, (normal, _)) in self.faces.iter().zip(self.planes(corners)) {
+            let own = points_of(face, corners);
+            let (penalty, slopes) = sheet.penalty(&own, &normal, field.scale_mm);
+            energy += weight * penalty;
+            for (&corner, slope) in face.iter().zip(slopes) {
+                gradient[corner as usize] += slope * weight;
+            }
+        }
+        energy
+    }
+
+    /// Returns true if the samples keep the distance, and every face goes into the sheet.
+    pub fn keeps(&self, corners: &[Point], field: &Field) -> bool {
+        let fits = |sheet: Sheet| {
+            let mut faces = self.faces.iter().zip(self.planes(corners));
+            faces.all(|(face, (normal, _))| sheet.holds(&points_of(face, corners), &normal))
+        };
+        field.sheet.is_none_or(fits) && self.least_mm(corners, field.distance) >= field.distance_mm
     }
 
     fn add_volume(&self, corners: &[Point], scale_mm: f64, gradient: &mut [Vector]) -> f64 {
@@ -172,9 +208,14 @@ impl Structure {
     }
 }
 
+/// Returns the corners of a face.
+fn points_of(face: &[u32], corners: &[Point]) -> Vec<Point> {
+    face.iter().map(|&k| corners[k as usize]).collect()
+}
+
 /// Returns by how much a point is too near to the surface, over the scale, and the direction away
 /// from it; `None` if it is far enough.
-fn nearness(at: &Point, field: &Field) -> Option<(f64, Vector)> {
+pub(super) fn nearness(at: &Point, field: &Field) -> Option<(f64, Vector)> {
     let signed = field.distance.signed(at);
     if signed >= field.distance_mm {
         return None;
@@ -267,6 +308,7 @@ mod tests {
             distance: &distance,
             distance_mm: 5.0,
             scale_mm: 50.0,
+            sheet: None,
         };
         let weights = Weights {
             near: 3.0,

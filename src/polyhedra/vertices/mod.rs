@@ -2,9 +2,13 @@
 //!
 //! Song, Deng, Wang, Dong, Li, Fu and Liu, "CofiFab: coarse-to-fine fabrication of large 3D
 //! objects", ACM Transactions on Graphics 35(4), 2016, and its supplement. The volume is maximised
-//! under three penalties. They are for samples that are too near to the model's surface, for bent
-//! faces and for reflex edges. They rise until little is broken. Then the polyhedron shrinks about
-//! the mean of its corners until every sample keeps the distance.
+//! under penalties. They are for samples that are too near to the model's surface, for bent faces,
+//! for reflex edges and for faces larger than the sheet. They rise until little is broken. Then the
+//! polyhedron shrinks about the mean of its corners until every sample keeps the distance and every
+//! face fits.
+//!
+//! [`grow_pair_by_vertices`] moves two polyhedra together, so that a face of each meets one of the
+//! other as section 4 of the supplement asks.
 //!
 //! Between samples nothing is promised. [`VertexPolyhedron::certified_mm`] says what the planes of
 //! the faces do promise. Less than the distance does not mean that it is broken: a triangle beside
@@ -16,9 +20,13 @@
 
 mod descent;
 mod energy;
+mod link;
+mod pair;
 mod proof;
+mod sheet;
 mod start;
 
+pub use pair::{PairRequest, VertexPair, grow_pair_by_vertices, prove_pair};
 pub use proof::{ProvedVertices, prove_vertices};
 pub use start::StartSolid;
 
@@ -31,6 +39,7 @@ use crate::base::watch::{Cancelled, Watch};
 use crate::geom::{Plane, Point, Vector};
 use descent::descend;
 use energy::{Field, Structure, Weights};
+use sheet::Sheet;
 
 /// The share of the deepest point's room at which the corners start.
 const START_RATIO: f64 = 0.8;
@@ -59,6 +68,8 @@ pub struct VertexRequest {
     pub start: StartSolid,
     /// Samples inside each edge.
     pub samples_per_edge: usize,
+    /// The rectangle of a sheet into which every face must go, mm; `None` for any size.
+    pub room_mm: Option<[f64; 2]>,
 }
 
 /// A polyhedron by its vertices. Its faces may be bent by [`Self::bent_mm`].
@@ -104,6 +115,7 @@ pub fn grow_by_vertices(
         distance,
         distance_mm: request.distance_mm,
         scale_mm: deepest_mm,
+        sheet: request.room_mm.map(|room_mm| Sheet { room_mm }),
     };
     let mut weights = FIRST;
     let mut corners = shape.corners.clone();
@@ -145,8 +157,7 @@ fn shrunk(structure: &Structure, corners: Vec<Point>, field: &Field) -> Vec<Poin
         let scaled = corners.iter().map(|p| middle + (p - middle) * factor);
         scaled.collect()
     };
-    let keeps =
-        |factor: f64| structure.least_mm(&scaled(factor), field.distance) >= field.distance_mm;
+    let keeps = |factor: f64| structure.keeps(&scaled(factor), field);
     if keeps(1.0) {
         return corners;
     }

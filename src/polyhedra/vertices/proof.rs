@@ -139,6 +139,7 @@ mod tests {
                 distance_mm: 5.0,
                 start,
                 samples_per_edge: 5,
+                room_mm: None,
             };
             let grown = grow_by_vertices(&ground, &request, &Watch::silent()).unwrap();
             let grown = grown.found().unwrap();
@@ -165,6 +166,7 @@ mod tests {
             distance_mm: 5.0,
             start: StartSolid::Cube,
             samples_per_edge: 3,
+            room_mm: None,
         };
         let grown = grow_by_vertices(&ground, &request, &Watch::silent()).unwrap();
         let mut far = grown.found().unwrap();

@@ -43,6 +43,7 @@ fn sources(printer: &Printer) -> Vec<String> {
     let words = |key: &str| key.trim_end_matches("_mm").replace('_', " ");
     let numbers = printer.numbers().into_iter();
     let numbers = numbers
+        .filter(|(quantity, _)| !quantity.is_for_estimates())
         .map(|(quantity, number)| format!("{}: {}", words(quantity.key()), number.provenance()));
     let volume = printer
         .build_volume_mm

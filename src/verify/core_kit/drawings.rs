@@ -118,7 +118,8 @@ impl SheetJudge<'_> {
         let rings: Vec<Vec<[f64; 2]>> = panels
             .iter()
             .map(|(place, panel)| {
-                let corners = panel.outline_mm.iter();
+                // Seen from inside, the ring goes the other way round.
+                let corners = panel.outline_mm.iter().rev();
                 corners
                     .map(|at| placed(*at, place.turn_rad, place.at_mm))
                     .collect()

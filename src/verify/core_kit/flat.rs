@@ -66,10 +66,13 @@ pub fn between(a: &[[f64; 2]], b: &[[f64; 2]]) -> f64 {
     reach(a, b).min(reach(b, a))
 }
 
-/// Returns a point turned about the origin and moved.
+/// Returns a point of a panel on its sheet: seen from inside, turned about the origin and moved.
 pub fn placed([x, y]: [f64; 2], turn_rad: f64, at: [f64; 2]) -> [f64; 2] {
     let (sine, cosine) = turn_rad.sin_cos();
-    [x * cosine - y * sine + at[0], x * sine + y * cosine + at[1]]
+    [
+        -x * cosine - y * sine + at[0],
+        -x * sine + y * cosine + at[1],
+    ]
 }
 
 #[cfg(test)]

@@ -124,7 +124,7 @@ pub struct CutSheetPromise {
 pub struct PlacedPanel {
     /// The number of the panel, from 1.
     pub panel: usize,
-    /// The turn about its origin, counterclockwise, radians.
+    /// The turn about its origin, counterclockwise, radians. The panel is seen from inside.
     pub turn_rad: f64,
     /// The place of its origin, mm from the sheet's lower left corner.
     pub at_mm: [f64; 2],
