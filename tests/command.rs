@@ -1,5 +1,10 @@
 //! The command line and the readers: bad input, questions, signals, profiles.
 
+#![allow(
+    clippy::unwrap_used,
+    reason = "a test whose input cannot be had has failed"
+)]
+
 mod common;
 
 mod bad_input;

@@ -1,5 +1,10 @@
 //! Fields of density, infill and toolpaths.
 
+#![allow(
+    clippy::unwrap_used,
+    reason = "a test whose input cannot be had has failed"
+)]
+
 mod common;
 #[path = "common/scene.rs"]
 mod scene;

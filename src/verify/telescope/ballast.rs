@@ -16,7 +16,7 @@ pub(super) fn weighed(promise: &TelescopePromise, bodies: &[Body]) -> Vec<Moment
     let mut moments: Vec<Moments> = moments.collect();
     for piece in &promise.ballast {
         if let Some(root) = moments.first_mut() {
-            *root = *root + piece.lump.moments(density_g_mm3);
+            *root += piece.lump.moments(density_g_mm3);
         }
     }
     moments
