@@ -146,6 +146,7 @@ fn humpty() -> Option<(Scene, Vec<Row>)> {
 }
 
 #[test]
+#[ignore = "half a minute; run before a change of fields"]
 fn humpty_stands_on_his_head_up_to_the_infill_of_the_reference_and_by_a_ramp() {
     let Some((scene, rows)) = humpty() else {
         return;

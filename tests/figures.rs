@@ -256,6 +256,17 @@ fn a_model_still_gets_balls_if_they_are_ordered() {
     assert_exit(&equipoise(&[&order[..], &balls].concat()), 0);
     assert!(checklist(&kit).get("model").is_none());
     assert!(!kit.join("model.stl").exists());
+    // Its own pieces get no foot.
+    let standing = folder.path().join("standing");
+    let stands = ["--goal", "stand", "--out", path(&standing)];
+    let output = equipoise(&[&order[..], &stands].concat());
+    assert_exit(&output, 2);
+    let said = text(&output.stderr);
+    assert!(
+        said.contains("get no foot") && said.contains("--junctures=ball"),
+        "{said}"
+    );
+    assert!(!standing.exists());
 }
 
 #[test]

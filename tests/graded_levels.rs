@@ -137,6 +137,7 @@ fn levels_near_a_wished_infill_bear_the_tilt_that_was_promised_and_change_little
 }
 
 #[test]
+#[ignore = "a minute: an elephant at several shares; run before a change of levels"]
 fn near_a_wished_infill_the_share_of_the_best_that_is_ordered_is_kept() {
     let folder = TempDir::new().unwrap();
     let reached = |options: &str, figure: &str| {

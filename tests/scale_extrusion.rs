@@ -358,6 +358,7 @@ fn off_mm(found: &Value, sheet: &Value) -> [f64; 2] {
 }
 
 #[test]
+#[ignore = "half a minute; run before a change of toolpaths"]
 fn without_a_field_toolpaths_follow_the_density_that_their_kit_states() {
     if !has_slicer() {
         return;

@@ -139,7 +139,10 @@ fn a_curve_that_comes_down_below_its_start_is_not_said_to_stand() {
 #[test]
 fn what_falls_on_its_foot_is_told_the_ballast_that_holds_it() {
     let falls = "telescope arc:80,90 --printer prusa-mk4 --shells 3 --goal stand --foot 15mm";
-    let output = equipoise(&words(&format!("{falls} --least-angle 20 --json")));
+    let folder = tempfile::tempdir().unwrap();
+    let kit = folder.path().join("kit");
+    let falls = format!("{falls} --least-angle 20 --json");
+    let output = equipoise(&[&words(&falls)[..], &["--out", path(&kit)]].concat());
     assert_exit(&output, 1);
     let answer = json(&output);
     let reason = answer["reason"].as_str().unwrap();
@@ -157,14 +160,16 @@ fn what_falls_on_its_foot_is_told_the_ballast_that_holds_it() {
 fn steel_discs_in_the_foot_let_it_stand_and_both_judges_weigh_them() {
     let folder = tempfile::tempdir().unwrap();
     let kit = folder.path().join("kit");
-    let stands = "telescope arc:80,90 --printer prusa-mk4 --shells 3 --goal stand --foot 32mm";
-    let alone = equipoise(&words(&format!("{stands} --least-angle 28 --json")));
+    let stands = "telescope arc:80,90 --printer prusa-mk4 --shells 3 --goal stand --foot 22mm";
+    let out = ["--out", path(&kit)];
+    let alone = format!("{stands} --least-angle 40 --json");
+    let alone = equipoise(&[&words(&alone)[..], &out].concat());
     assert_exit(&alone, 1);
     let remedy = json(&alone);
     let settings = list(&remedy, "remedies").iter();
     let mut settings = settings.map(|remedy| &remedy["settings"][0]["key"]);
     assert!(settings.any(|key| key == "ballast"), "{remedy}");
-    make(&kit, &format!("{stands} --least-angle 28 --ballast auto"));
+    make(&kit, &format!("{stands} --least-angle 40 --ballast auto"));
     let sheet = checklist(&kit);
     let pieces = list(&sheet, "ballast").len();
     assert!(pieces > 0);
@@ -564,6 +569,6 @@ fn skeletons_that_cannot_be_used_are_refused_with_place_and_remedy() {
     assert!(said.contains("no node 77"), "{said}");
     let said = refuse("s.toml", plain.as_bytes(), "--shells 1");
     assert!(said.contains("--shells=2"), "{said}");
-    let said = refuse("s.toml", plain.as_bytes(), "--goal stand");
-    assert!(said.contains("--goal=stand"), "{said}");
+    let said = refuse("s.toml", plain.as_bytes(), "--goal stand --ballast auto");
+    assert!(said.contains("needs the foot"), "{said}");
 }

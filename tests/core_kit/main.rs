@@ -127,7 +127,18 @@ fn a_box_becomes_a_kit_that_stands_and_passes_both_judges() {
     assert_eq!(code, Some(0), "{said}");
     judge_in_python(&kit);
     replay(folder.path(), &kit);
-    tell_lies(folder.path(), &kit);
+    // Each lie is a whole run of the judge: the others are told by themselves.
+    tell_lies(folder.path(), &kit, 5);
+}
+
+#[test]
+#[ignore = "each lie is a whole run of the judge; run before a change of the judge of bases"]
+fn every_lie_about_a_box_on_a_base_is_found() {
+    let folder = tempfile::tempdir().unwrap();
+    let kit = folder.path().join("kit");
+    let order = "--faces 6 --up z --least-angle 20";
+    assert_exit(&core(&block(folder.path()), &kit, order), 0);
+    tell_lies(folder.path(), &kit, 1);
 }
 
 /// Holds the figures of the box against their closed forms.
@@ -299,8 +310,8 @@ const LIES: [Lie; 14] = [
 ];
 
 /// Alters files one by one; each lie must be found by the check that it is about.
-fn tell_lies(folder: &Path, kit: &Path) {
-    for (index, lie) in LIES.iter().enumerate() {
+fn tell_lies(folder: &Path, kit: &Path, step: usize) {
+    for (index, lie) in LIES.iter().enumerate().step_by(step) {
         let copied = folder.join(format!("lie-{index}"));
         copy(kit, &copied);
         let text = fs::read(copied.join(lie.file)).unwrap();

@@ -97,7 +97,7 @@ mod tests {
             pulls[2] + pulls[3] > 0.1 && pulls[0] + pulls[1] < -0.1,
             "{pulls:?}"
         );
-        let (none, gradient) = sheet(90.0, 40.0).penalty(&face, &up, 10.0);
+        let (none, gradient) = sheet(90.1, 40.1).penalty(&face, &up, 10.0);
         assert!(none == 0.0 && gradient.iter().all(|slope| *slope == Vector::zeros()));
     }
 }
