@@ -157,7 +157,7 @@ fn print(page: &NetworkPage) -> Markup {
                         tr {
                             th scope="row" { "☐ " (row.id) " " (file_name(&part.file)) }
                             td data-head="Lies" { (row.lies) }
-                            td data-head="Support" { @if row.is_free_of_support { "none" } @else { "outside only" } }
+                            td data-head="Support" { (row.support) }
                             td class="n" data-head="Size" { (measured_extent(&row.size_mm)) }
                             td class="n" data-head="Mass" { (measured(row.mass_g, "g")) }
                         }

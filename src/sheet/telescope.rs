@@ -208,6 +208,8 @@ pub struct TelescopePartRow {
     pub mass_g: f64,
     /// True if it prints without support.
     pub is_free_of_support: bool,
+    /// Where support goes, in words.
+    pub support: &'static str,
 }
 
 /// A joint as the shop tries it.

@@ -101,6 +101,7 @@ pub fn make(
         asked,
         telescope,
         nested: nested.then(|| lay_nested(telescope, solids[0].tube.mesh())),
+        is_over_pocket: !ballast.is_empty(),
         watch,
     };
     let parts: Vec<WrittenPart> = solids
@@ -193,6 +194,8 @@ struct Writer<'a> {
     telescope: &'a Telescope,
     /// How all shells lie that are printed in place.
     nested: Option<Laid>,
+    /// True if there is a pocket under the foot.
+    is_over_pocket: bool,
     watch: &'a Watch,
 }
 
@@ -209,7 +212,13 @@ impl Writer<'_> {
         let laid = self.nested.unwrap_or_else(alone);
         let mut written = vec![self.part(PartKind::Shell, shell, laid, &solids.tube)?];
         if let Some(cap) = &solids.cap {
-            let laid = lay_cap(self.telescope, shell, cap.mesh());
+            let laid = Laid {
+                lies: match shell == 0 && self.is_over_pocket {
+                    true => Lies::OverPocket,
+                    false => Lies::OnTail,
+                },
+                ..lay_cap(self.telescope, shell, cap.mesh())
+            };
             written.push(self.part(PartKind::Cap, shell, laid, cap)?);
         }
         Ok(written)

@@ -5,6 +5,9 @@ use crate::mesh::TriMesh;
 use crate::telescope::nest::Telescope;
 use crate::verify::Pose;
 
+/// The support of a part that needs none, in words.
+pub const NO_SUPPORT: &str = "none";
+
 /// How a part lies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Lies {
@@ -16,11 +19,23 @@ pub enum Lies {
     Leaning,
     /// On its tail, with all other shells in it or around it.
     InPlace,
+    /// On the face of its tail, with a pocket below.
+    OverPocket,
     /// On its own surface, round or a model's, with support below.
     Round,
 }
 
 impl Lies {
+    /// Returns the support of a breakaway printer, in words.
+    pub fn support_words(self) -> &'static str {
+        match self {
+            Self::Leaning => "outside only",
+            Self::OverPocket => "in its pocket",
+            Self::OnMouth | Self::OnTail | Self::InPlace => NO_SUPPORT,
+            Self::Round => "as the slicer finds",
+        }
+    }
+
     /// Returns the words on the sheet.
     pub fn words(self) -> &'static str {
         match self {
@@ -28,6 +43,7 @@ impl Lies {
             Self::OnTail => "tail down",
             Self::Leaning => "leaning by half of its bend, support outside only",
             Self::InPlace => "in place, tail down",
+            Self::OverPocket => "tail down, over its pocket",
             Self::Round => "on its own surface, support below and in its sockets",
         }
     }

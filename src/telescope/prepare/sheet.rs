@@ -7,7 +7,7 @@ use super::balance::{Standing, tilt_rad};
 use super::made::{Made, PartKind, WrittenPart};
 use super::motion_file::motion;
 use super::nested;
-use super::poses::Lies;
+use super::poses::{Lies, NO_SUPPORT};
 use crate::base::digest::sha256_hex;
 use crate::base::units::MM3_PER_CM3;
 use crate::curve::{frechet_mm, hausdorff_mm};
@@ -246,13 +246,17 @@ fn promised_part(telescope: &Telescope, part: &WrittenPart) -> TelescopePartProm
 
 fn part_row(asked: &Asked, part: &WrittenPart) -> TelescopePartRow {
     let volume_mm3 = moments_of_mesh(&part.read_back).volume();
-    let needs_support = asked.shop.printer.support == Support::Breakaway;
+    let support = match asked.shop.printer.support {
+        Support::Breakaway => part.lies.support_words(),
+        _ => NO_SUPPORT,
+    };
     TelescopePartRow {
         id: part.id.clone(),
         lies: part.lies.words().to_owned(),
         size_mm: part.read_back.aabb().size().into(),
         mass_g: volume_mm3 / MM3_PER_CM3 * asked.shop.material.density_g_cm3.value,
-        is_free_of_support: !needs_support || part.lies != Lies::Leaning,
+        is_free_of_support: support == NO_SUPPORT,
+        support,
     }
 }
 
