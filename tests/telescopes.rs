@@ -389,7 +389,7 @@ fn a_skeleton_becomes_limbs_on_junctures_that_both_judges_pass_and_none_that_can
 fn a_figure_stands_on_a_foot_under_its_first_juncture_while_it_opens() {
     let folder = tempfile::tempdir().unwrap();
     let kit = folder.path().join("kit");
-    let stands = format!("telescope {FIGURE} --printer formlabs-form4 --shells 2 --goal stand");
+    let stands = format!("telescope {FIGURE} --printer formlabs-form4 --shells 3 --goal stand");
     make(&kit, &format!("{stands} --least-angle 12"));
     let mut sheet = checklist(&kit);
     assert!(number(&sheet, "/worst_toppling_deg") >= 12.0);

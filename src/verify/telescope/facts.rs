@@ -186,7 +186,7 @@ fn surfaces(evidence: &TelescopeEvidence, watch: &Watch) -> Result<Surfaces, Can
         pose: &part.print_from_shell,
         mesh,
     });
-    Surfaces::of(parts, &promise.printer, watch)
+    Surfaces::of(parts, promise.printer.build_volume_mm, watch)
 }
 
 /// Returns every shell with its cap, in the shell's frame.

@@ -92,7 +92,7 @@ pub fn judge_network(evidence: &NetworkEvidence, watch: &Watch) -> Result<Networ
         pose: &piece.promise.print_from_model,
         mesh: &piece.mesh,
     });
-    let surfaces = Surfaces::of(parts, &promise.printer, watch)?;
+    let surfaces = Surfaces::of(parts, promise.printer.build_volume_mm, watch)?;
     let made = Made {
         ends: (0..limbs.len())
             .map(|limb| Ends::of(evidence, limb))
