@@ -26,9 +26,19 @@ use equipoise::wing::Outcome;
 const SHELLS: [usize; 4] = [4, 6, 8, 12];
 /// Points of a curve.
 const EDGES: u32 = 3000;
-/// The greatest curvature and torsion of a fit, as bends over the curve's length, rad.
-const MOST_BEND_RAD: f64 = 12.0;
-const MOST_TWIST_RAD: f64 = 6.0;
+/// The greatest curvature and torsion of a fit to a curve of 300 mm, 1/mm.
+const USUAL_BOUNDS: [f64; 2] = [0.04, 0.02];
+/// The same for the trefoil of 900 mm, whose root would be 14 mm in radius.
+const TREFOIL_BOUNDS: [f64; 2] = [0.75 / 14.0, 0.01];
+
+/// A curve to fit shells to.
+struct Row {
+    name: &'static str,
+    length_mm: f64,
+    /// The greatest curvature and torsion, 1/mm.
+    bounds: [f64; 2],
+    curve: Curve,
+}
 
 /// The longest side of the model, mm.
 const SIZE_MM: f64 = 300.0;
@@ -51,18 +61,16 @@ fn print_fits() -> Result<()> {
         "| curve | length | shells | own torsion | turns alone | one curvature, turns alone |"
     );
     println!("| --- | --- | --- | --- | --- | --- |");
-    for (name, length_mm, curve) in curves()? {
-        let curve = curve.scaled_to(length_mm);
+    for row in curves()? {
+        let (name, length_mm) = (row.name, row.length_mm);
+        let curve = row.curve.scaled_to(length_mm);
+        let [most_curvature, most_torsion] = row.bounds;
         for shells in SHELLS {
             let rms_mm = |curvature, torsion| -> Result<f64> {
                 let request = FitRequest {
                     curvature,
                     torsion,
-                    ..FitRequest::new(
-                        shells,
-                        MOST_BEND_RAD / length_mm,
-                        MOST_TWIST_RAD / length_mm,
-                    )
+                    ..FitRequest::new(shells, most_curvature, most_torsion)
                 };
                 Ok(fit(&curve, &request)?.deviation.rms_mm)
             };
@@ -77,28 +85,35 @@ fn print_fits() -> Result<()> {
     Ok(())
 }
 
-/// Returns curves with their names and lengths, mm.
-fn curves() -> Result<Vec<(&'static str, f64, Curve)>> {
+/// Returns the curves.
+fn curves() -> Result<Vec<Row>> {
     Ok(vec![
-        (
-            "Viviani",
-            300.0,
-            sampled(-0.95 * PI, 0.95 * PI, |t| {
+        Row {
+            name: "Viviani",
+            length_mm: 300.0,
+            bounds: USUAL_BOUNDS,
+            curve: sampled(-0.95 * PI, 0.95 * PI, |t| {
                 [1.0 + t.cos(), t.sin(), 2.0 * (0.5 * t).sin()]
             })?,
-        ),
-        ("sine", 300.0, sampled(0.0, TAU, |t| [t, t.sin(), 0.0])?),
-        (
-            "trefoil",
-            900.0,
-            sampled(0.25, TAU - 0.25, |t| {
+        },
+        Row {
+            name: "sine",
+            length_mm: 300.0,
+            bounds: USUAL_BOUNDS,
+            curve: sampled(0.0, TAU, |t| [t, t.sin(), 0.0])?,
+        },
+        Row {
+            name: "trefoil",
+            length_mm: 900.0,
+            bounds: TREFOIL_BOUNDS,
+            curve: sampled(0.25, TAU - 0.25, |t| {
                 [
                     t.sin() + 2.0 * (2.0 * t).sin(),
                     t.cos() - 2.0 * (2.0 * t).cos(),
                     -(3.0 * t).sin(),
                 ]
             })?,
-        ),
+        },
     ])
 }
 
