@@ -45,7 +45,7 @@ const SIZE_MM: f64 = 300.0;
 /// The printers of the second table.
 const PRINTERS: [&str; 3] = ["formlabs-form4", "formlabs-fuse1", "prusa-mk4"];
 /// The walls of the second table, mm.
-const WALLS_MM: [f64; 4] = [0.8, 1.2, 1.6, 2.4];
+const WALLS_MM: [f64; 3] = [1.0, 1.5, 2.0];
 
 fn main() -> Result<()> {
     print_fits()?;
