@@ -111,8 +111,7 @@ pub struct Job {
     /// The greatest share of the goal's figure that joints may cost; the policy's own if `None`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub joint_price_ratio: Option<f64>,
-    /// True if thin features of the model are thickened to the printer's least wall; left as they
-    /// are if the key is missing.
+    /// True if thin features of the model are thickened to the printer's least wall.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub thicken: bool,
     /// True if the kit is made without a copy of the model; it has one if the key is missing.
@@ -144,7 +143,7 @@ pub struct Job {
     /// The infill that a graded print should be near to everywhere; the goal decides without it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub infill: Option<InfillDensity>,
-    /// The number of densities near that infill; the usual number if the key is missing.
+    /// The number of densities near that infill; the usual one if the key is missing.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub levels: Option<LevelCount>,
     /// The share of the best figure that a print near that infill keeps; the usual one of the goal

@@ -243,7 +243,7 @@ fn promised() -> (Point, Point, [Vector; 2]) {
 }
 
 /// Returns the broken checks of some evidence, by their keys, with what they name.
-fn broken(evidence: &Evidence) -> Vec<(String, String)> {
+pub fn broken(evidence: &Evidence) -> Vec<(String, String)> {
     let found = judge(evidence, &Watch::silent()).unwrap();
     let broken = found.checks.into_iter().filter(|check| !check.pass);
     let named = |check: Check| {
@@ -256,7 +256,7 @@ fn broken(evidence: &Evidence) -> Vec<(String, String)> {
     broken.map(named).collect()
 }
 
-fn assert_blamed(evidence: &Evidence, kind: &str, says: &str) {
+pub fn assert_blamed(evidence: &Evidence, kind: &str, says: &str) {
     let broken = broken(evidence);
     let is_told = |(found, at): &&(String, String)| found == kind && at.contains(says);
     assert!(broken.iter().any(|check| is_told(&check)), "{broken:?}");

@@ -8,6 +8,7 @@
 )]
 
 use crate::common;
+use crate::drains::{assert_blamed, broken};
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -23,7 +24,7 @@ use equipoise::geom::{Frame, Point, Vector};
 use equipoise::mesh::primitives::{cuboid, cylinder};
 use equipoise::mesh::{Csg, MeshDistance, TriMesh};
 use equipoise::printer::{Printer, Undrainable};
-use equipoise::verify::{Check, Evidence, find_misstatements, judge, read_kit};
+use equipoise::verify::{Evidence, find_misstatements, judge, read_kit};
 use serde_json::Value;
 
 /// A standing model whose inside is made of cells.
@@ -231,26 +232,6 @@ fn longer(ends: &[[f64; 3]; 2], by_mm: f64) -> [Point; 2] {
     let [from, to] = ends.map(Point::from);
     let along = (to - from).normalize() * by_mm;
     [from - along, to + along]
-}
-
-/// Returns the broken checks of some evidence, by their keys, with what they name.
-fn broken(evidence: &Evidence) -> Vec<(String, String)> {
-    let found = judge(evidence, &Watch::silent()).unwrap();
-    let broken = found.checks.into_iter().filter(|check| !check.pass);
-    let named = |check: Check| {
-        let kind = serde_json::to_value(&check.kind).unwrap();
-        (
-            kind["kind"].as_str().unwrap().to_owned(),
-            check.detail.unwrap_or_default(),
-        )
-    };
-    broken.map(named).collect()
-}
-
-fn assert_blamed(evidence: &Evidence, kind: &str, says: &str) {
-    let broken = broken(evidence);
-    let is_told = |(found, at): &&(String, String)| found == kind && at.contains(says);
-    assert!(broken.iter().any(|check| is_told(&check)), "{broken:?}");
 }
 
 #[test]

@@ -227,6 +227,29 @@ fn ballast_without_a_pocket_is_refused() {
 }
 
 #[test]
+fn a_disc_that_is_larger_than_its_foot_is_told_with_the_foot_it_needs() {
+    let folder = tempfile::tempdir().unwrap();
+    let kit = folder.path().join("kit");
+    let order = "telescope arc:80,90 --printer prusa-mk4 --shells 3 --goal stand --foot 32mm";
+    let order = words(order);
+    let disc = ["--ballast", "disc-100-20", "--json", "--out", path(&kit)];
+    let output = equipoise(&[&order[..], &disc].concat());
+    assert_exit(&output, 1);
+    let answer = json(&output);
+    let reason = answer["reason"].as_str().unwrap();
+    assert!(
+        reason.contains("needs a foot of 53") && reason.contains("32.0 mm"),
+        "{reason}"
+    );
+    let remedies = list(&answer, "remedies").iter();
+    let mut keys = remedies.map(|remedy| remedy["settings"][0]["key"].as_str().unwrap());
+    assert!(
+        keys.any(|key| key == "foot" || key == "ballast"),
+        "{answer}"
+    );
+}
+
+#[test]
 fn of_two_free_orders_the_one_that_stands_on_the_lesser_foot_is_taken() {
     let folder = tempfile::tempdir().unwrap();
     let foot = |order: &str| {
@@ -389,7 +412,7 @@ fn a_skeleton_becomes_limbs_on_junctures_that_both_judges_pass_and_none_that_can
 fn a_figure_stands_on_a_foot_under_its_first_juncture_while_it_opens() {
     let folder = tempfile::tempdir().unwrap();
     let kit = folder.path().join("kit");
-    let stands = format!("telescope {FIGURE} --printer formlabs-form4 --shells 3 --goal stand");
+    let stands = format!("telescope {FIGURE} --printer formlabs-form4 --shells 2 --goal stand");
     make(&kit, &format!("{stands} --least-angle 12"));
     let mut sheet = checklist(&kit);
     assert!(number(&sheet, "/worst_toppling_deg") >= 12.0);

@@ -112,7 +112,7 @@ pub struct InnerCells {
     cells: Vec<Cell>,
 }
 
-/// What of a part of the region is made of cells.
+/// The voids of cells in a part of the region.
 #[derive(Debug, Clone, Default)]
 pub struct InnerVoids {
     /// The bodies of air, the largest first.

@@ -69,7 +69,7 @@ fn inner_levels(nested: &Nested) -> &[Level] {
     nested.levels.get(1..).unwrap_or_default()
 }
 
-/// What is made of cells in the place of some bodies of air.
+/// The cells in the place of some bodies of air.
 pub struct InCells {
     /// The bodies of air.
     pub air: Vec<Solid>,

@@ -104,7 +104,7 @@ pub fn promise(sheet: &Checklist) -> String {
     }
 }
 
-/// Words what is printed and glued: parts, joints with the planes they lie in, pins and voids.
+/// Words what is printed and glued: parts, joints with the planes they lie in, pins, voids.
 pub fn pieces(sheet: &Checklist) -> String {
     let pins = sheet.parts.iter().map(|part| part.pins.len()).sum();
     let planes = sheet.cuts.len();

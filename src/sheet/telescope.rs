@@ -208,7 +208,7 @@ pub struct TelescopePartRow {
     pub mass_g: f64,
     /// True if it prints without support.
     pub is_free_of_support: bool,
-    /// Where support goes, in words.
+    /// The place of support, in words.
     pub support: &'static str,
 }
 

@@ -130,14 +130,8 @@ impl Telescope {
 
     /// Returns a foot around the root's tail. Its lower face lies in the plane of all tails.
     fn foot_around(&self, foot: &DiscFoot) -> Result<Csg, ClipError> {
-        let (radius, chamfer) = (foot.radius_mm, self.sizes.chamfer_mm);
         let tail = self.shells[0].helix.frame_at(self.ends_mm()[0]);
-        let disc = Profile::new([
-            [0.0, radius - chamfer],
-            [chamfer, radius],
-            [foot.height_mm - chamfer, radius],
-            [foot.height_mm, radius - chamfer],
-        ]);
+        let disc = Profile::disc([0.0, foot.height_mm], foot.radius_mm, self.sizes.chamfer_mm);
         body(sweep_profile(&tail, &Helix::LINE, &disc))
     }
 

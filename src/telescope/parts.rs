@@ -19,7 +19,7 @@ const ROOT_SHARE: f64 = 0.5;
 /// not coincide.
 const SKIN_SHARE: f64 = 0.01;
 
-/// How far the way of a child stays clear of the spigot's face, as a share of the clearance.
+/// Distance of the way of a child from the spigot's face, as a share of the clearance.
 /// The two faces must not coincide.
 const SPIGOT_STEP_SHARE: f64 = 0.5;
 
@@ -274,15 +274,9 @@ impl Telescope {
 
     /// Returns a foot, which reaches into the disc of the root's cap so that no faces coincide.
     fn foot(&self, foot: &DiscFoot) -> Result<Csg, ClipError> {
-        let (radius, chamfer) = (foot.radius_mm, self.sizes.chamfer_mm);
         let tail = self.shells[0].helix.frame_at(self.ends_mm()[0]);
         let [low, high] = [-foot.height_mm, ROOT_SHARE * self.sizes.flange_mm];
-        let disc = Profile::new([
-            [low, radius - chamfer],
-            [low + chamfer, radius],
-            [high - chamfer, radius],
-            [high, radius - chamfer],
-        ]);
+        let disc = Profile::disc([low, high], foot.radius_mm, self.sizes.chamfer_mm);
         let disc = body(sweep_profile(&tail, &Helix::LINE, &disc))?;
         let Some([radius, depth]) = foot.pocket_mm else {
             return Ok(disc);

@@ -21,6 +21,16 @@ impl Profile {
         Self { corners: kept }
     }
 
+    /// Returns a disc between two arcs, with chamfers on both edges, mm.
+    pub fn disc([low, high]: [f64; 2], radius_mm: f64, chamfer_mm: f64) -> Self {
+        Self::new([
+            [low, radius_mm - chamfer_mm],
+            [low + chamfer_mm, radius_mm],
+            [high - chamfer_mm, radius_mm],
+            [high, radius_mm - chamfer_mm],
+        ])
+    }
+
     /// Returns the corners, arc and radius, mm.
     pub fn corners(&self) -> &[[f64; 2]] {
         &self.corners

@@ -138,7 +138,7 @@ fn changes(asked: &Asked, reason: &Reason) -> Vec<Vec<Change>> {
             });
             vec![farther.into_iter().collect(), vec![auto()], larger()]
         }
-        Reason::Falls { .. } => standing_changes(asked),
+        Reason::Falls { .. } | Reason::NoPocket { .. } => standing_changes(asked),
         Reason::UnderGround { .. } => {
             let held = change(asked, Key::Goal, Stance::None, |job| {
                 job.goal = Stance::None;
@@ -170,7 +170,8 @@ fn standing_changes(asked: &Asked) -> Vec<Vec<Change>> {
         })
     });
     let is_capped = !asked.job.in_place && asked.job.ballast.is_none();
-    let ballast = is_capped.then(|| {
+    let is_named = matches!(asked.job.ballast, Order::Parts { .. });
+    let ballast = (is_capped || is_named).then(|| {
         change(asked, Key::Ballast, Order::Auto, |job| {
             job.ballast = Order::Auto;
         })

@@ -69,6 +69,12 @@ pub enum Reason {
         /// The least mass in the middle of the foot with which it would stand, g.
         ballast_g: Option<f64>,
     },
+    /// The foot has no room for the ballast that was ordered.
+    NoPocket {
+        part: String,
+        least_mm: f64,
+        foot_mm: f64,
+    },
     /// It reaches below the foot on which it should stand.
     UnderGround { shell: usize, below_mm: f64 },
     /// Shells bend by more than can be printed in place.
@@ -299,6 +305,14 @@ impl std::fmt::Display for Reason {
                 f,
                 "it topples at {angle_deg:.1}° on a foot of {foot_mm:.0} mm in radius, where \
                  {least_deg:.1}° is asked"
+            ),
+            Self::NoPocket {
+                part,
+                least_mm,
+                foot_mm,
+            } => write!(
+                f,
+                "a {part} needs a foot of {least_mm:.1} mm in radius, and {foot_mm:.1} mm is the most"
             ),
             Self::UnderGround { shell, below_mm } => write!(
                 f,

@@ -97,9 +97,9 @@ pub enum TelescopeRunError {
          printed in each other; remedy: `{remedy}`"
     )]
     UnlikeInPlace {
-        /// What was asked.
+        /// The setting that was asked.
         given: Setting,
-        /// What can be printed.
+        /// The setting that can be printed.
         remedy: Setting,
     },
     /// A printer that cannot print shells in each other.

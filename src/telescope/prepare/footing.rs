@@ -3,6 +3,7 @@
 use super::asked::Asked;
 use super::balance::{Standing, centre, drop_mm, tail};
 use super::best::Reason;
+use super::feet;
 use crate::ballast::{BallastError, Order as BallastOrder, Part, catalogue, find};
 use crate::base::units::MM3_PER_CM3;
 use crate::base::verdict::Verdict;
@@ -15,26 +16,11 @@ use crate::telescope::nest::Telescope;
 use crate::telescope::tube::TubeMass;
 use crate::verify::TelescopeBallast;
 
-/// Step in which the radius of a foot grows, mm.
-const FOOT_STEP_MM: f64 = 1.0;
-
 /// The most discs that lie on each other.
 const MOST_DISCS: u32 = 4;
 
 /// Least wall of a foot around its pocket, mm.
 const RIM_MM: f64 = 3.0;
-
-/// Height of a foot over the flange's length, and the least, mm: thinner discs curl.
-const FOOT_HEIGHT_MM: f64 = 3.0;
-
-/// Room of the plate that is left free around a foot, mm.
-const PLATE_ROOM_MM: f64 = 2.0;
-
-/// The greatest foot for a printer whose plate is not known, mm.
-const MOST_FOOT_MM: f64 = 100.0;
-
-/// Angle beyond what is promised for which a foot is chosen, degrees: rounding of files.
-const SPARE_DEG: f64 = 0.1;
 
 /// The most ballast that is told, as a multiple of the telescope's mass.
 const MOST_BALLAST_RATIO: f64 = 50.0;
@@ -50,7 +36,7 @@ pub struct Base {
 }
 
 impl Base {
-    /// Returns what of two feet is less: ballast first, then the radius.
+    /// Returns true if it is less than another: lighter ballast, or as light and a smaller foot.
     fn is_less(&self, other: &Self) -> bool {
         let key = |base: &Self| {
             let mass_g: f64 = base.ballast.iter().map(|piece| piece.lump.mass_g).sum();
@@ -190,50 +176,58 @@ impl Footing<'_> {
             });
         }
         let weighted = self.stacks.iter().find_map(|stack| self.weighted(stack));
-        match weighted {
-            Some(base) => Verdict::Found(base),
-            None => Verdict::No(self.falls(match self.asked.job.foot {
-                FootSize::Given(radius) => radius.mm(),
-                FootSize::Auto => self.most_mm(),
-            })),
+        let greatest_mm = match self.asked.job.foot {
+            FootSize::Given(radius) => radius.mm(),
+            FootSize::Auto => self.most_mm(),
+        };
+        let narrow = self.stacks.first().filter(|_| is_named);
+        let narrow = narrow.map(|stack| (stack, self.least_mm(stack)));
+        match (weighted, narrow) {
+            (Some(base), _) => Verdict::Found(base),
+            (None, Some((stack, least_mm))) if least_mm > greatest_mm => {
+                Verdict::No(Reason::NoPocket {
+                    part: stack.part.name.clone(),
+                    least_mm,
+                    foot_mm: greatest_mm,
+                })
+            }
+            (None, _) => Verdict::No(self.falls(greatest_mm)),
         }
+    }
+
+    /// Returns the radius and the depth of the pocket of a stack, mm.
+    fn pocket_mm(&self, stack: &Stack) -> [f64; 2] {
+        let glue_mm = self.telescope.sizes.glue_mm;
+        [
+            stack.part.shape.radius_mm() + glue_mm,
+            stack.height_mm() + 2.0 * glue_mm,
+        ]
+    }
+
+    /// Returns the least radius of a foot that has a rim around the pocket of a stack, mm.
+    fn least_mm(&self, stack: &Stack) -> f64 {
+        let rim_mm = RIM_MM.max(2.0 * self.telescope.sizes.wall_mm);
+        self.pocket_mm(stack)[0] + rim_mm
     }
 
     /// Returns the radii to try, from one on; the one that was ordered if there is one.
     fn radii_mm(&self, first_mm: f64) -> Vec<f64> {
-        match self.asked.job.foot {
-            FootSize::Given(radius) => Vec::from_iter(Some(radius.mm())),
-            FootSize::Auto => {
-                let room_mm = self.most_mm() - first_mm;
-                let steps = (room_mm / FOOT_STEP_MM).floor();
-                let count = if steps < 0.0 { 0 } else { steps as usize + 1 };
-                (0..count)
-                    .map(|i| first_mm + FOOT_STEP_MM * i as f64)
-                    .collect()
-            }
-        }
+        feet::radii_mm(self.asked.job.foot, [first_mm, self.most_mm()])
     }
 
     /// Returns true if it stands as promised on a foot with so much ballast, mm³ of the shells'
     /// material. A foot that is chosen has room for the rounding of files.
     fn holds(&self, foot: &DiscFoot, ballast_mm3: f64) -> bool {
-        let spare_deg = match self.asked.job.foot {
-            FootSize::Given(_) => 0.0,
-            FootSize::Auto => SPARE_DEG,
-        };
-        self.angle_deg(foot, ballast_mm3) >= self.asked.job.least_angle_deg + spare_deg
+        let job = self.asked.job;
+        let wanted_deg = feet::wanted_deg(job.foot, job.least_angle_deg);
+        self.angle_deg(foot, ballast_mm3) >= wanted_deg
     }
 
     /// Returns the least foot with a stack of discs on which it stands, even if they are as light
     /// as their stock allows; `None` if there is none.
     fn weighted(&self, stack: &Stack) -> Option<Base> {
-        let sizes = &self.telescope.sizes;
-        let pocket = [
-            stack.part.shape.radius_mm() + sizes.glue_mm,
-            stack.height_mm() + 2.0 * sizes.glue_mm,
-        ];
-        let rim_mm = RIM_MM.max(2.0 * sizes.wall_mm);
-        let first_mm = self.first_mm().max((pocket[0] + rim_mm).ceil());
+        let (pocket, least_mm) = (self.pocket_mm(stack), self.least_mm(stack));
+        let first_mm = self.first_mm().max(least_mm.ceil());
         let light = stack.mass_g() * (1.0 - stack.part.mass_spread_ratio);
         let light_mm3 = light * MM3_PER_CM3 / self.asked.shop.material.density_g_cm3.value;
         let foot = |radius_mm: f64| DiscFoot {
@@ -242,7 +236,7 @@ impl Footing<'_> {
             pocket_mm: Some(pocket),
         };
         let radii = self.radii_mm(first_mm).into_iter();
-        let mut wide = radii.filter(|mm| *mm >= pocket[0] + rim_mm).map(foot);
+        let mut wide = radii.filter(|mm| *mm >= least_mm).map(foot);
         let foot = wide.find(|foot| self.holds(foot, light_mm3))?;
         Some(Base {
             ballast: self.placed(stack, &foot),
@@ -274,19 +268,17 @@ impl Footing<'_> {
     fn foot(&self, radius_mm: f64) -> DiscFoot {
         DiscFoot {
             radius_mm,
-            height_mm: FOOT_HEIGHT_MM.max(2.0 * self.telescope.sizes.wall_mm),
+            height_mm: feet::height_mm(&self.telescope.sizes),
             pocket_mm: None,
         }
     }
 
     fn first_mm(&self) -> f64 {
-        (self.telescope.shells[0].body_mm + FOOT_STEP_MM).ceil()
+        feet::first_mm(self.telescope.shells[0].body_mm)
     }
 
-    /// Returns the greatest foot that can be printed, mm.
     fn most_mm(&self) -> f64 {
-        let room = self.asked.shop.printer.usable_volume_mm();
-        room.map_or(MOST_FOOT_MM, |[x, y, _]| 0.5 * x.min(y) - PLATE_ROOM_MM)
+        feet::most_mm(&self.asked.shop.printer)
     }
 
     /// Returns the reason that a shell reaches below the foot, if one does.
@@ -333,8 +325,11 @@ impl Footing<'_> {
     }
 
     /// Returns the least mass in the middle of the foot with which it stands as promised, g; `None`
-    /// if much more than the telescope's own mass does not do it.
+    /// if much more than the telescope's own mass does not do it. In place the middle is open.
     fn ballast_g(&self, foot_mm: f64) -> Option<f64> {
+        if self.telescope.sizes.is_in_place() {
+            return None;
+        }
         let least_deg = self.asked.job.least_angle_deg;
         let foot = self.foot(foot_mm);
         let holds = |mm3: f64| self.angle_deg(&foot, mm3) >= least_deg;

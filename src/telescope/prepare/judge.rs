@@ -53,6 +53,11 @@ pub fn draft(
         motion: read_back("motion.json", &motion_json)?,
         pose_files: texts(poses.written().files()),
         parts: made.parts.iter().map(|part| part.in_shell()).collect(),
+        printed: made
+            .parts
+            .iter()
+            .map(|part| part.read_back.clone())
+            .collect(),
         asked: points.map_err(|error: PointsError| Unwritable::new("curve.csv", &error))?,
         promise,
     };

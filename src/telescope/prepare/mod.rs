@@ -8,6 +8,7 @@ mod balance;
 mod best;
 mod error;
 mod fallen;
+mod feet;
 mod files;
 mod footing;
 mod ground;

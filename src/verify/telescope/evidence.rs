@@ -12,7 +12,9 @@ pub struct TelescopeEvidence {
     pub promise: TelescopePromise,
     /// The motion.
     pub motion: TelescopeMotion,
-    /// The parts in the order of the promises, each in its shell's frame and its own size.
+    /// The parts in the order of the promises, each in print pose and its own size.
+    pub printed: Vec<TriMesh>,
+    /// The same, each in its shell's frame.
     pub parts: Vec<TriMesh>,
     /// The points of the curve that was asked for, mm.
     pub asked: Vec<Point>,
@@ -21,6 +23,14 @@ pub struct TelescopeEvidence {
 }
 
 impl TelescopeEvidence {
+    /// Returns printed parts, each in its shell's frame.
+    pub fn in_shells(promise: &TelescopePromise, printed: &[TriMesh]) -> Vec<TriMesh> {
+        let parts = promise.parts.iter().zip(printed);
+        let parts =
+            parts.map(|(part, mesh)| mesh.map_vertices(|p| part.print_from_shell.to_model(p)));
+        parts.collect()
+    }
+
     /// Returns the meshes of the tubes, in the order of the promises.
     pub(super) fn tubes(&self) -> impl Iterator<Item = &TriMesh> {
         let parts = self.promise.parts.iter().zip(&self.parts);

@@ -180,12 +180,8 @@ pub(super) fn judge_bodies(
 /// Looks at the parts as they lie on the plate.
 fn surfaces(evidence: &TelescopeEvidence, watch: &Watch) -> Result<Surfaces, Cancelled> {
     let promise = &evidence.promise;
-    let parts = promise.parts.iter().zip(&evidence.parts);
-    let parts = parts.map(|(part, mesh)| LyingPart {
-        id: &part.id,
-        pose: &part.print_from_shell,
-        mesh,
-    });
+    let parts = promise.parts.iter().zip(&evidence.printed);
+    let parts = parts.map(|(part, mesh)| LyingPart { id: &part.id, mesh });
     Surfaces::of(parts, promise.printer.build_volume_mm, watch)
 }
 

@@ -86,11 +86,10 @@ pub fn judge_network(evidence: &NetworkEvidence, watch: &Watch) -> Result<Networ
     let junctures = evidence.whole_junctures().into_iter().map(Body::new);
     let junctures: Vec<Body> = junctures.collect();
     let seat_faults = seats(evidence, &shells, &junctures);
-    let pieces: Vec<_> = evidence.pieces().collect();
-    let parts = pieces.iter().map(|piece| LyingPart {
-        id: &piece.promise.id,
-        pose: &piece.promise.print_from_model,
-        mesh: &piece.mesh,
+    let read = evidence.junctures.iter().flatten();
+    let parts = read.map(|part| LyingPart {
+        id: &part.id,
+        mesh: &part.mesh,
     });
     let surfaces = Surfaces::of(parts, promise.printer.build_volume_mm, watch)?;
     let made = Made {

@@ -90,10 +90,12 @@ fn read(folder: &KitFolder) -> Result<NetworkEvidence, TelescopeVerifyError> {
             path: folder.path.join(file),
             fault,
         })?;
+        let printed = read_parts(folder, &limb.sheet)?;
         Ok(TelescopeEvidence {
             promise: limb.sheet.clone(),
             motion: motion.clone(),
-            parts: read_parts(folder, &limb.sheet)?,
+            parts: TelescopeEvidence::in_shells(&limb.sheet, &printed),
+            printed,
             pose_files: Vec::new(),
             asked,
         })

@@ -69,14 +69,16 @@ fn read(folder: &KitFolder) -> Result<TelescopeEvidence, TelescopeVerifyError> {
     let named = promise.parts.iter().map(|part| &part.file);
     let poses = promise.poses.iter().map(|pose| &pose.file);
     all_inside_kit(named.chain(promise.files.keys()).chain(poses))?;
-    let parts = read_parts(folder, &promise);
+    let printed = read_parts(folder, &promise);
     let asked = asked_points(&folder.bytes(CURVE_FILE)?);
     let asked = asked.map_err(|fault| TelescopeVerifyError::Points {
         path: folder.path.join(CURVE_FILE),
         fault,
     })?;
+    let printed = printed?;
     Ok(TelescopeEvidence {
-        parts: parts?,
+        parts: TelescopeEvidence::in_shells(&promise, &printed),
+        printed,
         pose_files: pose_files(folder, &promise.poses)?,
         promise,
         motion,
@@ -96,16 +98,13 @@ pub(super) fn pose_files(
     poses.iter().map(text).collect()
 }
 
-/// Reads the parts of a telescope, each in its shell's frame and its own size.
+/// Reads the parts of a telescope, each in print pose and its own size.
 pub(super) fn read_parts(
     folder: &KitFolder,
     promise: &TelescopePromise,
 ) -> Result<Vec<TriMesh>, KitFolderError> {
     let scale = promise.printer.print_scale_ratio.map(Vector::from);
-    let part = |part: &TelescopePartPromise| {
-        let nominal = read_nominal(folder, &part.file, scale)?;
-        Ok(nominal.map_vertices(|p| part.print_from_shell.to_model(p)))
-    };
+    let part = |part: &TelescopePartPromise| read_nominal(folder, &part.file, scale);
     promise.parts.iter().map(part).collect()
 }
 

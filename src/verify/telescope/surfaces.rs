@@ -3,12 +3,10 @@
 use crate::base::watch::{Cancelled, Watch};
 use crate::mesh::{Crossings, Defects, TriMesh, bodies};
 use crate::repair::weld;
-use crate::verify::Pose;
 
-/// A part in its own frame, with the pose in which it is printed.
+/// A part in print pose, as its file holds it. Turned into another frame, slivers may flip.
 pub(super) struct LyingPart<'a> {
     pub id: &'a str,
-    pub pose: &'a Pose,
     pub mesh: &'a TriMesh,
 }
 
@@ -41,7 +39,7 @@ impl Surfaces {
             found
                 .in_pieces
                 .extend((!is_one).then(|| part.id.to_owned()));
-            let printed = part.mesh.map_vertices(|p| part.pose.to_print(p)).aabb();
+            let printed = part.mesh.aabb();
             found.above_plate_mm = found.above_plate_mm.max(printed.min.z.abs());
             let size = printed.size();
             let fits = room.is_none_or(|[x, y, z]| {

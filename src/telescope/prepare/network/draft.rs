@@ -202,6 +202,11 @@ fn evidence(
             promise: limb.sheet.clone(),
             motion: read_back("motion.json", &motion_json)?,
             parts: made.parts.iter().map(|part| part.in_shell()).collect(),
+            printed: made
+                .parts
+                .iter()
+                .map(|part| part.read_back.clone())
+                .collect(),
             pose_files: Vec::new(),
             asked: points.map_err(fault)?,
         })

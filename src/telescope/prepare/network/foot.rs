@@ -1,5 +1,6 @@
 //! The foot under the first juncture of a figure, and the answers where none holds it.
 
+use super::super::feet;
 use super::made::Workshop;
 use crate::base::setting::{Key, Setting};
 use crate::curve::Helix;
@@ -11,21 +12,6 @@ use crate::telescope::profile::Profile;
 use crate::telescope::sweep::sweep_profile;
 use crate::telescope::tube::TubeMass;
 use crate::wing::{Impossible, Remedy};
-
-/// Step in which the radius of a foot grows, mm.
-pub const STEP_MM: f64 = 1.0;
-
-/// Room of the plate that is left free around a foot, mm.
-const PLATE_ROOM_MM: f64 = 2.0;
-
-/// The greatest foot for a printer whose plate is not known, mm.
-const MOST_MM: f64 = 100.0;
-
-/// Returns the radius of the greatest foot that can be printed, mm.
-pub fn most_mm(workshop: &Workshop) -> f64 {
-    let room = workshop.shop.printer.usable_volume_mm();
-    room.map_or(MOST_MM, |[x, y, _]| 0.5 * x.min(y) - PLATE_ROOM_MM)
-}
 
 /// A foot: a disc about the lowest point of the first juncture, its lower face on the table.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -39,20 +25,19 @@ pub struct Foot {
 impl Foot {
     /// Returns its body.
     pub fn body(&self) -> Result<Csg, ClipError> {
-        let (radius, height, chamfer) = (self.disc.radius_mm, self.disc.height_mm, self.chamfer_mm);
-        let disc = Profile::new([
-            [0.0, radius - chamfer],
-            [chamfer, radius],
-            [height - chamfer, radius],
-            [height, radius - chamfer],
-        ]);
+        let disc = Profile::disc(
+            [0.0, self.disc.height_mm],
+            self.disc.radius_mm,
+            self.chamfer_mm,
+        );
         Csg::of_mesh(&sweep_profile(&self.ground, &Helix::LINE, &disc)?)
     }
 
     /// Returns the next wider foot, unless its radius was ordered or the printer has no room.
     pub fn wider(&self, workshop: &Workshop) -> Option<Self> {
-        let radius_mm = self.disc.radius_mm + STEP_MM;
-        let is_free = workshop.job.foot == FootSize::Auto && radius_mm <= most_mm(workshop);
+        let radius_mm = self.disc.radius_mm + feet::STEP_MM;
+        let most_mm = feet::most_mm(&workshop.shop.printer);
+        let is_free = workshop.job.foot == FootSize::Auto && radius_mm <= most_mm;
         is_free.then_some(Self {
             disc: DiscFoot {
                 radius_mm,

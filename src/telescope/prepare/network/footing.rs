@@ -3,26 +3,19 @@
 use rayon::prelude::*;
 
 use super::super::balance::{STATES, centre, tilt_rad};
+use super::super::feet;
 use super::super::made::Made;
-use super::foot::{Falls, Foot, STEP_MM, most_mm};
+use super::foot::{Falls, Foot};
 use super::made::Workshop;
 use super::tree::Tree;
 use super::written::WrittenJuncture;
 use crate::geom::{Frame, Matrix, Point, Vector, orthonormal_basis};
-use crate::job::telescope::FootSize;
 use crate::mass::moments_of_mesh;
 use crate::mesh::TriMesh;
 use crate::telescope::balance::DiscFoot;
 use crate::telescope::motion::{Key, between};
 use crate::telescope::network::NetworkFrames;
 use crate::telescope::tube::TubeMass;
-
-/// Height of a foot over the wall, and the least, mm: thinner discs curl.
-const HEIGHT_WALLS: f64 = 2.0;
-const LEAST_HEIGHT_MM: f64 = 3.0;
-
-/// Angle beyond what is promised for which a foot is chosen, degrees: rounding of files.
-const SPARE_DEG: f64 = 0.1;
 
 /// Depth below the table that is rounding, mm.
 const ROUNDING_MM: f64 = 1e-3;
@@ -42,21 +35,21 @@ pub struct Footing<'a> {
 impl Footing<'_> {
     /// Returns the least foot on which it stands by calculation; its juncture has none yet.
     pub fn choose(&self) -> Result<Foot, Falls> {
-        let radii_mm = match self.workshop.job.foot {
-            FootSize::Given(radius) => vec![radius.mm()],
-            FootSize::Auto => self.radii_mm(),
-        };
+        let job = self.workshop.job;
+        let root_mm = self.tree.network.limbs[0].telescope.shells[0].body_mm;
+        let most_mm = feet::most_mm(&self.workshop.shop.printer);
+        let radii_mm = feet::radii_mm(job.foot, [feet::first_mm(root_mm), most_mm]);
         let ground = self.ground();
         let states = self.states();
         self.refuse_low(&ground, &states)?;
-        let least_deg = self.workshop.job.least_angle_deg + SPARE_DEG;
+        let wanted_deg = feet::wanted_deg(job.foot, job.least_angle_deg);
         let mut last = None;
         for radius_mm in radii_mm {
             let foot = self.foot(radius_mm, ground);
             let angle_deg = self
                 .worst_rad(&foot, &states, Some(&foot.mass()))
                 .to_degrees();
-            if angle_deg >= least_deg {
+            if angle_deg >= wanted_deg {
                 return Ok(foot);
             }
             last = Some((angle_deg, radius_mm));
@@ -86,20 +79,11 @@ impl Footing<'_> {
             disc: DiscFoot {
                 pocket_mm: None,
                 radius_mm,
-                height_mm: LEAST_HEIGHT_MM.max(HEIGHT_WALLS * sizes.wall_mm),
+                height_mm: feet::height_mm(sizes),
             },
             chamfer_mm: sizes.chamfer_mm,
             ground,
         }
-    }
-
-    /// Returns the radii to try, the least first: from that of the first root on.
-    fn radii_mm(&self) -> Vec<f64> {
-        let root = &self.tree.network.limbs[0].telescope.shells[0];
-        let most_mm = most_mm(self.workshop);
-        let first_mm = (root.body_mm + STEP_MM).ceil();
-        let steps = ((most_mm - first_mm) / STEP_MM).max(0.0) as usize;
-        (0..=steps).map(|i| first_mm + STEP_MM * i as f64).collect()
     }
 
     /// Returns the table under the first juncture: its lowest point, and up as the first axis.
